@@ -1,0 +1,51 @@
+# Touchline on a fresh machine: `make match` and `make test` need Python 3.11, git and make, and fetch the rest
+# into .venv. What is installed there is pinned by hash in requirements.lock.
+
+.DEFAULT_GOAL := help
+.PHONY: help match test check bench clean
+READY := .venv/.ready
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+
+help: ## show this list
+	@sed -n 's/^\([a-z]*\):.*## /make \1\t/p' Makefile | expand -t 14
+
+match: $(READY) ## play a match, for example: make match ARGS="--seed 7 --duration 60"
+	@.venv/bin/touchline match $(ARGS)
+
+test: $(READY) ## run the tests, for example: make test ARGS=tests/arena
+	.venv/bin/pytest $(ARGS)
+
+check: $(READY) ## format, lint, types, and which package may import which
+	.venv/bin/ruff format --check
+	.venv/bin/ruff check
+	.venv/bin/mypy
+	.venv/bin/lint-imports
+
+bench: $(READY) ## run every benchmark
+	@for bench in benchmarks/bench_*.py; do echo "$$bench"; .venv/bin/python "$$bench" || exit 1; done
+
+clean: ## remove .venv and all caches; recordings in runs/ stay
+	rm -rf .venv .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+$(READY): requirements.lock pyproject.toml
+	@test -x .venv/bin/python || { $(NEW_VENV); }
+	.venv/bin/python -m pip install --quiet --require-hashes -r requirements.lock
+	.venv/bin/python -m pip install --quiet --no-deps --no-build-isolation -e .
+	@touch $@
+
+# PyBullet has binary wheels for 3.11 alone among the versions that Touchline runs on. Where it is missing, uv brings
+# one: the uv that is there, or one from the package index in a folder that is thrown away.
+define NEW_VENV
+if python3.11 -c '' 2>/dev/null; then \
+	python3.11 -m venv .venv >/dev/null || { rm -rf .venv; \
+		echo "python3.11 has no working venv; apt-get install python3.11-venv, then make again" >&2; exit 1; }; \
+elif uv --version >/dev/null 2>&1; then \
+	uv venv --seed --python 3.11 .venv; \
+else \
+	uv=$$(mktemp -d) && trap 'rm -rf "$$uv"' EXIT && { python3 -m venv "$$uv" && "$$uv/bin/pip" install --quiet uv && \
+		"$$uv/bin/uv" venv --seed --python 3.11 .venv; } >/dev/null 2>&1 || { rm -rf .venv; \
+		echo "Python 3.11 is missing and uv could not bring it; install python3.11 and its venv, then make again" >&2; \
+		exit 1; }; \
+fi
+endef
