@@ -1,0 +1,232 @@
+"""What every bus offers: publish, subscribe, ask, serve, and be seen to be alive, by the rows of the topic table.
+
+The rest of the code is written against this module alone; `zenoh_bus` and `in_process` behave alike, and one
+conformance suite runs over both.
+"""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, field
+from types import TracebackType
+from typing import Any, NamedTuple, Self
+
+from pydantic_core import to_json
+
+from schemas.clock import Clock
+from schemas.errors import TouchlineError
+from schemas.message import VERSION, BadMessageError, Message
+from schemas.topics import Delivery, Topic
+
+
+class BusError(TouchlineError):
+    """The bus could not be opened, or is closed."""
+
+
+class NoAnswerError(Exception):
+    """Nobody answered a question in time."""
+
+
+class Stamp(NamedTuple):
+    """What the bus sends along with each message."""
+
+    sequence: int
+    """Counts this writer's messages on this key, from 0; a gap is a loss."""
+    sent_ns: int
+    """Writer's wall time, ns since 1970."""
+    sim_ns: int
+    """Writer's simulated time in ns, −1 when it knows none."""
+
+
+class Received(NamedTuple):
+    """A message as it came: read only when somebody asks for it."""
+
+    topic: Topic
+    key: str
+    """Key below the match, `robot/cyan1/sight`."""
+    payload: bytes
+    stamp: Stamp | None
+    """Nothing when the writer did not use this library."""
+    arrived_ns: int = 0
+    """When the message reached the host, by the host's wall clock, ns since 1970; 0 when that is not known."""
+
+    @property
+    def chunks(self) -> dict[str, str]:
+        """The variable chunks of the key."""
+        return self.topic.match(self.key) or {}
+
+    def message(self) -> Any:
+        """The validated message.
+
+        Raises:
+            BadMessageError: the payload is not a message of this topic.
+        """
+        if self.topic.message is None:
+            raise BadMessageError(f"{self.key} carries no message")
+        return self.topic.message.decode(self.payload)
+
+
+@dataclass(frozen=True, slots=True)
+class Presence:
+    """A process came or went."""
+
+    kind: str
+    name: str
+    alive: bool
+
+
+class Publisher(ABC):
+    """Writes one key."""
+
+    def __init__(self, topic: Topic, key: str) -> None:
+        self.topic = topic
+        self.key = key
+
+    def put(self, message: Message) -> None:
+        """Send a message; never waits for readers."""
+        self.put_payload(message.encode())
+
+    def put_fields(self, fields: dict[str, Any]) -> None:
+        """Send a message given as plain fields, laid out as its model has them.
+
+        Nothing is validated here, for speed: the reader validates. For messages sent many times per tick.
+        """
+        self.put_payload(to_json({"version": VERSION, **fields}, inf_nan_mode="constants"))
+
+    @abstractmethod
+    def put_payload(self, payload: bytes) -> None:
+        """Send bytes that are a message already."""
+
+    @abstractmethod
+    def wanted(self) -> bool:
+        """Whether anybody listens to this key just now; always, where what was sent can be recovered later."""
+
+
+class Subscription(ABC):
+    """Reads the keys of one topic."""
+
+    @abstractmethod
+    def receive(self, timeout: float | None = 0.0) -> Received | None:
+        """The next message, waiting up to `timeout` s for it (None: for ever); nothing when there is none."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Stop listening; a waiting `receive` returns nothing."""
+
+
+class Question(ABC):
+    """A question that somebody asked, waiting for its answer."""
+
+    def __init__(self, topic: Topic, key: str, payload: bytes) -> None:
+        self.topic = topic
+        self.key = key
+        self.payload = payload
+
+    def message(self) -> Any:
+        """The validated question.
+
+        Raises:
+            BadMessageError: the payload is not a message of this topic.
+        """
+        assert self.topic.message is not None
+        return self.topic.message.decode(self.payload)
+
+    @abstractmethod
+    def answer(self, reply: Message) -> None:
+        """Answer it; once."""
+
+    @abstractmethod
+    def fail(self, reason: str) -> None:
+        """Say that it cannot be answered, and why; once."""
+
+
+class Server(ABC):
+    """Answers the questions of one topic."""
+
+    @abstractmethod
+    def receive(self, timeout: float | None = 0.0) -> Question | None:
+        """The next question; as `Subscription.receive`."""
+
+
+class Answer(ABC):
+    """An answer that is on its way."""
+
+    @abstractmethod
+    def result(self, timeout: float) -> Any:
+        """The reply, waiting up to `timeout` s.
+
+        Raises:
+            NoAnswerError: nobody answered, or the answer was that there is none, with the reason.
+        """
+
+
+class PresenceWatch(ABC):
+    """Sees processes come and go; begins with those that are there."""
+
+    @abstractmethod
+    def receive(self, timeout: float | None = 0.0) -> Presence | None:
+        """The next change; as `Subscription.receive`."""
+
+
+@dataclass
+class Bus(ABC):
+    """One process's seat on the bus of one match."""
+
+    match: str
+    clock: Clock
+    _closed: bool = field(default=False, init=False)
+
+    @abstractmethod
+    def publisher(self, topic: Topic, **chunks: str) -> Publisher:
+        """A writer for one key: every chunk must be given."""
+
+    @abstractmethod
+    def subscribe(self, topic: Topic, **chunks: str) -> Subscription:
+        """A reader for a topic; a chunk left out reads every value of it.
+
+        A topic delivered `newest` yields the newest message of each key, any other every message that arrives.
+        """
+
+    @abstractmethod
+    def serve(self, topic: Topic) -> Server:
+        """Become the one who answers this topic's questions."""
+
+    @abstractmethod
+    def ask(self, topic: Topic, question: Message, timeout: float = 2.0) -> Answer:
+        """Ask; `timeout` is how long the question stays open, in s."""
+
+    @abstractmethod
+    def declare_alive(self, kind: str, name: str) -> None:
+        """Be seen as `alive/{kind}/{name}` until this bus is closed or its process dies."""
+
+    @abstractmethod
+    def watch_alive(self) -> PresenceWatch:
+        """See others come and go."""
+
+    @abstractmethod
+    def connected(self) -> bool:
+        """Whether the medium is there: a client's link to its host is up."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Leave; further use raises `BusError`. Safe to call twice."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+def check_publishable(topic: Topic) -> None:
+    """Refuse a topic that is not written but asked or declared."""
+    if topic.delivery in (Delivery.QUERY, Delivery.PRESENCE):
+        raise BusError(f"{topic.key} is not published; it travels as {topic.delivery.value}")
+
+
+def full_key(topic: Topic, chunks: dict[str, str]) -> str:
+    """The one key that these chunks name."""
+    missing = [name for name in topic.chunks if name not in chunks]
+    if missing:
+        raise BusError(f"topic {topic.key} needs {', '.join(missing)} to be written")
+    return topic.fill(**chunks)

@@ -1,0 +1,228 @@
+"""The bus within one process: the same behaviour without a network, for tests and for learning."""
+
+import threading
+from dataclasses import dataclass, field
+from typing import Any
+
+from schemas.bus.contract import (
+    Answer,
+    Bus,
+    BusError,
+    NoAnswerError,
+    Presence,
+    PresenceWatch,
+    Publisher,
+    Question,
+    Received,
+    Server,
+    Stamp,
+    Subscription,
+    check_publishable,
+    full_key,
+)
+from schemas.bus.mailbox import EveryMailbox, Mailbox, NewestMailbox
+from schemas.clock import Clock
+from schemas.message import Message
+from schemas.topics import Delivery, Topic
+
+
+@dataclass(eq=False)
+class Medium:
+    """What the seats of one process share in place of a network."""
+
+    lock: threading.Lock = field(default_factory=threading.Lock)
+    subscriptions: dict[str, list["_Subscription"]] = field(default_factory=dict)
+    servers: dict[str, "_Server"] = field(default_factory=dict)
+    alive: dict[tuple[str, str], int] = field(default_factory=dict)
+    watches: list["_Watch"] = field(default_factory=list)
+
+    def seat(self, match: str, clock: Clock) -> "InProcessBus":
+        """A new seat on the bus of a match."""
+        return InProcessBus(match, clock, self)
+
+    def change_alive(self, match: str, who: tuple[str, str], by: int) -> None:
+        """Count a token, and tell the watchers when the first came or the last went."""
+        with self.lock:
+            before = self.alive.get(who, 0)
+            self.alive[who] = before + by
+            if (before == 0) != (before + by == 0):
+                for watch in self.watches:
+                    if watch.match == match:
+                        watch.mailbox.put("", Presence(who[0].removeprefix(match + "/"), who[1], by > 0))
+
+
+class _Publisher(Publisher):
+    def __init__(self, topic: Topic, key: str, bus: "InProcessBus") -> None:
+        super().__init__(topic, key)
+        self._bus = bus
+        self._sequence = 0
+
+    def put_payload(self, payload: bytes) -> None:
+        bus = self._bus
+        bus.check_open()
+        stamp = Stamp(self._sequence, bus.clock.unix_ns(), bus.clock.sim_ns)
+        self._sequence += 1
+        for subscription in bus.medium.subscriptions.get(bus.prefix + self.topic.key, ()):
+            subscription.bring(self.key, Received(self.topic, self.key, payload, stamp, stamp.sent_ns))
+
+    def wanted(self) -> bool:
+        if self.topic.delivery is Delivery.RECOVERED:
+            return True
+        readers = self._bus.medium.subscriptions.get(self._bus.prefix + self.topic.key, ())
+        return any(reader.wants(self.key) for reader in readers)
+
+
+class _Subscription(Subscription):
+    def __init__(self, topic: Topic, chunks: dict[str, str], bus: "InProcessBus") -> None:
+        self._wanted = chunks
+        self._topic = topic
+        self._bus = bus
+        self._mailbox: Mailbox[Received] = NewestMailbox() if topic.delivery is Delivery.NEWEST else EveryMailbox()
+
+    def wants(self, key: str) -> bool:
+        chunks = self._topic.match(key) or {}
+        return all(chunks[name] == value for name, value in self._wanted.items())
+
+    def bring(self, key: str, received: Received) -> None:
+        if self.wants(key):
+            self._mailbox.put(key, received)
+
+    def receive(self, timeout: float | None = 0.0) -> Received | None:
+        return self._mailbox.take(timeout)
+
+    def close(self) -> None:
+        with self._bus.medium.lock:
+            readers = self._bus.medium.subscriptions.get(self._bus.prefix + self._topic.key, [])
+            if self in readers:
+                readers.remove(self)
+        self._mailbox.end()
+
+
+class _Question(Question):
+    def __init__(self, topic: Topic, payload: bytes, answer: "_Answer") -> None:
+        super().__init__(topic, topic.key, payload)
+        self._answer = answer
+
+    def answer(self, reply: Message) -> None:
+        self._answer.mailbox.put("", reply.encode())
+
+    def fail(self, reason: str) -> None:
+        self._answer.mailbox.put("", reason)
+
+
+class _Server(Server):
+    def __init__(self) -> None:
+        self.mailbox: EveryMailbox[Question] = EveryMailbox()
+
+    def receive(self, timeout: float | None = 0.0) -> Question | None:
+        return self.mailbox.take(timeout)
+
+
+class _Answer(Answer):
+    def __init__(self, topic: Topic) -> None:
+        self._topic = topic
+        self.mailbox: EveryMailbox[bytes | str] = EveryMailbox()
+
+    def result(self, timeout: float) -> Any:
+        reply = self.mailbox.take(timeout)
+        if reply is None:
+            raise NoAnswerError(f"nobody answers {self._topic.key}")
+        if isinstance(reply, str):
+            raise NoAnswerError(reply)
+        assert self._topic.reply is not None
+        return self._topic.reply.decode(reply)
+
+
+class _Watch(PresenceWatch):
+    def __init__(self, match: str) -> None:
+        self.match = match
+        self.mailbox: EveryMailbox[Presence] = EveryMailbox()
+
+    def receive(self, timeout: float | None = 0.0) -> Presence | None:
+        return self.mailbox.take(timeout)
+
+
+class InProcessBus(Bus):
+    """A seat on a `Medium`; payloads are encoded and validated as over a network."""
+
+    def __init__(self, match: str, clock: Clock, medium: Medium) -> None:
+        super().__init__(match, clock)
+        self.medium = medium
+        self.prefix = f"{match}/"
+        self._tokens: list[tuple[str, str]] = []
+        self._served: list[str] = []
+        self._ends: list[_Subscription] = []
+        self._mailboxes: list[EveryMailbox[Any]] = []
+
+    def check_open(self) -> None:
+        """Raise when this seat was left."""
+        if self._closed:
+            raise BusError("this bus is closed")
+
+    def publisher(self, topic: Topic, **chunks: str) -> Publisher:
+        self.check_open()
+        check_publishable(topic)
+        return _Publisher(topic, full_key(topic, chunks), self)
+
+    def subscribe(self, topic: Topic, **chunks: str) -> Subscription:
+        self.check_open()
+        check_publishable(topic)
+        topic.fill(**chunks)
+        subscription = _Subscription(topic, chunks, self)
+        with self.medium.lock:
+            self.medium.subscriptions.setdefault(self.prefix + topic.key, []).append(subscription)
+        self._ends.append(subscription)
+        return subscription
+
+    def serve(self, topic: Topic) -> Server:
+        self.check_open()
+        server = _Server()
+        with self.medium.lock:
+            self.medium.servers[self.prefix + topic.key] = server
+        self._served.append(self.prefix + topic.key)
+        self._mailboxes.append(server.mailbox)
+        return server
+
+    def ask(self, topic: Topic, question: Message, timeout: float = 2.0) -> Answer:
+        self.check_open()
+        del timeout  # nothing is on its way here: a question waits with its server or was refused at once
+        answer = _Answer(topic)
+        server = self.medium.servers.get(self.prefix + topic.key)
+        if server is None:
+            answer.mailbox.put("", f"nobody answers {topic.key}")
+        else:
+            server.mailbox.put("", _Question(topic, question.encode(), answer))
+        return answer
+
+    def declare_alive(self, kind: str, name: str) -> None:
+        self.check_open()
+        who = (self.prefix + kind, name)
+        self._tokens.append(who)
+        self.medium.change_alive(self.match, who, +1)
+
+    def watch_alive(self) -> PresenceWatch:
+        self.check_open()
+        watch = _Watch(self.match)
+        with self.medium.lock:
+            self.medium.watches.append(watch)
+            for (kind, name), count in self.medium.alive.items():
+                if count and kind.startswith(self.prefix):
+                    watch.mailbox.put("", Presence(kind.removeprefix(self.prefix), name, True))
+        self._mailboxes.append(watch.mailbox)
+        return watch
+
+    def connected(self) -> bool:
+        return not self._closed
+
+    def close(self) -> None:
+        if self._closed:
+            return
+        for who in self._tokens:
+            self.medium.change_alive(self.match, who, -1)
+        self._closed = True
+        for subscription in self._ends:
+            subscription.close()
+        for key in self._served:
+            self.medium.servers.pop(key, None)
+        for mailbox in self._mailboxes:
+            mailbox.end()

@@ -1,0 +1,93 @@
+"""Where messages wait between the thread that brings them and the one that reads them.
+
+Built on `SimpleQueue`, whose put never blocks and never needs another thread to run: a bringing thread is never
+held up by a slow reader, which is what keeps one slow subscription from stalling a whole Zenoh session.
+"""
+
+from queue import Empty, SimpleQueue
+from typing import Generic, Protocol, TypeVar
+
+T = TypeVar("T")
+
+
+class Mailbox(Protocol[T]):
+    """Both kinds of mailbox."""
+
+    def put(self, key: str, item: T) -> None:
+        """Bring an item."""
+
+    def take(self, timeout: float | None) -> T | None:
+        """The next item, waiting up to `timeout` s (None: for ever); nothing when there is none, or at the end."""
+
+    def end(self) -> None:
+        """Wake the reader: no more items will come."""
+
+
+class _End:
+    """What wakes a reader at the end."""
+
+
+_END = _End()
+
+
+class EveryMailbox(Generic[T]):
+    """Keeps every item, in order."""
+
+    def __init__(self) -> None:
+        self._queue: SimpleQueue[T | _End] = SimpleQueue()
+
+    def put(self, key: str, item: T) -> None:
+        """Bring an item; the key does not matter here."""
+        del key
+        self._queue.put(item)
+
+    def take(self, timeout: float | None) -> T | None:
+        """The oldest item."""
+        item = _get(self._queue, timeout)
+        if isinstance(item, _End):
+            self._queue.put(item)
+            return None
+        return item
+
+    def end(self) -> None:
+        """No more items will come."""
+        self._queue.put(_END)
+
+
+class NewestMailbox(Generic[T]):
+    """Keeps the newest item of each key."""
+
+    def __init__(self) -> None:
+        self._newest: dict[str, T] = {}
+        self._bell: SimpleQueue[str | _End] = SimpleQueue()
+
+    def put(self, key: str, item: T) -> None:
+        """Bring an item; an older one of the same key that nobody took is forgotten."""
+        self._newest[key] = item
+        self._bell.put(key)
+
+    def take(self, timeout: float | None) -> T | None:
+        """The newest item of the key that has waited longest."""
+        while True:
+            key = _get(self._bell, timeout)
+            if key is None:
+                return None
+            if isinstance(key, _End):
+                self._bell.put(key)
+                return None
+            item = self._newest.pop(key, None)  # a bell whose item was replaced and taken finds nothing
+            if item is not None:
+                return item
+
+    def end(self) -> None:
+        """No more items will come."""
+        self._bell.put(_END)
+
+
+def _get(queue: SimpleQueue[T], timeout: float | None) -> T | None:
+    try:
+        if timeout == 0.0:
+            return queue.get_nowait()
+        return queue.get(timeout=timeout)
+    except Empty:
+        return None

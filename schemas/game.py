@@ -1,0 +1,194 @@
+"""The state of the game: phases, score, events, and the actions that change it."""
+
+from enum import StrEnum
+from typing import Annotated
+
+from pydantic import Field
+
+from schemas.message import Message, Name, Part
+from schemas.side import Side
+
+
+class Phase(StrEnum):
+    """What is being played; a restart belongs to the side named beside it."""
+
+    PRE_GAME = "pre_game"
+    STOPPED = "stopped"
+    KICK_OFF = "kick_off"
+    FREE_KICK = "free_kick"
+    GOAL_KICK = "goal_kick"
+    THROW_IN = "throw_in"
+    CORNER = "corner"
+    PENALTY = "penalty"
+    DROP_BALL = "drop_ball"
+    PLAY = "play"
+    HALF_TIME = "half_time"
+    PARKING = "parking"
+    FULL_TIME = "full_time"
+
+
+SIDED = frozenset({Phase.KICK_OFF, Phase.FREE_KICK, Phase.GOAL_KICK, Phase.THROW_IN, Phase.CORNER, Phase.PENALTY})
+"""Restarts that one side takes."""
+
+RESTARTS = SIDED | {Phase.DROP_BALL}
+"""Every way to bring the ball back into play."""
+
+
+class TeamPhase(StrEnum):
+    """The phase from one team's point of view."""
+
+    PRE_GAME = "pre_game"
+    STOPPED = "stopped"
+    OUR_KICK_OFF = "our_kick_off"
+    THEIR_KICK_OFF = "their_kick_off"
+    OUR_FREE_KICK = "our_free_kick"
+    THEIR_FREE_KICK = "their_free_kick"
+    OUR_GOAL_KICK = "our_goal_kick"
+    THEIR_GOAL_KICK = "their_goal_kick"
+    OUR_THROW_IN = "our_throw_in"
+    THEIR_THROW_IN = "their_throw_in"
+    OUR_CORNER = "our_corner"
+    THEIR_CORNER = "their_corner"
+    OUR_PENALTY = "our_penalty"
+    THEIR_PENALTY = "their_penalty"
+    DROP_BALL = "drop_ball"
+    PLAY = "play"
+    HALF_TIME = "half_time"
+    PARKING = "parking"
+    FULL_TIME = "full_time"
+
+    @classmethod
+    def of(cls, phase: Phase, taker: Side | None, viewer: Side) -> "TeamPhase":
+        """How `viewer` sees a phase that belongs to `taker`."""
+        if phase not in SIDED:
+            return cls(phase.value)
+        return cls(f"{'our' if taker is viewer else 'their'}_{phase.value}")
+
+    @property
+    def ours(self) -> bool:
+        """A restart of our own."""
+        return self.value.startswith("our_")
+
+    @property
+    def theirs(self) -> bool:
+        """A restart of the opponents."""
+        return self.value.startswith("their_")
+
+
+class Point(Part):
+    """A point on the ground in m, in the frame its owner names."""
+
+    x: float
+    y: float
+
+
+class Score(Part):
+    """Goals."""
+
+    cyan: Annotated[int, Field(ge=0)] = 0
+    magenta: Annotated[int, Field(ge=0)] = 0
+
+
+class GameState(Message):
+    """The game as the referee sees it, in the field frame."""
+
+    tick: int
+    time: float
+    phase: Phase
+    side: Side | None = None
+    """Who takes the restart."""
+    running: bool = False
+    """START was given; before that, robots take their positions and nobody may play the ball."""
+    half: Annotated[int, Field(ge=1)] = 1
+    clock: float = 0.0
+    """Game clock in s: playing time of this half and those before it."""
+    score: Score = Score()
+    cyan_attacks: Annotated[int, Field(ge=-1, le=1)] = 1
+    """Sign of the x direction that cyan attacks."""
+    spot: Point | None = None
+    """Where the ball is placed for the restart."""
+
+
+class GameView(Part):
+    """The game as one team sees it; `spot` in the team frame."""
+
+    phase: TeamPhase
+    running: bool
+    half: int = 1
+    clock: float
+    our_score: int
+    their_score: int
+    spot: Point | None = None
+
+
+class EventKind(StrEnum):
+    """What happened."""
+
+    STOP = "stop"
+    RESTART = "restart"
+    START = "start"
+    IN_PLAY = "in_play"
+    GOAL = "goal"
+    BALL_OUT = "ball_out"
+    STALL = "stall"
+    HALF_TIME = "half_time"
+    FULL_TIME = "full_time"
+    ACTION = "action"
+    AGENT = "agent"
+
+
+class GameEvent(Message):
+    """Something that happened, with its rule, place, robots and measured quantity."""
+
+    tick: int
+    time: float
+    clock: float
+    kind: EventKind
+    rule: str
+    """The rule or action that decided, by its file name."""
+    side: Side | None = None
+    robot: Name | None = None
+    """Who did it: the scorer, the last to touch the ball."""
+    place: Point | None = None
+    score: Score | None = None
+    text: str
+    """One sentence for people, with the measured quantity where there is one."""
+
+
+class ActionName(StrEnum):
+    """What a referee, a coach or the referee box may ask for."""
+
+    START = "start"
+    STOP = "stop"
+    KICK_OFF = "kick_off"
+    FREE_KICK = "free_kick"
+    GOAL_KICK = "goal_kick"
+    THROW_IN = "throw_in"
+    CORNER = "corner"
+    PENALTY = "penalty"
+    DROP_BALL = "drop_ball"
+    PLACE_BALL = "place_ball"
+    GOAL = "goal"
+    END_HALF = "end_half"
+    END_GAME = "end_game"
+
+
+class RefereeAction(Message):
+    """A request to the referee; accepted, or refused with the reason."""
+
+    action: ActionName
+    side: Side | None = None
+    robot: Name | None = None
+    """Who scored, for a goal."""
+    place: Point | None = None
+    """Field frame; where a restart takes its spot from, by default where the ball lies."""
+    source: str = "coach"
+    """Who asks."""
+
+
+class ActionReply(Message):
+    """The referee's answer to an action."""
+
+    accepted: bool
+    reason: str = ""
+    """Why it was refused."""

@@ -1,0 +1,153 @@
+"""What the host says of itself: how the match is set up, what it applied, how it is doing."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from pydantic import Field
+
+from schemas.command import Drive, Kick, Radio
+from schemas.message import Message, Name, Part
+from schemas.profile import Ball, Dribble, Kicker, RobotBody, TimeSteps
+from schemas.profile import Drive as DriveLimits
+from schemas.profile import Field as Pitch
+from schemas.rule_book import Periods, Restarts
+from schemas.side import Side
+
+
+class SetupRequest(Message):
+    """Asks the host how the match is set up."""
+
+
+class TeamSetup(Part):
+    """One team: its robots in order; the first is the goalkeeper."""
+
+    name: str
+    robots: list[Name]
+
+
+class Setup(Message):
+    """Everything a robot or a viewer must know of a match before its first tick."""
+
+    match: Name
+    pace: str
+    """`lockstep`, `realtime`, or `x4` for four times real time."""
+    profile: str
+    rules: str
+    time: TimeSteps
+    pitch: Pitch
+    robot: RobotBody
+    ball: Ball
+    drive: DriveLimits
+    dribble: Dribble
+    kicker: Kicker
+    periods: Periods
+    restarts: Restarts
+    teams: dict[Side, TeamSetup]
+    engine: dict[str, str] = {}
+    """Fingerprint of what computes the world: engine version, the maths library's answers."""
+
+
+@dataclass(frozen=True, slots=True)
+class AppliedInput:
+    """What one robot's actuators were told, after validation and watchdog; made for every robot in every tick."""
+
+    drive: Drive
+    dribble: bool
+    kick: Kick | None = None
+    answers_tick: int | None = None
+    """The sight that this input answers; nothing while the robot is silent."""
+
+
+class Placement(Part):
+    """A body that was set down by hand: `body` is a robot's name or `ball`; m, rad, field frame, at rest."""
+
+    body: Name
+    x: float
+    y: float
+    heading: float = 0.0
+
+
+class Applied(Message):
+    """All inputs that led to this tick, and the hash chain over the states of all ticks so far.
+
+    With the manifest this is enough to simulate the match again and to compare each tick.
+    """
+
+    tick: int
+    time: float
+    inputs: dict[Name, AppliedInput]
+    placements: list[Placement] = []
+    checkpoint: bool = False
+    """The world was rebuilt from poses and velocities before this tick: re-simulation may begin here."""
+    chain: str
+    """blake2b over the state of this tick, keyed with the chain before it; hex."""
+
+
+class RobotHealth(Part):
+    """How one robot's agent is doing; counts since the match began."""
+
+    alive: bool = False
+    """Its liveliness token is there."""
+    answering: bool = False
+    """Its answer to the last tick was there in time."""
+    answers: int = 0
+    """Ticks that it answered."""
+    missed: int = 0
+    """Ticks that went by without its answer."""
+    duplicates: int = 0
+    """Commands that answered a tick it had answered already."""
+    invalid: int = 0
+    """Payloads on its key that were no valid command."""
+    refused: int = 0
+    """Parts of commands that could not be done."""
+    latency_ms: float | None = None
+    """Median wall time from sight to command over the last second, in ms."""
+
+
+class Health(Message):
+    """How the host is doing."""
+
+    tick: int
+    time: float
+    pace: str
+    real_time_factor: float
+    """Simulated seconds per wall second, over the last second."""
+    late_ticks: int = 0
+    """Ticks that began late, or in lockstep did not get every answer in time."""
+    worst_tick_ms: float = 0.0
+    """Longest wall time that a tick of the last second took, in ms."""
+    robots: dict[Name, RobotHealth] = {}
+    strangers: dict[str, int] = {}
+    """Messages on keys where nobody should speak, counted by key."""
+    recorders: dict[Name, Annotated[int, Field(ge=0)]] = {}
+    """How many ticks each recorder is behind."""
+
+
+class Invalid(Message):
+    """A payload that was not a valid message, as the host met it; counted and ignored."""
+
+    tick: int
+    time: float
+    key: str
+    reason: str
+    size: int
+    """Bytes."""
+
+
+class Belief(Message):
+    """What a robot said on the radio, in its team frame, as the host took it in."""
+
+    tick: int
+    time: float
+    robot: Name
+    radio: Radio
+
+
+class RecorderProgress(Message):
+    """How far a recorder has come; a lockstep host does not run away from it."""
+
+    tick: int
+    messages: int
+    """Taken in so far."""
+    lost: int
+    """Known to be missing."""

@@ -1,0 +1,224 @@
+"""The match file: one frozen `MatchConfig` from TOML, with errors that name file, key, value and remedy."""
+
+import json
+import re
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import Field, ValidationError, field_validator, model_validator
+
+from schemas.errors import TouchlineError, did_you_mean
+from schemas.message import Name, Part
+from schemas.noise import PRESETS
+from schemas.side import Side
+
+MAX_ROBOTS = 5
+"""Robots of one side, rule book 10.2."""
+RESERVED = frozenset({"ball"})
+"""Names that mean something else in a key."""
+
+REMEDIES = {
+    "name": "a match name is a key chunk: small letters, digits and _",
+    "seed": "a whole number from 0 to 2^63 - 1",
+    "pace": 'write "lockstep", "realtime", or "x4" for four times real time',
+    "duration": "playing time of all halves in s, above 0",
+    "teams.cyan.size": f"a side has 1 to {MAX_ROBOTS} robots",
+    "teams.magenta.size": f"a side has 1 to {MAX_ROBOTS} robots",
+    "teams.cyan.robots": f"1 to {MAX_ROBOTS} different names of small letters, digits and _",
+    "teams.magenta.robots": f"1 to {MAX_ROBOTS} different names of small letters, digits and _",
+    "teams.cyan.brain": 'write "module:Class"',
+    "teams.magenta.brain": 'write "module:Class"',
+    "noise.preset": f"one of {', '.join(PRESETS)}",
+}
+"""What to do about a wrong value, by key; a message of the validator's stands where there is none."""
+
+
+class Team(Part):
+    """One team of the match file: who plays and what moves them."""
+
+    name: str = ""
+    brain: Annotated[str, Field(pattern=r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")] | None = None
+    """`module:Class` of a brain in Python; it is built once in each robot's process."""
+    command: list[str] | None = None
+    """Any program that speaks the topics, in place of a brain; the environment tells it who it is."""
+    size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = MAX_ROBOTS
+    robots: Annotated[list[Name], Field(max_length=MAX_ROBOTS)] = []
+    """Names of the robots, the goalkeeper first; when none are given, colour and number."""
+
+    @model_validator(mode="after")
+    def _one_mind(self) -> "Team":
+        if self.brain is not None and self.command is not None:
+            raise ValueError("brain and command are both given; a team has one or the other")
+        return self
+
+
+def _default_cyan() -> Team:
+    return Team(name="Simple", brain="robot_agent.teams.simple:Simple")
+
+
+def _default_magenta() -> Team:
+    return Team(name="NuBot", brain="robot_agent.teams.nubot:NuBot")
+
+
+class Teams(Part):
+    """Both teams."""
+
+    cyan: Team = Field(default_factory=_default_cyan)
+    magenta: Team = Field(default_factory=_default_magenta)
+
+
+class Noise(Part):
+    """How much noise robots perceive with."""
+
+    preset: str = "profile"
+
+    @field_validator("preset")
+    @classmethod
+    def _known(cls, preset: str) -> str:
+        if preset not in PRESETS:
+            raise ValueError(did_you_mean(preset, PRESETS))
+        return preset
+
+
+class RadioOverride(Part):
+    """Numbers in place of the profile's."""
+
+    delay: Annotated[float, Field(ge=0, le=5)] | None = None
+    loss: Annotated[float, Field(ge=0, le=1)] | None = None
+    budget: Annotated[float, Field(ge=0)] | None = None
+
+
+class Officiating(Part):
+    """How the match is refereed."""
+
+    kick_off: Side = Side.CYAN
+    """Who kicks off the first half."""
+    automatic: bool = True
+    """The match starts by itself when all robots are there; otherwise it waits for `touchline coach start`."""
+
+
+class Recording(Part):
+    """What is recorded."""
+
+    sights: bool = False
+    wait: bool = False
+    """The first tick waits for a recorder to be there, so that nothing is missed."""
+
+
+class Patience(Part):
+    """How long the host waits, in s of wall time."""
+
+    attendance: Annotated[float, Field(ge=0, le=600)] = 30.0
+    """For all robots to be there before the first tick."""
+    answer: Annotated[float, Field(gt=0, le=60)] = 1.0
+    """Lockstep: for a robot's answer to one tick."""
+
+
+class MatchConfig(Part):
+    """Everything that makes one match, and with equal brains the same match again."""
+
+    name: Name = "friendly"
+    seed: Annotated[int, Field(ge=0, lt=2**63)] = 1
+    pace: Annotated[str, Field(pattern=r"^(lockstep|realtime|x\d+(\.\d+)?)$")] = "lockstep"
+    duration: Annotated[float, Field(gt=0, le=86_400)] | None = None
+    """Playing time of all halves in s; by default the rule book's."""
+    profile: str = "msl"
+    rules: str = "friendly"
+    teams: Teams = Field(default_factory=Teams)
+    noise: Noise = Noise()
+    radio: RadioOverride = RadioOverride()
+    referee: Officiating = Officiating()
+    record: Recording = Recording()
+    patience: Patience = Patience()
+
+    @model_validator(mode="after")
+    def _different_names(self) -> "MatchConfig":
+        names = [robot for side in Side for robot in self.robots(side)]
+        for name in names:
+            if name in RESERVED:
+                raise ValueError(f'a robot is named "{name}", which means something else in a key; rename it')
+            if names.count(name) > 1:
+                raise ValueError(f'two robots are named "{name}"; every robot of a match has its own name')
+        return self
+
+    def team(self, side: Side) -> Team:
+        """The team of a side."""
+        return self.teams.cyan if side is Side.CYAN else self.teams.magenta
+
+    def robots(self, side: Side) -> list[str]:
+        """The robots' names, the goalkeeper first."""
+        team = self.team(side)
+        return team.robots or [f"{side.value}{number}" for number in range(1, team.size + 1)]
+
+    @property
+    def speed(self) -> float | None:
+        """Simulated seconds per wall second that the pace asks for; nothing in lockstep."""
+        if self.pace == "lockstep":
+            return None
+        return 1.0 if self.pace == "realtime" else float(self.pace[1:])
+
+
+def load_match(path: Path | None, overrides: dict[str, Any] | None = None) -> MatchConfig:
+    """The match of a file, or the default one; `overrides` are laid over it, as the command line's flags are.
+
+    Raises:
+        TouchlineError: one line that names file, key, value and remedy.
+    """
+    where = str(path) if path is not None else "match"
+    content: dict[str, Any] = {}
+    if path is not None:
+        try:
+            content = tomllib.loads(path.read_text("utf-8"))
+        except OSError as error:
+            raise TouchlineError(f"{path}: {error.strerror}; give the path of a match file") from None
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise TouchlineError(f"{path}: not TOML: {error}") from None
+    for key, value in (overrides or {}).items():
+        _lay_over(content, key.split("."), value)
+    return _validated(content, where)
+
+
+def _lay_over(content: dict[str, Any], path: list[str], value: Any) -> None:
+    for step in path[:-1]:
+        below = content.setdefault(step, {})
+        if not isinstance(below, dict):
+            return  # the validator names the wrong type
+        content = below
+    content[path[-1]] = value
+
+
+def _validated(content: dict[str, Any], where: str) -> MatchConfig:
+    for side, default in (("cyan", _default_cyan()), ("magenta", _default_magenta())):
+        teams = content.get("teams")
+        team = teams.get(side) if isinstance(teams, dict) else None
+        if isinstance(team, dict) and not {"brain", "command"} & set(team):
+            team["brain"] = default.brain
+            team.setdefault("name", default.name)
+    try:
+        return MatchConfig.model_validate_json(json.dumps(content, default=str), strict=True)
+    except ValidationError as error:
+        raise TouchlineError(f"{where}: {_sentence(error.errors(include_url=False)[0])}") from None
+
+
+def _sentence(error: Any) -> str:
+    key = ".".join(str(step) for step in error["loc"] if step not in ("constrained-str", "str", "int", "float"))
+    value = error["input"]
+    if error["type"] == "extra_forbidden":
+        parent = _model_at(error["loc"][:-1])
+        known = parent.model_fields if parent is not None else ()
+        return f"{key} is not known; {did_you_mean(str(error['loc'][-1]), known)}"
+    said = re.sub(r"^Value error, ", "", error["msg"])
+    if not key:
+        return said
+    remedy = REMEDIES.get(re.sub(r"\.\d+$", "", key))
+    return f"{key} is {value!r}; {remedy or said}"
+
+
+def _model_at(path: tuple[Any, ...]) -> type[Part] | None:
+    model: type[Part] | None = MatchConfig
+    for step in path:
+        field = model.model_fields.get(str(step)) if model is not None else None
+        kind = field.annotation if field is not None else None
+        model = kind if isinstance(kind, type) and issubclass(kind, Part) else None
+    return model

@@ -1,0 +1,255 @@
+"""A profile: pitch, bodies, motion, ball handling, sensing and radio as frozen data, read from TOML.
+
+`msl` and `paper` ship; any TOML file may `extends = "msl"` and change what it likes. Every number has a unit
+(declared here) and an origin (written in the file, kept in `Profile.origins`).
+"""
+
+import dataclasses
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Annotated, Any
+
+from schemas.errors import TouchlineError, did_you_mean
+from schemas.quantity import Choice, Quantity, extend, read_section
+
+SHIPPED = ("msl", "paper")
+"""The profiles that come with the package."""
+
+
+@dataclass(frozen=True, slots=True)
+class TimeSteps:
+    """How time is cut."""
+
+    physics_step: Annotated[float, Quantity("s", "one step of the physics engine", 1e-4, 0.02)]
+    steps_per_tick: Annotated[int, Quantity("1", "physics steps in one control tick", 1, 100)]
+
+    @property
+    def tick(self) -> float:
+        """One control tick in s."""
+        return self.physics_step * self.steps_per_tick
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """The pitch, in the field frame; lines belong to the area they bound."""
+
+    length: Annotated[float, Quantity("m", "goal line to goal line, outer edges, along x", 4, 120)]
+    width: Annotated[float, Quantity("m", "touch line to touch line, outer edges, along y", 3, 90)]
+    border: Annotated[float, Quantity("m", "ground outside the lines, up to the boundary", 0.3, 10)]
+    boundary_height: Annotated[float, Quantity("m", "height of the boundary around the border", 0.05, 10)]
+    goal_width: Annotated[float, Quantity("m", "between the inner faces of the posts", 0.5, 8)]
+    goal_height: Annotated[float, Quantity("m", "ground to the lower face of the bar", 0.3, 3)]
+    goal_depth: Annotated[float, Quantity("m", "goal line to the back of the net box", 0.3, 3)]
+    post: Annotated[float, Quantity("m", "edge of the square posts and bar", 0.02, 0.3)]
+    penalty_area_depth: Annotated[float, Quantity("m", "goal line to the front of the penalty area", 0.3, 20)]
+    goal_area_depth: Annotated[float, Quantity("m", "goal line to the front of the goal area", 0.2, 10)]
+    centre_circle_radius: Annotated[float, Quantity("m", "radius of the centre circle", 0.3, 12)]
+    corner_arc_radius: Annotated[float, Quantity("m", "radius of the corner arcs", 0.1, 2)]
+    penalty_mark: Annotated[float, Quantity("m", "goal line to the penalty mark", 0.5, 20)]
+    line_width: Annotated[float, Quantity("m", "width of the lines", 0.01, 0.3)]
+
+    @property
+    def goal_line(self) -> float:
+        """x of the goal line that the side attacking +x shoots at."""
+        return self.length / 2
+
+    @property
+    def touch_line(self) -> float:
+        """y of the left touch line."""
+        return self.width / 2
+
+    @property
+    def penalty_area_width(self) -> float:
+        """The league's one formula for both years: goal width + 2 × depth."""
+        return self.goal_width + 2 * self.penalty_area_depth
+
+    @property
+    def goal_area_width(self) -> float:
+        """Goal width + 2 × depth."""
+        return self.goal_width + 2 * self.goal_area_depth
+
+    @property
+    def restart_spots(self) -> tuple[tuple[float, float], ...]:
+        """The nine marked spots: centre, penalty marks, and midway to the touch lines beside each of them."""
+        mark = self.goal_line - self.penalty_mark
+        beside = self.touch_line / 2
+        return tuple((x, y) for x in (-mark, 0.0, mark) for y in (-beside, 0.0, beside))
+
+
+@dataclass(frozen=True, slots=True)
+class RobotBody:
+    """The rigid body of a robot: a cylinder."""
+
+    radius: Annotated[float, Quantity("m", "radius of the cylinder", 0.05, 0.6)]
+    height: Annotated[float, Quantity("m", "height of the cylinder", 0.1, 1.5)]
+    mass: Annotated[float, Quantity("kg", "mass", 0.5, 100)]
+    inertia_xx: Annotated[float, Quantity("kg·m²", "moment of inertia about x and y", 0, 50)]
+    inertia_zz: Annotated[float, Quantity("kg·m²", "moment of inertia about z", 1e-3, 50)]
+    friction: Annotated[float, Quantity("1", "Coulomb coefficient of the hull", 0, 2)]
+    restitution: Annotated[float, Quantity("1", "share of the normal speed a ball keeps that hits the hull", 0, 1)]
+
+
+@dataclass(frozen=True, slots=True)
+class Ball:
+    """The ball."""
+
+    radius: Annotated[float, Quantity("m", "radius", 0.02, 0.2)]
+    mass: Annotated[float, Quantity("kg", "mass", 0.02, 2)]
+    inertia: Annotated[float, Quantity("kg·m²", "moment of inertia about any axis", 1e-6, 0.1)]
+    friction: Annotated[float, Quantity("1", "Coulomb coefficient between ball and ground", 0, 2)]
+    restitution: Annotated[float, Quantity("1", "share of the normal speed kept on ground and goal frame", 0, 1)]
+    rolling_deceleration: Annotated[float, Quantity("m/s²", "loss of speed of a ball that rolls freely", 0, 10)]
+    net_deceleration: Annotated[float, Quantity("m/s²", "loss of speed of a ball that rolls in the net", 0, 50)]
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """What the drive of a robot can do, in its body frame."""
+
+    max_speed: Annotated[float, Quantity("m/s", "top speed in any direction", 0.1, 20)]
+    max_turn_rate: Annotated[float, Quantity("rad/s", "top turn rate", 0.1, 50)]
+    acceleration: Annotated[float, Quantity("m/s²", "change of velocity that gains speed", 0.1, 50)]
+    deceleration: Annotated[float, Quantity("m/s²", "change of velocity that loses speed", 0.1, 50)]
+    turn_acceleration: Annotated[float, Quantity("rad/s²", "change of the turn rate", 0.1, 200)]
+
+
+@dataclass(frozen=True, slots=True)
+class Dribble:
+    """When a robot holds the ball, and how the ball follows."""
+
+    distance: Annotated[float, Quantity("m", "centre to centre, at most this far to hold", 0.05, 2)]
+    cone: Annotated[float, Quantity("rad", "total cone about the kick axis; half of it to either side", 0.01, 6.3)]
+    gap: Annotated[float, Quantity("m", "centre to centre while the ball is carried", 0.05, 2)]
+    max_ball_height: Annotated[float, Quantity("m", "a ball whose centre is higher cannot be held", 0, 2)]
+    method: Annotated[str, Choice("how a held ball is moved", ("pose", "velocity"))]
+
+
+@dataclass(frozen=True, slots=True)
+class Kicker:
+    """What the kicking device can do."""
+
+    max_ground_speed: Annotated[float, Quantity("m/s", "top exit speed of a ground kick", 0.5, 40)]
+    max_lob_speed: Annotated[float, Quantity("m/s", "top horizontal speed of a lob", 0.5, 40)]
+    lob_margin: Annotated[float, Quantity("m", "air between the ball and the bar when a lob is solved", 0, 0.5)]
+
+
+@dataclass(frozen=True, slots=True)
+class Sensing:
+    """Standard deviations of the Gaussian noise on what a robot perceives."""
+
+    own_position: Annotated[float, Quantity("m", "own x and y", 0, 2)]
+    own_heading: Annotated[float, Quantity("rad", "own heading", 0, 1)]
+    own_velocity: Annotated[float, Quantity("m/s", "own vx and vy", 0, 2)]
+    own_turn_rate: Annotated[float, Quantity("rad/s", "own turn rate", 0, 2)]
+    ball_position: Annotated[float, Quantity("m", "ball x, y and height", 0, 2)]
+    ball_velocity: Annotated[float, Quantity("m/s", "ball vx and vy", 0, 2)]
+    obstacle_position: Annotated[float, Quantity("m", "obstacle x and y", 0, 2)]
+
+
+@dataclass(frozen=True, slots=True)
+class Radio:
+    """The air between teammates, which the host stands in for."""
+
+    delay: Annotated[float, Quantity("s", "simulated time from the word to the teammates' ears", 0, 5)]
+    loss: Annotated[float, Quantity("1", "share of deliveries that never arrive", 0, 1)]
+    budget: Annotated[float, Quantity("bit/s", "what a team may say per second, averaged over one second", 0, 1e9)]
+
+
+@dataclass(frozen=True, slots=True)
+class Safety:
+    """What protects the field from an agent that has stopped answering."""
+
+    watchdog: Annotated[float, Quantity("s", "a command older than this brakes the robot", 0.01, 10)]
+
+
+SECTIONS: dict[str, type] = {
+    "time": TimeSteps,
+    "field": Field,
+    "robot": RobotBody,
+    "ball": Ball,
+    "drive": Drive,
+    "dribble": Dribble,
+    "kicker": Kicker,
+    "sensing": Sensing,
+    "radio": Radio,
+    "safety": Safety,
+}
+"""Section name in the file → the dataclass that holds it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """Everything physical about a match."""
+
+    name: str
+    time: TimeSteps
+    field: Field
+    robot: RobotBody
+    ball: Ball
+    drive: Drive
+    dribble: Dribble
+    kicker: Kicker
+    sensing: Sensing
+    radio: Radio
+    safety: Safety
+    origins: Mapping[str, str] = dataclasses.field(repr=False, compare=False)
+
+
+def load_profile(name: str) -> Profile:
+    """A shipped profile by name, or one from a path that ends in `.toml`.
+
+    Raises:
+        TouchlineError: no such profile, or something in it is wrong.
+    """
+    tables = _tables(name)
+    origins: dict[str, str] = {}
+    sections: dict[str, Any] = {
+        key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins) for key, cls in SECTIONS.items()
+    }
+    unknown = set(tables) - set(SECTIONS)
+    for section in sorted(unknown):
+        raise TouchlineError(f"{name}: section [{section}] is not known; {did_you_mean(section, SECTIONS)}")
+    origins = {key.removeprefix(f"{name}: "): origin for key, origin in origins.items()}
+    profile = Profile(name=name, origins=origins, **sections)
+    _consistent(profile)
+    return profile
+
+
+def _tables(name: str, below: tuple[str, ...] = ()) -> dict[str, Any]:
+    if name in below:
+        raise TouchlineError(f"{name}: extends itself over {' → '.join(below)}; break the circle")
+    try:
+        tables = tomllib.loads(profile_text(name))
+    except tomllib.TOMLDecodeError as error:
+        raise TouchlineError(f"{name}: not TOML: {error}") from None
+    parent = tables.pop("extends", None)
+    return extend(_tables(str(parent), (*below, name)), tables) if parent is not None else tables
+
+
+def profile_text(name: str) -> str:
+    """The TOML of a profile as it stands in its file."""
+    if name in SHIPPED:
+        return (resources.files("schemas") / "profiles" / f"{name}.toml").read_text("utf-8")
+    if not name.endswith(".toml"):
+        raise TouchlineError(f'profile is "{name}"; {did_you_mean(name, SHIPPED)} Or give a path that ends in .toml')
+    try:
+        return Path(name).read_text("utf-8")
+    except OSError as error:
+        raise TouchlineError(f'profile is "{name}": {error.strerror}; give one of {", ".join(SHIPPED)}') from None
+
+
+def _consistent(profile: Profile) -> None:
+    """Numbers that only make sense together."""
+    touching = profile.robot.radius + profile.ball.radius
+    if profile.dribble.gap > profile.dribble.distance:
+        raise TouchlineError(
+            f"{profile.name}: dribble.gap is {profile.dribble.gap} m; a held ball must stay within "
+            f"dribble.distance, {profile.dribble.distance} m"
+        )
+    if profile.dribble.gap < touching - 0.05:
+        raise TouchlineError(
+            f"{profile.name}: dribble.gap is {profile.dribble.gap} m; robot and ball touch at {touching:.3f} m already"
+        )

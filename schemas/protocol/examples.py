@@ -1,0 +1,186 @@
+"""One example of each message, from one tick of a match; the first that a reader sees of it."""
+
+from schemas.coach import CoachMode, CoachOrder
+from schemas.command import BallBelief, Command, Drive, Kick, KickMode, Motion, Radio
+from schemas.game import (
+    ActionName,
+    ActionReply,
+    EventKind,
+    GameEvent,
+    GameState,
+    GameView,
+    Phase,
+    Point,
+    RefereeAction,
+    Score,
+    TeamPhase,
+)
+from schemas.host import (
+    Applied,
+    AppliedInput,
+    Belief,
+    Health,
+    Invalid,
+    RecorderProgress,
+    RobotHealth,
+    Setup,
+    SetupRequest,
+    TeamSetup,
+)
+from schemas.match_config import MatchConfig
+from schemas.message import Message
+from schemas.profile import load_profile
+from schemas.rule_book import load_rule_book
+from schemas.side import Side
+from schemas.sight import BallSight, Heard, Obstacle, Outcome, Sight
+from schemas.world import BallFrame, BallTruth, RobotFrame, RobotTruth, World
+
+_TICK, _TIME = 412, 8.24
+_CYAN_2 = RobotTruth(x=3.1, y=-1.2, z=0.399, heading=0.31, vx=1.4, vy=0.45, omega=0.0, holding=True)
+_MAGENTA_1 = RobotTruth(x=10.6, y=0.1, z=0.399, heading=-2.9, vx=0.0, vy=-0.2, omega=0.1, holding=False)
+_BALL = BallTruth(x=3.433, y=-1.093, z=0.11, vx=1.4, vy=0.45, vz=0.0)
+_ORDER = CoachOrder(sequence=7, mode=CoachMode.PLAY, tactic="press", max_speed=3.5)
+_DRIVE = Drive(vx=1.5, vy=0.0, omega=0.3)
+_KICK = Kick(mode=KickMode.LOB, speed=8.0)
+_RADIO = Radio(
+    self=Motion(x=3.12, y=-1.19, heading=0.3, vx=1.4, vy=0.45),
+    ball=BallBelief(x=3.45, y=-1.1, vx=1.4, vy=0.45),
+    role="striker",
+    intention="pass to cyan4",
+    pass_to="cyan4",
+    extra={"pressed": True},
+)
+
+
+def examples() -> dict[type[Message], Message]:
+    """Message → its example."""
+    made = (*_truth(), *_robot(), *_game(), *_host())
+    return {type(message): message for message in made}
+
+
+def _truth() -> tuple[Message, ...]:
+    return (
+        World(
+            tick=_TICK,
+            time=_TIME,
+            robots={"cyan2": _CYAN_2, "magenta1": _MAGENTA_1},
+            ball=_BALL,
+            possession="cyan2",
+            clock=5.2,
+        ),
+        RobotFrame(tick=_TICK, time=_TIME, robot=_CYAN_2, side=Side.CYAN),
+        BallFrame(tick=_TICK, time=_TIME, ball=_BALL),
+    )
+
+
+def _robot() -> tuple[Message, ...]:
+    return (
+        Sight(
+            tick=_TICK,
+            time=_TIME,
+            robot="cyan2",
+            side=Side.CYAN,
+            self=Motion(x=3.1187, y=-1.1893, heading=0.3041, vx=1.42, vy=0.44, omega=0.0127),
+            ball=BallSight(x=3.4512, y=-1.1034, z=0.1188, vx=1.37, vy=0.49),
+            holding=True,
+            obstacles=[Obstacle(x=4.2, y=0.6, radius=0.245), Obstacle(x=10.55, y=0.12, radius=0.245)],
+            radio={"cyan1": Heard(age=0.06, self=Motion(x=-10.4, y=0.0, heading=0.02), role="keeper")},
+            game=GameView(phase=TeamPhase.PLAY, running=True, clock=5.2, our_score=1, their_score=0),
+            order=_ORDER,
+            outcome=Outcome(answers_tick=411, refused=["kick: ball not held"]),
+        ),
+        Command(
+            answers_tick=_TICK,
+            drive=_DRIVE,
+            dribble=True,
+            kick=_KICK,
+            radio=_RADIO,
+            acknowledges_order=_ORDER.sequence,
+        ),
+        Belief(tick=_TICK + 1, time=_TIME + 0.02, robot="cyan2", radio=_RADIO),
+        _ORDER,
+    )
+
+
+def _game() -> tuple[Message, ...]:
+    return (
+        GameState(
+            tick=_TICK,
+            time=_TIME,
+            phase=Phase.THROW_IN,
+            side=Side.MAGENTA,
+            clock=5.2,
+            score=Score(cyan=1),
+            spot=Point(x=-3.9, y=6.85),
+        ),
+        GameEvent(
+            tick=_TICK,
+            time=_TIME,
+            clock=5.2,
+            kind=EventKind.GOAL,
+            rule="goal",
+            side=Side.CYAN,
+            robot="cyan2",
+            place=Point(x=11.11, y=-0.8),
+            score=Score(cyan=1),
+            text="goal, counts for cyan: ball over the goal line at (11.1, -0.8), 0.11 m high, last touched by cyan2",
+        ),
+        RefereeAction(action=ActionName.FREE_KICK, side=Side.MAGENTA, place=Point(x=2.0, y=-3.5)),
+        ActionReply(accepted=False, reason="free_kick: no half is being played, the phase is half_time"),
+    )
+
+
+def _host() -> tuple[Message, ...]:
+    return (
+        SetupRequest(),
+        _setup(),
+        Applied(
+            tick=_TICK + 1,
+            time=_TIME + 0.02,
+            inputs={
+                "cyan2": AppliedInput(drive=_DRIVE, dribble=True, kick=_KICK, answers_tick=_TICK),
+                "magenta1": AppliedInput(drive=Drive(), dribble=False),
+            },
+            chain="9c1185a5c5e9fc54612808977ee8f548b2258d31b4c1a6bb1d6ea0a6a5f0f2a1",
+        ),
+        Health(
+            tick=_TICK,
+            time=_TIME,
+            pace="lockstep",
+            real_time_factor=4.6,
+            worst_tick_ms=11.8,
+            robots={"cyan2": RobotHealth(alive=True, answering=True, answers=412, refused=1, latency_ms=1.9)},
+            recorders={"recorder": 9},
+        ),
+        Invalid(
+            tick=_TICK,
+            time=_TIME,
+            key="robot/magenta1/command",
+            reason="Command: drive.vx is 'fast': Input should be a valid number",
+            size=41,
+        ),
+        RecorderProgress(tick=403, messages=6045, lost=0),
+    )
+
+
+def _setup() -> Setup:
+    """The setup of the match that is played when nobody names a file."""
+    config = MatchConfig()
+    profile, book = load_profile(config.profile), load_rule_book(config.rules)
+    return Setup(
+        match=config.name,
+        pace=config.pace,
+        profile=profile.name,
+        rules=book.name,
+        time=profile.time,
+        pitch=profile.field,
+        robot=profile.robot,
+        ball=profile.ball,
+        drive=profile.drive,
+        dribble=profile.dribble,
+        kicker=profile.kicker,
+        periods=book.periods,
+        restarts=book.restarts,
+        teams={side: TeamSetup(name=config.team(side).name, robots=config.robots(side)) for side in Side},
+        engine={"engine": "pybullet 3.2.7, api 202010061"},
+    )

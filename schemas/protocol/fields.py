@@ -1,0 +1,168 @@
+"""What a message or a part of one is made of, in words: its fields, their types and limits, and what they mean.
+
+Meanings are the docstrings in the source; numbers of a profile or a rule book bring theirs, with the unit.
+"""
+
+import ast
+import dataclasses
+import inspect
+import types
+from collections.abc import Callable, Iterator, Sequence
+from enum import Enum
+from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
+
+from annotated_types import Ge, Gt, Le, MaxLen
+from pydantic import BaseModel, StringConstraints
+from pydantic.fields import FieldInfo
+from pydantic_core import to_json
+
+from schemas.message import Name
+from schemas.quantity import Choice, Quantity
+
+Link = Callable[[type], str]
+"""How a part or an enumeration is named in the text."""
+
+EVERYWHERE = {
+    "tick": "control ticks since the match began",
+    "time": "simulated time; s",
+    "clock": "game clock; s",
+    "x": "m",
+    "y": "m",
+    "z": "m",
+    "heading": "rad",
+    "vx": "m/s",
+    "vy": "m/s",
+    "vz": "m/s",
+    "omega": "rad/s",
+    "radius": "m",
+    "age": "s",
+    "speed": "m/s",
+    "angle_a": "rad",
+    "angle_b": "rad",
+    "kick_speed": "m/s",
+    "max_speed": "m/s",
+    "max_turn_rate": "rad/s",
+}
+"""What a field of this name means in every message, where its own docstring says nothing else."""
+
+_PLAIN = {str: "text", bool: "true or false", int: "whole number", float: "number"}
+
+
+class Row(NamedTuple):
+    """One field."""
+
+    name: str
+    type: str
+    default: str
+    """JSON, or nothing where the field must be given."""
+    meaning: str
+
+
+def is_part(kind: Any) -> bool:
+    """Whether a type has fields of its own."""
+    return isinstance(kind, type) and (issubclass(kind, BaseModel) or dataclasses.is_dataclass(kind))
+
+
+def rows(part: type, link: Link) -> list[Row]:
+    """The fields of a part, in order, without `version`."""
+    hints = get_type_hints(part, include_extras=True)
+    said = _docstrings(part)
+    return [
+        Row(name, in_words(hints[name], link), default, _meaning(name, said, hints[name]))
+        for name, default in _defaults(part)
+        if name != "version"
+    ]
+
+
+def parts_of(part: type) -> Iterator[type]:
+    """The parts and enumerations that the fields of a part are made of, in order."""
+    hints = get_type_hints(part, include_extras=True)
+    for name, _ in _defaults(part):
+        yield from _named_types(hints[name])
+
+
+def _docstrings(part: type) -> dict[str, str]:
+    """Field → the docstring below it in the source, those of its bases included."""
+    found: dict[str, str] = {}
+    for cls in reversed(part.__mro__):
+        if not cls.__module__.startswith("schemas."):
+            continue
+        body = ast.parse(inspect.getsource(cls)).body[0]
+        assert isinstance(body, ast.ClassDef)
+        for field, below in zip(body.body, body.body[1:], strict=False):
+            match field, below:
+                case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=str() as text)):
+                    found[name] = " ".join(text.split())
+    return found
+
+
+def in_words(hint: Any, link: Link) -> str:
+    """A type in words, with the limits it is declared with."""
+    if hint == Name:
+        return "name"
+    if isinstance(hint, type) and hint in _PLAIN:
+        return _PLAIN[hint]
+    inner = get_args(hint)
+    match get_origin(hint):
+        case origin if origin is Annotated:
+            limits = _limits(inner[1:])
+            return in_words(inner[0], link) + (f" ({limits})" if limits else "")
+        case origin if origin in (Union, types.UnionType):
+            words = [in_words(choice, link) for choice in inner if choice is not type(None)]
+            return " or ".join(words + (["null"] if type(None) in inner else []))
+        case origin if origin is list:
+            return f"list of {in_words(inner[0], link)}"
+        case origin if origin is tuple:
+            return f"list of {in_words(inner[0], link)}"
+        case origin if origin is dict:
+            return f"{in_words(inner[0], link)} → {in_words(inner[1], link)}"
+        case _:
+            return link(hint)
+
+
+def _named_types(hint: Any) -> Iterator[type]:
+    if is_part(hint) or (isinstance(hint, type) and issubclass(hint, Enum)):
+        yield hint
+    for inner in get_args(hint):
+        yield from _named_types(inner)
+
+
+def _defaults(part: type) -> Iterator[tuple[str, str]]:
+    """Field → its default as JSON; nothing where it must be given."""
+    if issubclass(part, BaseModel):
+        for name, info in part.model_fields.items():
+            required = info.is_required()
+            yield name, "" if required else to_json(info.get_default(call_default_factory=True)).decode()
+        return
+    assert dataclasses.is_dataclass(part)
+    for field in dataclasses.fields(part):
+        yield field.name, "" if field.default is dataclasses.MISSING else to_json(field.default).decode()
+
+
+def _limits(metadata: Sequence[Any]) -> str:
+    said: list[str] = []
+    for item in (inner for one in metadata for inner in (one.metadata if isinstance(one, FieldInfo) else [one])):
+        match item:
+            case Ge(ge=bound):
+                said.append(f"at least {bound:g}")
+            case Gt(gt=bound):
+                said.append(f"above {bound:g}")
+            case Le(le=bound):
+                said.append(f"at most {bound:g}")
+            case MaxLen(max_length=bound):
+                said.append(f"at most {bound} of them")
+            case StringConstraints(max_length=int() as bound):
+                said.append(f"at most {bound} characters")
+            case _:
+                continue
+    return ", ".join(said)
+
+
+def _meaning(name: str, said: dict[str, str], hint: Any) -> str:
+    for item in get_args(hint)[1:]:
+        if isinstance(item, Quantity):
+            return item.says if item.unit == "1" else f"{item.says}; {item.unit}"
+        if isinstance(item, Choice):
+            return f"{item.says}: {', '.join(item.words)}"
+    common = "" if any(_named_types(hint)) else EVERYWHERE.get(name, "")
+    return said.get(name) or common

@@ -1,0 +1,150 @@
+"""The page on the protocol: how to join, the topic table, every message with its fields and an example."""
+
+import json
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from enum import Enum
+from importlib import resources
+from inspect import cleandoc
+from typing import Any
+
+from pydantic_core import from_json
+
+from schemas.message import VERSION, Message
+from schemas.protocol.examples import examples
+from schemas.protocol.fields import is_part, parts_of, rows
+from schemas.topics import TOPICS, Topic
+
+_NOTE = (
+    "<!-- Made by `python -m schemas.protocol > docs/protocol.md`; what is to be changed is changed in schemas/. -->"
+)
+_WIDE = 110
+"""Characters that a line of an example has at most, where it can be broken."""
+_TOPIC_HEADINGS = ("key", "message", "from", "to", "rate", "delivery", "recorded", "what it says")
+_FIELD_HEADINGS = ("field", "type", "default", "meaning")
+
+
+def page() -> str:
+    """The whole page, Markdown."""
+    messages = _messages(TOPICS.values())
+    parts = _parts(messages)
+    titles = _titles([*messages, *parts])
+    joining = (resources.files("schemas.protocol") / "joining.md").read_text("utf-8")
+    sections = [
+        f"# The protocol, version {VERSION}",
+        _NOTE,
+        joining.strip(),
+        "## Topics",
+        "All keys stand below `touchline/{match}/`; words in braces are filled in. A topic whose delivery is `query` "
+        "is asked, and answered with the message behind the arrow.",
+        _table(_TOPIC_HEADINGS, [_topic_cells(topic, titles) for topic in TOPICS.values()]),
+        "## Messages",
+        f"Every message has a field `version` (text, default `{VERSION}`) beside those listed. A field without a "
+        "default must be given; a field that is not listed is refused, and so are NaN and infinity. A payload of more "
+        f"than {Message.max_bytes} bytes is refused unread.",
+        *(_message(kind, titles) for kind in messages),
+        "## Parts",
+        *(_part(kind, titles) for kind in parts),
+    ]
+    return "\n\n".join(sections) + "\n"
+
+
+def _messages(topics: Iterable[Topic]) -> list[type[Message]]:
+    """Every message and every reply, once, in the order of the table."""
+    both = [kind for topic in topics for kind in (topic.message, topic.reply) if kind is not None]
+    return list(dict.fromkeys(both))
+
+
+def _parts(messages: Sequence[type]) -> list[type]:
+    """Everything that messages are made of, once, in the order in which a reader meets it."""
+    met: dict[type, None] = dict.fromkeys(messages)
+    waiting = list(messages)
+    while waiting:
+        kind = waiting.pop(0)
+        new = [part for part in parts_of(kind) if part not in met] if is_part(kind) else []
+        met.update(dict.fromkeys(new))
+        waiting = [*new, *waiting]
+    return [kind for kind in met if kind not in messages]
+
+
+def _titles(kinds: Sequence[type]) -> dict[type, str]:
+    """What each type is called on the page; two of one name are told apart by their module."""
+    names = Counter(kind.__name__ for kind in kinds)
+    return {
+        kind: kind.__name__ if names[kind.__name__] == 1 else f"{kind.__name__} ({kind.__module__.split('.')[-1]})"
+        for kind in kinds
+    }
+
+
+def _link(title: str) -> str:
+    """A link to a heading of the page, as the places that show Markdown name it."""
+    anchor = re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
+    return f"[{title}](#{anchor})"
+
+
+def _topic_cells(topic: Topic, titles: dict[type, str]) -> tuple[str, ...]:
+    message = _link(titles[topic.message]) if topic.message is not None else "–"
+    reply = f" → {_link(titles[topic.reply])}" if topic.reply is not None else ""
+    return (
+        f"`{topic.key}`",
+        message + reply,
+        topic.writer.value,
+        ", ".join(reader.value for reader in topic.readers),
+        topic.rate,
+        topic.delivery.value,
+        "yes" if topic.recorded else "no",
+        topic.says,
+    )
+
+
+def _message(kind: type[Message], titles: dict[type, str]) -> str:
+    keys = [f"`{topic.key}`" for topic in TOPICS.values() if kind in (topic.message, topic.reply)]
+    size = f"; at most {kind.max_bytes} bytes" if kind.max_bytes != Message.max_bytes else ""
+    where = f"On {', '.join(keys)}{size}."
+    return "\n\n".join([_part(kind, titles), where, f"```json\n{laid_out(examples()[kind])}\n```"])
+
+
+def _part(kind: type, titles: dict[type, str]) -> str:
+    """Heading, docstring, and the table of fields or the words of an enumeration."""
+    said = [f"### {titles[kind]}", " ".join(cleandoc(kind.__doc__ or "").split())]
+    if issubclass(kind, Enum):
+        said.append(", ".join(f"`{member.value}`" for member in kind))
+    else:
+        fields = rows(kind, lambda part: _link(titles[part]))
+        cells = [(f"`{row.name}`", row.type, f"`{row.default}`" if row.default else "", row.meaning) for row in fields]
+        said.append(_table(_FIELD_HEADINGS, cells) if cells else "No other fields.")
+    return "\n\n".join(said)
+
+
+def _table(headings: Sequence[str], cells: Iterable[Sequence[str]]) -> str:
+    lines = [headings, ["---"] * len(headings), *cells]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def laid_out(message: Message) -> str:
+    """A message as JSON with a line for each field; what is in a long one is packed into several lines."""
+    entries = [_entry(name, value, "  ") for name, value in from_json(message.encode()).items()]
+    return "{\n" + ",\n".join(f"  {entry}" for entry in entries) + "\n}"
+
+
+def _entry(name: str, value: Any, indent: str) -> str:
+    said = f"{json.dumps(name)}: {json.dumps(value, ensure_ascii=False)}"
+    if not isinstance(value, dict) or len(indent) + len(said) <= _WIDE:
+        return said
+    inside = indent + "  "
+    entries = [_entry(below, content, inside) for below, content in value.items()]
+    return f"{json.dumps(name)}: {{\n{_packed(entries, inside)}\n{indent}}}"
+
+
+def _packed(entries: Sequence[str], indent: str) -> str:
+    """Entries side by side as far as they fit; one of several lines has its lines for itself."""
+    lines: list[str] = []
+    for entry in entries:
+        last = lines[-1] if lines else None
+        fits = last is not None and "\n" not in last + entry and len(last) + len(entry) + 3 <= _WIDE
+        if last is not None and fits:
+            lines[-1] = f"{last}, {entry}"
+        else:
+            lines.append(f"{indent}{entry}")
+    return ",\n".join(lines)

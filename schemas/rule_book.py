@@ -1,0 +1,88 @@
+"""A rule book: the numbers of the rules as frozen data, read from TOML; the rules themselves live in the referee."""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from importlib import resources
+from typing import Annotated, Any
+
+from schemas.errors import TouchlineError, did_you_mean
+from schemas.quantity import Quantity, extend, read_section
+
+SHIPPED = ("friendly", "msl", "paper")
+"""The rule books that come with the package."""
+
+
+@dataclass(frozen=True, slots=True)
+class Periods:
+    """How a match is cut."""
+
+    halves: Annotated[int, Quantity("1", "number of halves", 1, 2)]
+    half_duration: Annotated[float, Quantity("s", "length of one half, unless the match file says another", 1, 7200)]
+    half_time_break: Annotated[float, Quantity("s", "break between halves", 0, 1200)]
+
+
+@dataclass(frozen=True, slots=True)
+class Restarts:
+    """How the game goes on after a stop: STOP, ball placed, restart signal, START, ball in play."""
+
+    stop_to_signal: Annotated[float, Quantity("s", "pause from STOP to the restart signal", 0, 60)]
+    signal_to_start: Annotated[float, Quantity("s", "time to take positions, from the signal to START", 0, 60)]
+    positions_limit: Annotated[float, Quantity("s", "START waits this long at most for robots that stand wrong", 0, 60)]
+    time_limit: Annotated[float, Quantity("s", "after START, the ball is in play at the latest", 1, 60)]
+    in_play_distance: Annotated[float, Quantity("m", "the ball is in play after moving this far", 0, 5)]
+    opponent_distance: Annotated[float, Quantity("m", "opponents stay this far from the ball, whole robot", 0, 10)]
+    teammate_distance: Annotated[float, Quantity("m", "all but the kicker stay this far, whole robot", 0, 10)]
+    drop_ball_distance: Annotated[float, Quantity("m", "everyone stays this far at a drop ball, whole robot", 0, 10)]
+    touch_line_inset: Annotated[float, Quantity("m", "a throw-in is placed this far inside the touch line", 0, 2)]
+    corner_inset: Annotated[float, Quantity("m", "a corner is placed this far inside both lines", 0, 2)]
+    field_inset: Annotated[float, Quantity("m", "free kicks and dropped balls lie this far inside the lines", 0, 2)]
+    drift: Annotated[float, Quantity("m", "before START, a ball that moved this far is put back", 0.01, 1)]
+
+
+@dataclass(frozen=True, slots=True)
+class Stall:
+    """When a ball that nobody moves is dropped."""
+
+    still_speed: Annotated[float, Quantity("m/s", "a ball slower than this does not move", 0, 2)]
+    still_duration: Annotated[float, Quantity("s", "a ball still for this long is dropped", 1, 120)]
+
+
+SECTIONS: dict[str, type] = {"periods": Periods, "restarts": Restarts, "stall": Stall}
+"""Section name in the file → the dataclass that holds it."""
+
+
+@dataclass(frozen=True, slots=True)
+class RuleBook:
+    """The numbers that a match is refereed by."""
+
+    name: str
+    periods: Periods
+    restarts: Restarts
+    stall: Stall
+    origins: Mapping[str, str] = field(repr=False, compare=False)
+
+
+def rule_book_text(name: str) -> str:
+    """The TOML of a rule book as it stands in its file."""
+    if name not in SHIPPED:
+        raise TouchlineError(f'rules is "{name}"; {did_you_mean(name, SHIPPED)}')
+    return (resources.files("schemas") / "rule_books" / f"{name}.toml").read_text("utf-8")
+
+
+def load_rule_book(name: str) -> RuleBook:
+    """A shipped rule book by name.
+
+    Raises:
+        TouchlineError: no such rule book.
+    """
+    tables = tomllib.loads(rule_book_text(name))
+    parent = tables.pop("extends", None)
+    if parent is not None:
+        tables = extend(tomllib.loads(rule_book_text(parent)), tables)
+    origins: dict[str, str] = {}
+    sections: dict[str, Any] = {
+        key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins) for key, cls in SECTIONS.items()
+    }
+    origins = {key.removeprefix(f"{name}: "): origin for key, origin in origins.items()}
+    return RuleBook(name=name, origins=origins, **sections)

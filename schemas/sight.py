@@ -1,0 +1,72 @@
+"""Everything one robot knows at one tick, in its team frame: each team believes it attacks +x."""
+
+from schemas.coach import CoachOrder
+from schemas.command import BallBelief, Motion, Radio
+from schemas.game import GameView
+from schemas.message import Message, Name, Part
+from schemas.side import Side
+
+
+class BallSight(Part):
+    """The ball as seen: m, m/s; `age` in s since the picture it was seen in."""
+
+    x: float
+    y: float
+    z: float | None = None
+    vx: float
+    vy: float
+    age: float = 0.0
+    visible: bool = True
+
+
+class Obstacle(Part):
+    """Something round in the way: m. Whose robot it is, the robot has to find out."""
+
+    x: float
+    y: float
+    radius: float
+
+
+class Heard(Radio):
+    """A teammate's word, and how long ago it was said, in s."""
+
+    age: float
+
+
+class Outcome(Part):
+    """What became of the robot's last command: `refused` holds one sentence for each part that was not done."""
+
+    answers_tick: int | None = None
+    """The sight that the command answered; nothing when none arrived for this tick."""
+    refused: list[str] = []
+    """What was not done, and why."""
+
+
+class Sight(Message):
+    """What one robot perceives at one tick."""
+
+    tick: int
+    time: float
+    """Simulated time in s."""
+    robot: Name
+    """Who perceives this."""
+    side: Side
+    self: Motion
+    """Own pose and twist, as the robot measures them."""
+    ball: BallSight | None
+    """Nothing when the ball was never seen."""
+    holding: bool
+    """The ball is in hand: only then can it be kicked."""
+    stuck: bool = False
+    """For long it has moved much slower than it was told: something is in its way."""
+    obstacles: list[Obstacle]
+    """Every other robot, the nearest first."""
+    radio: dict[Name, Heard] = {}
+    """The newest word of each teammate."""
+    game: GameView
+    order: CoachOrder | None = None
+    """The coach's newest."""
+    outcome: Outcome = Outcome()
+
+
+__all__ = ["BallBelief", "BallSight", "Heard", "Motion", "Obstacle", "Outcome", "Sight"]

@@ -1,0 +1,276 @@
+"""The topic table: every key, what it carries, who writes, who may read, how it travels, whether it is recorded.
+
+Access rules, the recorder, `docs/protocol.md` and the tests are derived from this table; a new topic is one row.
+All keys stand below `touchline/{match}/`.
+"""
+
+import re
+from dataclasses import dataclass
+from enum import StrEnum
+
+from schemas.coach import CoachOrder
+from schemas.command import Command
+from schemas.errors import TouchlineError, did_you_mean
+from schemas.game import ActionReply, GameEvent, GameState, RefereeAction
+from schemas.host import Applied, Belief, Health, Invalid, RecorderProgress, Setup, SetupRequest
+from schemas.message import Message
+from schemas.sight import Sight
+from schemas.world import BallFrame, RobotFrame, World
+
+
+class Party(StrEnum):
+    """Who speaks and listens on the bus."""
+
+    HOST = "host"
+    ROBOT = "robot"
+    """The robot named in the key."""
+    COACH = "coach"
+    """The coach of the side named in the key; of either side where the key names none."""
+    REFEREE = "referee"
+    RECORDER = "recorder"
+    VIEWER = "viewer"
+
+
+class Delivery(StrEnum):
+    """How a message travels."""
+
+    NEWEST = "newest"
+    """Dropped rather than waited for; a reader that is late gets the newest alone."""
+    EVERY = "every"
+    """Dropped rather than waited for; a reader gets all that arrive, in order."""
+    RECOVERED = "recovered"
+    """As `every`, and what was dropped is fetched again from the writer's cache."""
+    QUERY = "query"
+    """Asked for, and answered."""
+    PRESENCE = "presence"
+    """A liveliness token: it exists while its process does."""
+
+
+@dataclass(frozen=True, slots=True)
+class Topic:
+    """One row of the table."""
+
+    key: str
+    message: type[Message] | None
+    writer: Party
+    readers: tuple[Party, ...]
+    rate: str
+    delivery: Delivery
+    recorded: bool
+    says: str
+    reply: type[Message] | None = None
+
+    @property
+    def chunks(self) -> tuple[str, ...]:
+        """Names of the variable chunks of the key."""
+        return tuple(re.findall(r"{(\w+)}", self.key))
+
+    def fill(self, **chunks: str) -> str:
+        """The key with its chunks filled in; a chunk left out becomes `*`.
+
+        Raises:
+            TouchlineError: a chunk that the key does not have.
+        """
+        for name in chunks:
+            if name not in self.chunks:
+                raise TouchlineError(f"topic {self.key} has no chunk {{{name}}}; {did_you_mean(name, self.chunks)}")
+        return self.key.format_map({name: chunks.get(name, "*") for name in self.chunks})
+
+    def match(self, key: str) -> dict[str, str] | None:
+        """The chunks of a filled-in key, or nothing when the key belongs to another topic."""
+        found = re.fullmatch(re.sub(r"{(\w+)}", r"(?P<\1>[^/]+)", self.key), key)
+        return found.groupdict() if found else None
+
+
+_WATCHERS = (Party.COACH, Party.REFEREE, Party.RECORDER, Party.VIEWER)
+_ALL = (Party.ROBOT, *_WATCHERS)
+_ON_CHANGE = "on change"
+_TICK = "each tick"
+
+WORLD = Topic(
+    "world",
+    World,
+    Party.HOST,
+    _WATCHERS,
+    _TICK,
+    Delivery.RECOVERED,
+    True,
+    "whole truth of one tick, field frame",
+)
+WORLD_ROBOT = Topic(
+    "world/{robot}",
+    RobotFrame,
+    Party.HOST,
+    _WATCHERS,
+    "each tick while somebody listens",
+    Delivery.NEWEST,
+    False,
+    "truth of one robot; `world` holds the same",
+)
+WORLD_BALL = Topic(
+    "world/ball",
+    BallFrame,
+    Party.HOST,
+    _WATCHERS,
+    "each tick while somebody listens",
+    Delivery.NEWEST,
+    False,
+    "truth of the ball; `world` holds the same",
+)
+SIGHT = Topic(
+    "robot/{robot}/sight",
+    Sight,
+    Party.HOST,
+    (Party.ROBOT, Party.RECORDER),
+    _TICK,
+    Delivery.NEWEST,
+    False,
+    "what this robot perceives, team frame",
+)
+COMMAND = Topic(
+    "robot/{robot}/command",
+    Command,
+    Party.ROBOT,
+    (Party.HOST, Party.RECORDER),
+    "each sight",
+    Delivery.EVERY,
+    True,
+    "what this robot does",
+)
+BELIEF = Topic(
+    "team/{side}/belief/{robot}",
+    Belief,
+    Party.HOST,
+    (Party.COACH, Party.RECORDER),
+    "each word",
+    Delivery.RECOVERED,
+    True,
+    "what this robot last said on the radio",
+)
+ORDER = Topic(
+    "team/{side}/order",
+    CoachOrder,
+    Party.COACH,
+    (Party.HOST, Party.RECORDER),
+    _ON_CHANGE,
+    Delivery.EVERY,
+    True,
+    "the coach's standing order",
+)
+STATE = Topic(
+    "game/state",
+    GameState,
+    Party.HOST,
+    _ALL,
+    "on change, and once a second",
+    Delivery.RECOVERED,
+    True,
+    "phase, side, clock, score",
+)
+EVENT = Topic(
+    "game/event",
+    GameEvent,
+    Party.HOST,
+    _ALL,
+    _ON_CHANGE,
+    Delivery.RECOVERED,
+    True,
+    "goals, stops, restarts, and why",
+)
+ACTION = Topic(
+    "game/action",
+    RefereeAction,
+    Party.COACH,
+    (Party.HOST,),
+    "at will",
+    Delivery.QUERY,
+    False,
+    "a request to the referee: accepted, or refused with the reason",
+    reply=ActionReply,
+)
+SETUP = Topic(
+    "host/setup",
+    SetupRequest,
+    Party.ROBOT,
+    (Party.HOST,),
+    "at start",
+    Delivery.QUERY,
+    False,
+    "how the match is set up: pitch, bodies, limits, rules, names",
+    reply=Setup,
+)
+APPLIED = Topic(
+    "host/applied",
+    Applied,
+    Party.HOST,
+    (Party.RECORDER, Party.VIEWER),
+    _TICK,
+    Delivery.RECOVERED,
+    True,
+    "inputs as applied at this tick, and the hash chain",
+)
+HEALTH = Topic(
+    "host/health",
+    Health,
+    Party.HOST,
+    _ALL,
+    "4 Hz of wall time",
+    Delivery.RECOVERED,
+    True,
+    "real-time factor, late ticks, each agent's answers and losses",
+)
+INVALID = Topic(
+    "host/invalid",
+    Invalid,
+    Party.HOST,
+    (Party.COACH, Party.RECORDER, Party.VIEWER),
+    "each invalid message, at most 50 Hz",
+    Delivery.RECOVERED,
+    True,
+    "a payload that was no valid message, and why",
+)
+PROGRESS = Topic(
+    "record/{name}/progress",
+    RecorderProgress,
+    Party.RECORDER,
+    (Party.HOST, Party.VIEWER),
+    "20 Hz of wall time",
+    Delivery.EVERY,
+    False,
+    "how far a recorder has come",
+)
+ALIVE = Topic(
+    "alive/{kind}/{name}",
+    None,
+    Party.ROBOT,
+    (Party.HOST, *_WATCHERS),
+    "while it lives",
+    Delivery.PRESENCE,
+    False,
+    "liveliness token of a process: host, agent, coach, recorder",
+)
+
+TOPICS: dict[str, Topic] = {
+    "world": WORLD,
+    "world_robot": WORLD_ROBOT,
+    "world_ball": WORLD_BALL,
+    "sight": SIGHT,
+    "command": COMMAND,
+    "belief": BELIEF,
+    "order": ORDER,
+    "state": STATE,
+    "event": EVENT,
+    "action": ACTION,
+    "setup": SETUP,
+    "applied": APPLIED,
+    "health": HEALTH,
+    "invalid": INVALID,
+    "progress": PROGRESS,
+    "alive": ALIVE,
+}
+"""Topic name → its row."""
+
+
+def root(match: str) -> str:
+    """What stands before every key of a match."""
+    return f"touchline/{match}/"

@@ -1,0 +1,64 @@
+"""The truth of one tick, in the field frame."""
+
+from schemas.message import Message, Name, Part
+from schemas.side import Side
+
+
+class RobotTruth(Part):
+    """One robot: position of its centre in m, heading in rad, velocities in m/s and rad/s, in the field frame."""
+
+    x: float
+    y: float
+    z: float
+    heading: float
+    vx: float
+    vy: float
+    omega: float
+    holding: bool
+    """It has the ball in hand."""
+    stuck: bool = False
+    """For long it has moved much slower than it was told."""
+    off_field: str | None = None
+    """Why the robot does not take part, or nothing."""
+
+
+class BallTruth(Part):
+    """The ball: position of its centre in m, velocity in m/s, in the field frame."""
+
+    x: float
+    y: float
+    z: float
+    vx: float
+    vy: float
+    vz: float
+
+
+class World(Message):
+    """Everything there is on the field at one tick."""
+
+    tick: int
+    time: float
+    """Simulated time in s: tick × control tick."""
+    robots: dict[Name, RobotTruth]
+    ball: BallTruth
+    possession: Name | None = None
+    """The robot that holds the ball."""
+    clock: float = 0.0
+    """Game clock in s."""
+
+
+class RobotFrame(Message):
+    """The truth of one robot, keyed by its name."""
+
+    tick: int
+    time: float
+    robot: RobotTruth
+    side: Side
+
+
+class BallFrame(Message):
+    """The truth of the ball."""
+
+    tick: int
+    time: float
+    ball: BallTruth
