@@ -1,0 +1,1 @@
+"""What the robots' commands do to the bodies: drive, dribble, kick."""

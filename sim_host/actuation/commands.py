@@ -1,0 +1,33 @@
+"""From commands to inputs: the newest command of each robot counts, until it is too old."""
+
+from collections.abc import Mapping
+
+from schemas.command import Command, Drive
+from schemas.host import AppliedInput
+
+_REST = AppliedInput(drive=Drive(), dribble=False)
+
+
+class Commands:
+    """What each robot was last told, with the watchdog: a command older than its limit brakes the robot to rest.
+
+    A command is as old as the sight it answers, so that a burst of stale ones after a broken link moves nobody.
+    """
+
+    def __init__(self, names: tuple[str, ...], watchdog_ticks: float) -> None:
+        self._names = names
+        self._watchdog = watchdog_ticks
+        self._standing: dict[str, Command] = {}
+
+    def inputs(self, tick: int, fresh: Mapping[str, Command]) -> dict[str, AppliedInput]:
+        """The inputs of this tick; a kick is part of the tick its command arrives in, and of no other."""
+        self._standing.update(fresh)
+        return {name: self._input(name, tick, name in fresh) for name in self._names}
+
+    def _input(self, name: str, tick: int, is_fresh: bool) -> AppliedInput:
+        command = self._standing.get(name)
+        if command is None or tick - command.answers_tick > self._watchdog:
+            return _REST
+        if is_fresh:
+            return AppliedInput(command.drive, command.dribble, command.kick, command.answers_tick)
+        return AppliedInput(command.drive, command.dribble)

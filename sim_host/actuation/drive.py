@@ -1,0 +1,52 @@
+"""The drive of each robot: a velocity demand in the body frame becomes velocities the body can really have.
+
+One control tick is planned at once for all robots: within it the demand does not change. Speed and acceleration
+limits hold in the body frame, where the wheels are, and a limit that bites keeps the direction of what it limits.
+Planar vectors are complex numbers, x + iy: turning is multiplying.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from schemas.profile import Drive
+
+Floats = NDArray[np.float64]
+Vectors = NDArray[np.complex128]
+Flags = NDArray[np.bool_]
+
+_TINY = 1e-12
+"""m/s; keeps directions of nothing finite."""
+
+
+class DrivePlanner:
+    """Plans the velocities of all robots over the physics steps of one tick."""
+
+    def __init__(self, limits: Drive, step: float, steps: int) -> None:
+        self._limits = limits
+        self._elapsed = step * np.arange(1, steps + 1)[:, None]
+        self._gain = limits.acceleration * self._elapsed
+        self._turn = limits.turn_acceleration * self._elapsed
+        self._kept = 1.0 - limits.acceleration / limits.deceleration
+
+    def velocities(self, now: Vectors, demand: Vectors) -> Vectors:
+        """Body velocities after each step, shape (steps, n), from those now toward the demanded ones; all in m/s.
+
+        A demand beyond top speed is shortened. Speed against the direction of the change is lost at the deceleration
+        limit, and only then speed is gained at the acceleration limit.
+        """
+        limits = self._limits
+        wanted = demand * np.minimum(1.0, limits.max_speed / (np.abs(demand) + _TINY))
+        change = wanted - now
+        size = np.abs(change)
+        direction = change / (size + _TINY)
+        to_lose = np.maximum(-(now * direction.conj()).real, 0.0)
+        done = np.minimum(limits.deceleration * self._elapsed, self._gain + self._kept * to_lose)
+        after: Vectors = now + np.minimum(done, size) * direction
+        return after
+
+    def turn_rates(self, now: Floats, demand: Floats) -> Floats:
+        """Turn rates after each step, shape (steps, n), from those now toward the demanded ones; all in rad/s."""
+        top = self._limits.max_turn_rate
+        change = np.minimum(np.maximum(demand, -top), top) - now
+        after: Floats = now + np.minimum(np.maximum(change, -self._turn), self._turn)
+        return after

@@ -1,0 +1,36 @@
+"""Who holds the ball: the hold condition of each robot, and a fair decision between several."""
+
+import math
+from collections.abc import Iterable
+
+from schemas.profile import Dribble
+from sim_host.snapshot import BallState, RobotState
+
+FAIR = 0.005
+"""m; two robots whose distances to the ball differ by less are equally near, and neither gets it."""
+
+
+def can_hold(robot: RobotState, ball: BallState, dribble: Dribble) -> bool:
+    """The hold condition, on the truth: distance, cone about the kick axis, height (paper, section III B 2)."""
+    if ball.z > dribble.max_ball_height:
+        return False
+    dx, dy = ball.x - robot.x, ball.y - robot.y
+    if math.hypot(dx, dy) > dribble.distance:
+        return False
+    bearing = math.atan2(dy, dx) - robot.heading
+    return abs(math.remainder(bearing, 2.0 * math.pi)) <= dribble.cone / 2.0
+
+
+def holder(claims: Iterable[int], robots: tuple[RobotState, ...], ball: BallState, dribble: Dribble) -> int | None:
+    """The robot that holds the ball among those that want to: the nearest that can, nobody when two are equally near.
+
+    The same for both sides and any order of robots: the ball between two equal claims is left to the contacts.
+    """
+    near = sorted(
+        (math.hypot(ball.x - robots[i].x, ball.y - robots[i].y), i)
+        for i in claims
+        if can_hold(robots[i], ball, dribble)
+    )
+    if not near or (len(near) > 1 and near[1][0] - near[0][0] < FAIR):
+        return None
+    return near[0][1]

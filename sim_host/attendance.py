@@ -1,0 +1,63 @@
+"""Who is there: agents and recorders come and go by their liveliness tokens, and recorders tell how far they are."""
+
+from schemas.bus.contract import Bus, Presence
+from schemas.message import BadMessageError
+from schemas.topics import PROGRESS
+from sim_host.inbox import Ledger
+
+WINDOW = 250
+"""Ticks; a lockstep host runs this far ahead of a recorder at most, well within what its writers keep for recovery."""
+
+
+class Attendance:
+    """Presence of agents and recorders."""
+
+    def __init__(self, bus: Bus, ledgers: dict[str, Ledger]) -> None:
+        self._watch = bus.watch_alive()
+        self._progress = bus.subscribe(PROGRESS)
+        self._ledgers = ledgers
+        self.recorders: dict[str, int] = {}
+        """Recorder → the newest tick it has taken in."""
+
+    def update(self, timeout: float = 0.0) -> list[Presence]:
+        """Take in what has changed, waiting up to `timeout` s for it; returns the agents that came or went."""
+        changed = []
+        presence = self._watch.receive(timeout)
+        while presence is not None:
+            if presence.kind == "agent" and presence.name in self._ledgers:
+                self._ledgers[presence.name].alive = presence.alive
+                self._ledgers[presence.name].silent = 0
+                changed.append(presence)
+            elif presence.kind == "recorder":
+                self._recorder(presence)
+            presence = self._watch.receive(0.0)
+        self.hear_recorders(0.0)
+        return changed
+
+    def hear_recorders(self, timeout: float) -> None:
+        """Take in how far the recorders are, waiting up to `timeout` s for word of it."""
+        received = self._progress.receive(timeout)
+        while received is not None:
+            name = received.chunks["name"]
+            try:
+                tick = received.message().tick
+            except BadMessageError:
+                tick = None
+            if tick is not None and name in self.recorders:
+                self.recorders[name] = max(self.recorders[name], tick)
+            received = self._progress.receive(0.0)
+
+    def _recorder(self, presence: Presence) -> None:
+        if presence.alive:
+            self.recorders[presence.name] = -1
+        else:
+            self.recorders.pop(presence.name, None)
+
+    def all_here(self, wait_for_recorder: bool) -> bool:
+        """Every robot's agent is there, and a recorder where one is waited for."""
+        agents = all(ledger.alive for ledger in self._ledgers.values())
+        return agents and (bool(self.recorders) or not wait_for_recorder)
+
+    def behind(self, tick: int) -> dict[str, int]:
+        """How many ticks each recorder is behind."""
+        return {name: max(0, tick - newest) for name, newest in self.recorders.items()}

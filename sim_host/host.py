@@ -1,0 +1,136 @@
+"""The host of one match: the simulation on the bus, tick by tick, at its pace."""
+
+from schemas.bus.contract import Bus
+from schemas.game import EventKind, GameEvent
+from schemas.match_config import MatchConfig
+from schemas.profile import Profile
+from sim_host.attendance import Attendance
+from sim_host.complaints import Complaints
+from sim_host.desk import Desk
+from sim_host.inbox import Inbox
+from sim_host.outbox import Outbox
+from sim_host.pace import Lockstep, Pace, Realtime
+from sim_host.pulse import Pulse
+from sim_host.simulation import Simulation, Tick
+
+_PARTING_S = 5.0
+"""Wall time that the host waits at the end for its recorders to take in the last tick."""
+
+
+class Host:
+    """A match that agents, coaches and recorders meet in."""
+
+    def __init__(self, config: MatchConfig, bus: Bus) -> None:
+        self.simulation = Simulation(config)
+        self._complaints = Complaints()
+        self.inbox = Inbox(bus, self.simulation.roster, self._complaints)
+        self.attendance = Attendance(bus, self.inbox.ledgers)
+        self._config = config
+        self._clock = bus.clock
+        self._desk = Desk(bus, self.simulation, self._complaints)
+        self.pace = _pace(config, bus, self.inbox, self.attendance, self._desk, self.simulation.profile)
+        self._outbox = Outbox(bus, self.simulation.roster, self.simulation.profile.time.tick)
+        self._pulse = Pulse(bus.clock, config.pace)
+        self._silent = dict.fromkeys(self.simulation.roster.names, False)
+        self._stamp(0)
+        bus.declare_alive("host", "host")
+
+    def run(self) -> None:
+        """Play the match to its end."""
+        self.wait_for_all()
+        self.begin()
+        while not self.simulation.over:
+            self.tick()
+        self.part()
+
+    def wait_for_all(self) -> None:
+        """Wait until every robot has an agent, as long as patience lasts; a referee action ends the waiting too."""
+        deadline = self._clock.now() + self._config.patience.attendance
+        while not self.attendance.all_here(self._config.record.wait) and self._clock.now() < deadline:
+            self.attendance.update(timeout=0.02)
+            self._desk.attend()
+            self._report(self.simulation.now)
+            if self._desk.actions:
+                return
+
+    def begin(self) -> None:
+        """Tell everyone of tick 0."""
+        first = self.simulation.now
+        for robot, sight in first.sights.items():
+            self._send_sight(robot, sight)
+        self._outbox.truth(first, self.simulation.state)
+        self.pace.begin()
+
+    def tick(self) -> Tick:
+        """One tick: hear the robots, move the world, tell everyone."""
+        commands = self.pace.gather(self.simulation.now.tick, self._outbox.sight_again)
+        self.attendance.update()
+        self._desk.attend()
+        self._stamp(self.simulation.now.tick + 1)
+        tick = self.simulation.step(commands, self._desk.actions, self._send_sight)
+        self._outbox.truth(tick, self.simulation.state)
+        self._desk.reply(tick.replies)
+        self._keep_account(tick)
+        self._report(tick)
+        return tick
+
+    def part(self) -> None:
+        """Give the recorders time to take in the last tick."""
+        last = self.simulation.now.tick
+        deadline = self._clock.now() + _PARTING_S
+        while self._clock.now() < deadline:
+            self.attendance.update(timeout=0.005)
+            self._desk.attend()
+            self._desk.refuse("the match is over")
+            if not any(self.attendance.behind(last).values()):
+                return
+
+    def _send_sight(self, robot: str, sight: bytes) -> None:
+        """Sights go out before anything else: robots wait for them, watchers do not."""
+        if robot == self.simulation.roster.names[0]:
+            self.inbox.sights_sent(self.simulation.world.tick, self._clock.unix_ns())
+        self._outbox.sight(robot, sight)
+
+    def _stamp(self, tick: int) -> None:
+        """What is sent from now on belongs to this tick."""
+        self._clock.sim_ns = round(tick * self.simulation.profile.time.tick * 1e9)
+
+    def _keep_account(self, tick: Tick) -> None:
+        """Note what was refused, and say when a robot falls silent or is heard again."""
+        for name, count in tick.refused.items():
+            self.inbox.ledgers[name].refused += count
+        for name, ledger in self.inbox.ledgers.items():
+            was_silent = self._silent[name]
+            fell = not ledger.alive or ledger.silent >= self.pace.silent_ticks
+            silent = fell or (was_silent and not ledger.answering)
+            if silent == was_silent:
+                continue
+            self._silent[name] = silent
+            text = f"{name} does not answer, its robot rests" if silent else f"{name} answers"
+            self._outbox.event(
+                GameEvent(
+                    tick=tick.tick,
+                    time=tick.time,
+                    clock=self.simulation.state.clock,
+                    kind=EventKind.AGENT,
+                    rule="attendance",
+                    side=self.simulation.roster.side_of(name),
+                    robot=name,
+                    text=text,
+                )
+            )
+
+    def _report(self, tick: Tick) -> None:
+        """Say how the host is doing, when it is time to, and of one invalid payload at most: a flood is not echoed."""
+        invalid = self._complaints.take(tick.tick, tick.time)
+        if invalid is not None:
+            self._outbox.invalid(invalid)
+        if self._pulse.beat(tick.time):
+            late = self.pace.late_ticks
+            self._outbox.health(self._pulse.report(tick.tick, tick.time, late, self.inbox, self.attendance))
+
+
+def _pace(config: MatchConfig, bus: Bus, inbox: Inbox, attendance: Attendance, desk: Desk, profile: Profile) -> Pace:
+    if config.speed is None:
+        return Lockstep(bus.clock, inbox, attendance, config.patience, desk.tell_setup)
+    return Realtime(bus.clock, inbox, profile.time.tick, config.speed, profile.safety.watchdog)

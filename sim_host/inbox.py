@@ -1,0 +1,141 @@
+"""What robots say to the host: commands are taken in, checked and counted; nothing they send can stop the host."""
+
+from collections import deque
+from collections.abc import Container
+from dataclasses import dataclass, field
+from itertools import chain, repeat
+from statistics import median
+
+from schemas.bus.contract import Bus, Received
+from schemas.command import Command
+from schemas.host import RobotHealth
+from schemas.message import BadMessageError
+from schemas.topics import COMMAND
+from sim_host.complaints import Complaints
+from sim_host.snapshot import Roster
+
+SILENT_TICKS = 3
+"""A robot that missed this many ticks in a row is not waited for until it is heard again."""
+_STRANGERS = 100
+"""Keys of strangers that are counted by name; a flood of invented names must not fill the memory."""
+_AT_ONCE = 1000
+"""Useless messages taken in before the host goes on with its work: a flood must not hold it."""
+_LATENCIES = 50
+"""Answers that the median latency is taken over: one second of ticks."""
+
+
+@dataclass(slots=True)
+class Ledger:
+    """The account of one robot's agent: what it answered, missed, sent twice or wrongly."""
+
+    alive: bool = False
+    answering: bool = False
+    answers: int = 0
+    missed: int = 0
+    duplicates: int = 0
+    invalid: int = 0
+    refused: int = 0
+    silent: int = 0
+    """Ticks missed in a row."""
+    newest: int = -1
+    """Tick of the newest sight it has answered."""
+    latencies: deque[float] = field(default_factory=lambda: deque(maxlen=_LATENCIES))
+
+    @property
+    def is_silent(self) -> bool:
+        """Not worth waiting for: gone, or without an answer to several ticks."""
+        return not self.alive or self.silent >= SILENT_TICKS
+
+    def end_tick(self, answered: bool) -> None:
+        """A tick went by, with its answer or without."""
+        self.answering = answered
+        if answered:
+            self.silent = 0
+        else:
+            self.missed += 1
+            self.silent += 1
+
+    def heard(self) -> None:
+        """Something valid came from it, be it too late: one that was given up gets another tick of waiting."""
+        self.silent = min(self.silent, SILENT_TICKS - 1)
+
+    def health(self) -> RobotHealth:
+        """The account as it is published."""
+        return RobotHealth(
+            alive=self.alive,
+            answering=self.answering,
+            answers=self.answers,
+            missed=self.missed,
+            duplicates=self.duplicates,
+            invalid=self.invalid,
+            refused=self.refused,
+            latency_ms=round(median(self.latencies) * 1e3, 3) if self.latencies else None,
+        )
+
+
+class Inbox:
+    """The commands of all robots."""
+
+    def __init__(self, bus: Bus, roster: Roster, complaints: Complaints) -> None:
+        self._commands = bus.subscribe(COMMAND)
+        self._complaints = complaints
+        self.ledgers = {name: Ledger() for name in roster.names}
+        self.strangers: dict[str, int] = {}
+        self._sent_at: deque[tuple[int, int]] = deque(maxlen=_LATENCIES)
+
+    def sights_sent(self, tick: int, unix_ns: int) -> None:
+        """Remember when the sights of a tick went out, for the latency of their answers."""
+        self._sent_at.append((tick, unix_ns))
+
+    def take(self, tick: int, timeout: float) -> tuple[str, Command] | None:
+        """The next valid command that answers this tick or an earlier one not answered yet; nothing after `timeout` s.
+
+        Everything else is counted on its sender's account and forgotten.
+        """
+        for wait in chain((timeout,), repeat(0.0, _AT_ONCE)):
+            received = self._commands.receive(wait)
+            if received is None:
+                return None
+            taken = self._judge(received, tick)
+            if taken is not None:
+                return taken
+        return None
+
+    def end_tick(self, answered: Container[str]) -> None:
+        """A tick went by with the answers of these robots."""
+        for name, ledger in self.ledgers.items():
+            ledger.end_tick(name in answered)
+
+    def _judge(self, received: Received, tick: int) -> tuple[str, Command] | None:
+        name = received.key.split("/")[1]
+        ledger = self.ledgers.get(name)
+        if ledger is None:
+            self._stranger(received)
+            return None
+        try:
+            command: Command = received.message()
+            if command.answers_tick > tick:
+                raise BadMessageError(f"Command: answers_tick is {command.answers_tick}, the newest sight is {tick}")
+        except BadMessageError as error:
+            ledger.invalid += 1
+            self._complaints.note(received.key, str(error), received.payload)
+            return None
+        ledger.heard()
+        if command.answers_tick <= ledger.newest:
+            ledger.duplicates += 1
+            return None
+        ledger.newest = command.answers_tick
+        ledger.answers += 1
+        self._note_latency(ledger, command.answers_tick, received.arrived_ns)
+        return name, command
+
+    def _stranger(self, received: Received) -> None:
+        key = received.key if received.key in self.strangers or len(self.strangers) < _STRANGERS else "others"
+        self.strangers[key] = self.strangers.get(key, 0) + 1
+        self._complaints.note(received.key, "no robot of this match has that name", received.payload)
+
+    def _note_latency(self, ledger: Ledger, tick: int, arrived_ns: int) -> None:
+        for sent_tick, sent_ns in reversed(self._sent_at):
+            if sent_tick == tick and arrived_ns:
+                ledger.latencies.append((arrived_ns - sent_ns) * 1e-9)
+                return

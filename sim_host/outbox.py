@@ -1,0 +1,89 @@
+"""What the host says: one writer per key, each message encoded once."""
+
+from typing import Any
+
+from schemas.bus.contract import Bus, Publisher
+from schemas.game import GameEvent
+from schemas.host import Health, Invalid
+from schemas.side import Side
+from schemas.topics import APPLIED, BELIEF, EVENT, HEALTH, INVALID, SIGHT, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
+from sim_host.referee.state import RefereeState
+from sim_host.simulation import Tick
+from sim_host.snapshot import Roster
+
+_LOOK_EVERY = 50
+"""Ticks between two looks for listeners of single bodies."""
+_STATE_S = 1.0
+"""Simulated time after which the state of the game is said again."""
+
+
+class Outbox:
+    """All writers of the host."""
+
+    def __init__(self, bus: Bus, roster: Roster, tick_s: float) -> None:
+        self._roster = roster
+        self._world = bus.publisher(WORLD)
+        self._applied = bus.publisher(APPLIED)
+        self._state = bus.publisher(STATE)
+        self._event = bus.publisher(EVENT)
+        self._health = bus.publisher(HEALTH)
+        self._invalid = bus.publisher(INVALID)
+        self._ball = bus.publisher(WORLD_BALL)
+        self._sights = {name: bus.publisher(SIGHT, robot=name) for name in roster.names}
+        self._robots = {name: bus.publisher(WORLD_ROBOT, robot=name) for name in roster.names}
+        self._beliefs = {
+            name: bus.publisher(BELIEF, side=side.value, robot=name)
+            for name, side in zip(roster.names, roster.sides, strict=True)
+        }
+        self._sent: dict[str, bytes] = {}
+        self._wanted: list[tuple[Publisher, str | None]] = []
+        self._said: tuple[Any, ...] = ()
+        self._state_every = round(_STATE_S / tick_s)
+
+    def sight(self, robot: str, sight: bytes) -> None:
+        """Send a robot what it perceives."""
+        self._sights[robot].put_payload(sight)
+        self._sent[robot] = sight
+
+    def sight_again(self, robot: str) -> None:
+        """Send one robot its newest sight once more."""
+        self._sights[robot].put_payload(self._sent[robot])
+
+    def truth(self, tick: Tick, state: RefereeState) -> None:
+        """Send world, inputs, words, events, and the game's state when it changed or once a second."""
+        for event in tick.events:
+            self._event.put(event)
+        news = (state.phase, state.side, state.running, state.half, state.score, state.cyan_attacks, state.spot)
+        if news != self._said or tick.tick % self._state_every == 0:
+            self._state.put(state.game_state(tick.tick, tick.time))
+            self._said = news
+        for _, robot, fields in tick.beliefs:
+            self._beliefs[robot].put_fields(fields)
+        self._world.put_fields(tick.world)
+        self._applied.put_fields(tick.applied)
+        self._bodies(tick)
+
+    def event(self, event: GameEvent) -> None:
+        """Send an event that is not the referee's."""
+        self._event.put(event)
+
+    def health(self, health: Health) -> None:
+        """Send how the host is doing."""
+        self._health.put(health)
+
+    def invalid(self, invalid: Invalid) -> None:
+        """Send word of a payload that was no valid message."""
+        self._invalid.put(invalid)
+
+    def _bodies(self, tick: Tick) -> None:
+        """Send single bodies to those who listen for them."""
+        if tick.tick % _LOOK_EVERY == 0:
+            pairs = [(self._ball, None), *((writer, name) for name, writer in self._robots.items())]
+            self._wanted = [(writer, name) for writer, name in pairs if writer.wanted()]
+        for writer, name in self._wanted:
+            head: dict[str, Any] = {"tick": tick.tick, "time": tick.time}
+            if name is None:
+                writer.put_fields({**head, "ball": tick.world["ball"]})
+            else:
+                side: Side = self._roster.side_of(name)
+                writer.put_fields({**head, "robot": tick.world["robots"][name], "side": side})

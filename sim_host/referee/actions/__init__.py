@@ -1,0 +1,64 @@
+"""The actions that people, coaches and the referee box may ask for; a new action is a file and a row."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from schemas.game import ActionName, ActionReply, EventKind, RefereeAction
+from sim_host.referee.actions import (
+    corner,
+    drop_ball,
+    end_game,
+    end_half,
+    free_kick,
+    goal,
+    goal_kick,
+    kick_off,
+    penalty,
+    place_ball,
+    start,
+    stop,
+    throw_in,
+)
+from sim_host.referee.turn import Turn
+from sim_host.referee.wording import at, spoken
+
+
+@dataclass(frozen=True, slots=True)
+class Action:
+    """One row: the reason against it in this turn, if there is one, and what it does."""
+
+    why_illegal: Callable[[Turn, RefereeAction], str | None]
+    apply: Callable[[Turn, RefereeAction], None]
+
+
+ACTIONS: Mapping[ActionName, Action] = {
+    ActionName.START: Action(start.why_illegal, start.apply),
+    ActionName.STOP: Action(stop.why_illegal, stop.apply),
+    ActionName.KICK_OFF: Action(kick_off.why_illegal, kick_off.apply),
+    ActionName.FREE_KICK: Action(free_kick.why_illegal, free_kick.apply),
+    ActionName.GOAL_KICK: Action(goal_kick.why_illegal, goal_kick.apply),
+    ActionName.THROW_IN: Action(throw_in.why_illegal, throw_in.apply),
+    ActionName.CORNER: Action(corner.why_illegal, corner.apply),
+    ActionName.PENALTY: Action(penalty.why_illegal, penalty.apply),
+    ActionName.DROP_BALL: Action(drop_ball.why_illegal, drop_ball.apply),
+    ActionName.PLACE_BALL: Action(place_ball.why_illegal, place_ball.apply),
+    ActionName.GOAL: Action(goal.why_illegal, goal.apply),
+    ActionName.END_HALF: Action(end_half.why_illegal, end_half.apply),
+    ActionName.END_GAME: Action(end_game.why_illegal, end_game.apply),
+}
+"""Name → what it needs and does."""
+
+
+def obey(turn: Turn, action: RefereeAction) -> ActionReply:
+    """Do what is asked, or refuse it with the reason."""
+    row = ACTIONS[action.action]
+    reason = row.why_illegal(turn, action)
+    if reason is not None:
+        return ActionReply(accepted=False, reason=f"{action.action}: {reason}")
+    place = (action.place.x, action.place.y) if action.place is not None else None
+    owner = f" for {action.side}" if action.side is not None else ""
+    where = f" at {at(place)}" if place is not None else ""
+    asked = f"{action.source} asks: {spoken(action.action)}{owner}{where}"
+    turn.say(EventKind.ACTION, action.action, asked, side=action.side, robot=action.robot, place=place)
+    row.apply(turn, action)
+    return ActionReply(accepted=True)

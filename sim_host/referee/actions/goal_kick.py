@@ -1,0 +1,15 @@
+"""Goal kick for a side: at the restart marker of its half nearest to the ball or to the place named."""
+
+from schemas.game import Phase, RefereeAction
+from sim_host.referee.actions import ordered_restart
+from sim_host.referee.turn import Turn
+
+
+def why_illegal(turn: Turn, action: RefereeAction) -> str | None:
+    """A reason against it, or nothing."""
+    return ordered_restart.why_illegal(turn, action, Phase.GOAL_KICK)
+
+
+def apply(turn: Turn, action: RefereeAction) -> None:
+    """Order it."""
+    ordered_restart.apply(turn, action, Phase.GOAL_KICK)

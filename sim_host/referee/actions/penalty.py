@@ -1,0 +1,15 @@
+"""Penalty for a side: from the penalty mark of the end it attacks."""
+
+from schemas.game import Phase, RefereeAction
+from sim_host.referee.actions import ordered_restart
+from sim_host.referee.turn import Turn
+
+
+def why_illegal(turn: Turn, action: RefereeAction) -> str | None:
+    """A reason against it, or nothing."""
+    return ordered_restart.why_illegal(turn, action, Phase.PENALTY)
+
+
+def apply(turn: Turn, action: RefereeAction) -> None:
+    """Order it."""
+    ordered_restart.apply(turn, action, Phase.PENALTY)

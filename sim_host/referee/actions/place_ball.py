@@ -1,0 +1,36 @@
+"""Place the ball: sets it down while the game is halted, and moves the spot of the restart that is due or signalled."""
+
+import dataclasses
+
+from schemas.game import Phase, RefereeAction
+from sim_host.referee.actions.legality import FIXED, a_place, bad_place, no_half
+from sim_host.referee.state import Restart
+from sim_host.referee.turn import Turn
+
+
+def why_illegal(turn: Turn, action: RefereeAction) -> str | None:
+    """A reason against it, or nothing."""
+    if turn.state.running:
+        return "the game is running; stop it first"
+    if action.place is None:
+        return "no place is named; name x and y in m, field frame"
+    due = _due(turn)
+    fixed = a_place(action, due.phase) if due is not None and due.phase in FIXED else None
+    return no_half(turn) or fixed or bad_place(turn, action)
+
+
+def apply(turn: Turn, action: RefereeAction) -> None:
+    """Set the ball down; robots get their whole time to take positions around the new spot."""
+    if action.place is None:
+        return
+    spot = (action.place.x, action.place.y)
+    turn.place_ball(spot)
+    if turn.state.pending is not None:
+        turn.state = dataclasses.replace(turn.state, pending=turn.state.pending._replace(spot=spot))
+    elif turn.state.phase is not Phase.STOPPED:
+        turn.state = dataclasses.replace(turn.state, spot=spot, timer=0.0)
+
+
+def _due(turn: Turn) -> Restart | None:
+    """The restart that will be, or is, signalled."""
+    return turn.state.pending or turn.state.restart

@@ -1,0 +1,19 @@
+"""The penalty and goal areas; `end` is the sign of the x of the goal they lie before."""
+
+from schemas.profile import Field
+
+
+def in_penalty_area(pitch: Field, end: int, x: float, y: float, margin: float = 0.0) -> bool:
+    """Whether a point in m lies in the penalty area of that end, grown by `margin` in m."""
+    depth, width = pitch.penalty_area_depth, pitch.penalty_area_width
+    return x * end > pitch.goal_line - depth - margin and abs(y) < width / 2 + margin
+
+
+def in_goal_area(pitch: Field, end: int, x: float, y: float) -> bool:
+    """Whether a point in m lies in the goal area of that end."""
+    return x * end > pitch.goal_line - pitch.goal_area_depth and abs(y) < pitch.goal_area_width / 2
+
+
+def in_a_penalty_area(pitch: Field, x: float, y: float) -> bool:
+    """Whether a point in m lies in either penalty area."""
+    return in_penalty_area(pitch, 1 if x > 0 else -1, x, y)

@@ -1,0 +1,24 @@
+"""Stalled ball: nobody has moved the ball in play for long, so it is dropped."""
+
+from schemas.game import EventKind, Phase
+from sim_host.referee.decision import Decision
+from sim_host.referee.restart import reached
+from sim_host.referee.scene import Scene
+from sim_host.referee.spots import restart_at
+from sim_host.referee.wording import at
+
+
+def judge(scene: Scene) -> Decision | None:
+    """A drop ball where the ball lies, out of a penalty area at the nearest restart spot, or nothing."""
+    still = scene.state.still
+    if not reached(still, scene.match.book.stall.still_duration):
+        return None
+    ball = scene.snapshot.ball
+    place = (ball.x, ball.y)
+    return Decision(
+        kind=EventKind.STALL,
+        text=f"ball stalled for {still:.1f} s at {at(place)}",
+        restart=restart_at(scene.match, scene.state, Phase.DROP_BALL, None, place),
+        robot=scene.snapshot.possession,
+        place=place,
+    )

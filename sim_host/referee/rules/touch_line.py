@@ -1,0 +1,16 @@
+"""Ball over the touch line: a throw-in for the opponents of the robot that touched it last."""
+
+from schemas.game import Phase
+from sim_host.referee.decision import Decision
+from sim_host.referee.rules.out import ball_out
+from sim_host.referee.scene import Line, Scene
+
+
+def judge(scene: Scene) -> Decision | None:
+    """A throw-in at the crossing point, a drop ball there when nobody touched the ball, or nothing."""
+    crossing, robot = scene.crossing, scene.state.last_touch
+    if crossing is None or crossing.line is not Line.TOUCH:
+        return None
+    if robot is None:
+        return ball_out(scene, crossing, Phase.DROP_BALL, None)
+    return ball_out(scene, crossing, Phase.THROW_IN, scene.match.roster.side_of(robot).opponent)

@@ -1,0 +1,77 @@
+"""What the rules look at in one tick: the state with timers moved on, the snapshot, and the line that was crossed."""
+
+import dataclasses
+from enum import Enum
+from typing import NamedTuple
+
+from schemas.game import Phase
+from sim_host.referee.match import Match
+from sim_host.referee.state import RefereeState
+from sim_host.snapshot import BallState, Snapshot
+
+
+class Line(Enum):
+    """A line that bounds the field."""
+
+    TOUCH = "touch line"
+    GOAL = "goal line"
+
+
+class Crossing(NamedTuple):
+    """The ball's centre, in m, at the moment when the whole ball had passed a line."""
+
+    line: Line
+    x: float
+    y: float
+    z: float
+
+
+class Scene(NamedTuple):
+    """One tick as the rules see it."""
+
+    match: Match
+    state: RefereeState
+    snapshot: Snapshot
+    crossing: Crossing | None
+
+
+def look(match: Match, state: RefereeState, snapshot: Snapshot, dt: float) -> Scene:
+    """The scene of this tick: clock and timers moved on by `dt` in s, touches and stillness of the ball taken in."""
+    ball = snapshot.ball
+    now = ball[:3]
+    clock = min(state.clock + dt, state.half_limit) if state.clock_runs else state.clock
+    slow = state.phase is Phase.PLAY and _is_still(ball, match.book.stall.still_speed)
+    moved_on = dataclasses.replace(
+        state,
+        clock=clock,
+        timer=state.timer + dt,
+        still=state.still + dt if slow else 0.0,
+        ball=now,
+        last_touch=snapshot.touches[-1] if snapshot.touches else state.last_touch,
+    )
+    inside = abs(ball.x) <= match.out_x and abs(ball.y) <= match.out_y
+    crossing = None if inside or state.ball is None else crossed(match, state.ball, now)
+    return Scene(match, moved_on, snapshot, crossing)
+
+
+def crossed(match: Match, before: tuple[float, float, float], now: tuple[float, float, float]) -> Crossing | None:
+    """The first line that the ball passed on the straight way from `before` to `now`; nothing if it was out before."""
+    first: tuple[float, Line] | None = None
+    for axis, limit, line in ((0, match.out_x, Line.GOAL), (1, match.out_y, Line.TOUCH)):
+        if abs(before[axis]) > limit:
+            return None
+        if abs(now[axis]) > limit:
+            way = abs(now[axis] - before[axis])
+            edge = limit if now[axis] > 0 else -limit
+            share = abs(edge - before[axis]) / way
+            if first is None or share < first[0]:
+                first = (share, line)
+    if first is None:
+        return None
+    share, line = first
+    x, y, z = (b + share * (n - b) for b, n in zip(before, now, strict=True))
+    return Crossing(line, x, y, z)
+
+
+def _is_still(ball: BallState, speed: float) -> bool:
+    return ball.vx * ball.vx + ball.vy * ball.vy + ball.vz * ball.vz < speed * speed

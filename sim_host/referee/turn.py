@@ -1,0 +1,63 @@
+"""One tick in which something happens: what has been decided in it so far."""
+
+from dataclasses import dataclass, field
+
+from schemas.frames import Pose
+from schemas.game import EventKind, GameEvent, Score
+from schemas.host import Placement
+from schemas.side import Side
+from sim_host.referee.match import Match
+from sim_host.referee.state import RefereeState, Spot, point
+from sim_host.snapshot import Snapshot
+
+
+@dataclass(slots=True)
+class Turn:
+    """Collects what one tick brings; lives no longer than the call of `Referee.step`."""
+
+    match: Match
+    snapshot: Snapshot
+    state: RefereeState
+    events: list[GameEvent] = field(default_factory=list)
+    placements: list[Placement] = field(default_factory=list)
+    checkpoint: bool = False
+
+    def say(
+        self,
+        kind: EventKind,
+        rule: str,
+        text: str,
+        *,
+        side: Side | None = None,
+        robot: str | None = None,
+        place: Spot | None = None,
+        score: Score | None = None,
+    ) -> None:
+        """Add an event of this tick; `rule` is the file name of the rule or action that decided."""
+        event = GameEvent(
+            tick=self.snapshot.tick,
+            time=self.snapshot.time,
+            clock=self.state.clock,
+            kind=kind,
+            rule=rule,
+            side=side,
+            robot=robot,
+            place=point(place),
+            score=score,
+            text=text,
+        )
+        self.events.append(event)
+
+    def place_ball(self, spot: Spot) -> None:
+        """Have the ball set down at rest."""
+        self.placements.append(Placement(body="ball", x=spot[0], y=spot[1]))
+
+    @property
+    def ball_spot(self) -> Spot:
+        """Where the ball lies: where it was set down in this tick, or where it was seen."""
+        down = [(placement.x, placement.y) for placement in self.placements if placement.body == "ball"]
+        return down[-1] if down else (self.snapshot.ball.x, self.snapshot.ball.y)
+
+    def place_robot(self, name: str, pose: Pose) -> None:
+        """Have a robot set down at rest."""
+        self.placements.append(Placement(body=name, x=pose.x, y=pose.y, heading=pose.heading))

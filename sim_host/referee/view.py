@@ -1,0 +1,31 @@
+"""The game as one team sees it, laid out for fast encoding."""
+
+from typing import Any
+
+from schemas.game import Phase, TeamPhase
+from schemas.side import Side
+from sim_host.referee.state import RefereeState
+
+TEAM_PHASES: dict[tuple[Phase, Side | None, Side], str] = {
+    (phase, taker, viewer): TeamPhase.of(phase, taker, viewer).value
+    for phase in Phase
+    for taker in (None, *Side)
+    for viewer in Side
+}
+"""Phase, taker and viewer → the phase's name from the viewer's point of view."""
+
+
+def game_view(state: RefereeState, side: Side) -> dict[str, Any]:
+    """The fields of a `schemas.game.GameView`; `spot` in m, in the side's team frame."""
+    cyan = side is Side.CYAN
+    score, spot = state.score, state.spot
+    attack = state.attack(side)
+    return {
+        "phase": TEAM_PHASES[state.phase, state.side, side],
+        "running": state.running,
+        "half": state.half,
+        "clock": state.clock,
+        "our_score": score.cyan if cyan else score.magenta,
+        "their_score": score.magenta if cyan else score.cyan,
+        "spot": None if spot is None else {"x": attack * spot[0], "y": attack * spot[1]},
+    }

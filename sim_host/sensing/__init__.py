@@ -1,0 +1,1 @@
+"""What robots perceive: truth, plus counter-based noise."""

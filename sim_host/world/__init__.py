@@ -1,0 +1,1 @@
+"""The physical world; the only package that knows PyBullet."""

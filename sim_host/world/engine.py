@@ -1,0 +1,272 @@
+"""The physics engine behind one door: bodies, velocities, steps and contacts; the only module that knows PyBullet.
+
+Robots are upright cylinders that roll on wheels no ground contact could stand for: the engine does not collide them
+with the ground, their weight is carried, and what drives them is set as velocity. They collide with each other,
+the ball, the goals and the boundary.
+"""
+
+import importlib.metadata
+import math
+import struct
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import pybullet
+
+from schemas.frames import wrap
+from schemas.host import Placement
+from schemas.profile import Profile
+from sim_host.actuation.kick import GRAVITY
+from sim_host.snapshot import BallState, RobotState
+from sim_host.world.pitch import Box, boundary, goals
+
+_WALL_RESTITUTION = 0.5
+_NET_RESTITUTION = 0.0
+"""A net takes what speed the ball has against it, and gives no spin."""
+_NO_BOUNCE = 0.2
+"""m/s; a slower impact does not bounce. Gravity alone brings 0.05 m/s in a step: below that a ball never rests."""
+_UPRIGHT = 1e-3
+"""Half the sine of the tilt, and the m of lift, from which a robot is put upright again."""
+_STATE = struct.Struct("<13d")
+
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
+_NOTHING: Vector = (0.0, 0.0, 0.0)
+_NO_TURN: Quaternion = (0.0, 0.0, 0.0, 1.0)
+
+
+class BodyState(NamedTuple):
+    """What determines a body's future: position m, orientation quaternion xyzw, velocity m/s, spin rad/s."""
+
+    position: Vector
+    orientation: Quaternion
+    velocity: Vector
+    spin: Vector
+
+
+class Engine:
+    """One physical world; bodies are addressed by their place in the roster."""
+
+    def __init__(self, profile: Profile, names: Sequence[str]) -> None:
+        self._profile = profile
+        self.names = tuple(names)
+        self.client = pybullet.connect(pybullet.DIRECT)
+        self._lift = GRAVITY * profile.time.physics_step
+        self._height = profile.robot.height / 2
+        self._build()
+
+    def close(self) -> None:
+        """Free the engine's memory."""
+        pybullet.disconnect(self.client)
+
+    def _build(self) -> None:
+        client, profile = self.client, self._profile
+        pybullet.resetSimulation(physicsClientId=client)
+        pybullet.setGravity(0, 0, -GRAVITY, physicsClientId=client)
+        pybullet.setPhysicsEngineParameter(
+            fixedTimeStep=profile.time.physics_step,
+            deterministicOverlappingPairs=1,
+            restitutionVelocityThreshold=_NO_BOUNCE,
+            useSplitImpulse=1,  # a body pushed out of another gains no speed by it
+            physicsClientId=client,
+        )
+        self._ground = self._fixed(
+            pybullet.createCollisionShape(pybullet.GEOM_PLANE, physicsClientId=client), (0, 0, 0)
+        )
+        self._surface(self._ground, friction=1.0, restitution=1.0)
+        for box in boundary(profile.field):
+            self._surface(self._box(box), friction=0.5, restitution=_WALL_RESTITUTION)
+        for goal in goals(profile.field):
+            for box in goal.frame:
+                self._surface(self._box(box), friction=0.5, restitution=1.0)
+            for box in goal.net:
+                self._surface(self._box(box), friction=0.0, restitution=_NET_RESTITUTION)
+        self.robots = [self._robot(place) for place in range(len(self.names))]
+        self.ball = self._ball()
+        self._through: int | None = None
+        self.read()
+
+    def _fixed(self, shape: int, position: Vector) -> int:
+        body: int = pybullet.createMultiBody(0, shape, basePosition=position, physicsClientId=self.client)
+        return body
+
+    def _box(self, box: Box) -> int:
+        half = (box.half_x, box.half_y, box.half_z)
+        shape = pybullet.createCollisionShape(pybullet.GEOM_BOX, halfExtents=half, physicsClientId=self.client)
+        return self._fixed(shape, (box.x, box.y, box.z))
+
+    def _surface(self, body: int, friction: float, restitution: float) -> None:
+        """Bullet multiplies the coefficients of two bodies: the ground's are 1, so that the ball's own count."""
+        pybullet.changeDynamics(
+            body, -1, lateralFriction=friction, restitution=restitution, physicsClientId=self.client
+        )
+
+    def _robot(self, place: int) -> int:
+        robot, client = self._profile.robot, self.client
+        shape = pybullet.createCollisionShape(
+            pybullet.GEOM_CYLINDER, radius=robot.radius, height=robot.height, physicsClientId=client
+        )
+        aside = (3.0 * place, -1000.0, self._height)  # out of everybody's way until it is placed
+        body: int = pybullet.createMultiBody(robot.mass, shape, basePosition=aside, physicsClientId=client)
+        pybullet.changeDynamics(
+            body,
+            -1,
+            localInertiaDiagonal=(robot.inertia_xx, robot.inertia_xx, robot.inertia_zz),
+            linearDamping=0.0,
+            angularDamping=0.0,
+            physicsClientId=client,
+        )
+        self._surface(body, robot.friction, robot.restitution / max(self._profile.ball.restitution, 1e-9))
+        pybullet.setCollisionFilterPair(body, self._ground, -1, -1, 0, physicsClientId=client)
+        return body
+
+    def _ball(self) -> int:
+        ball, client = self._profile.ball, self.client
+        shape = pybullet.createCollisionShape(pybullet.GEOM_SPHERE, radius=ball.radius, physicsClientId=client)
+        body: int = pybullet.createMultiBody(ball.mass, shape, basePosition=(0, 0, ball.radius), physicsClientId=client)
+        pybullet.changeDynamics(
+            body,
+            -1,
+            localInertiaDiagonal=(ball.inertia,) * 3,
+            linearDamping=0.0,
+            angularDamping=0.0,
+            rollingFriction=0.0,
+            spinningFriction=0.0,
+            physicsClientId=client,
+        )
+        self._surface(body, ball.friction, ball.restitution)
+        return body
+
+    def rebuild(self, robots: Sequence[RobotState], ball: BallState) -> None:
+        """Build the world anew with these poses and velocities: robots upright, the ball without spin, held by nobody.
+
+        Its future then depends on these numbers alone: contact caches and warm starts are gone.
+        """
+        self._build()
+        for body, robot in zip(self.robots, robots, strict=True):
+            velocity, spin = (robot.vx, robot.vy, 0.0), (0.0, 0.0, robot.omega)
+            self._put(body, BodyState((robot.x, robot.y, self._height), _upright(robot.heading), velocity, spin))
+        position, velocity = (ball.x, ball.y, ball.z), (ball.vx, ball.vy, ball.vz)
+        self._put(self.ball, BodyState(position, _NO_TURN, velocity, _NOTHING))
+        self.read()
+
+    def _state(self, body: int) -> BodyState:
+        position, orientation = pybullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
+        velocity, spin = pybullet.getBaseVelocity(body, physicsClientId=self.client)
+        return BodyState(position, orientation, velocity, spin)
+
+    def _put(self, body: int, state: BodyState) -> None:
+        pybullet.resetBasePositionAndOrientation(body, state.position, state.orientation, physicsClientId=self.client)
+        pybullet.resetBaseVelocity(body, state.velocity, state.spin, physicsClientId=self.client)
+
+    def place(self, placement: Placement) -> None:
+        """Set a robot or the ball down at rest."""
+        if placement.body == "ball":
+            position = (placement.x, placement.y, self._profile.ball.radius)
+            self._put(self.ball, BodyState(position, _NO_TURN, _NOTHING, _NOTHING))
+            return
+        position = (placement.x, placement.y, self._height)
+        state = BodyState(position, _upright(placement.heading), _NOTHING, _NOTHING)
+        self._put(self.robots[self.names.index(placement.body)], state)
+
+    def read(self) -> None:
+        """Take in the state of all bodies; a robot that was lifted or tipped is put upright first."""
+        self._states = [self._state(body) for body in (*self.robots, self.ball)]
+        for place, body in enumerate(self.robots):
+            position, (qx, qy, qz, qw), velocity, spin = self._states[place]
+            if abs(qx) > _UPRIGHT or abs(qy) > _UPRIGHT or abs(position[2] - self._height) > _UPRIGHT:
+                at, moving = (position[0], position[1], self._height), (velocity[0], velocity[1], 0.0)
+                self._put(body, BodyState(at, _upright(2.0 * math.atan2(qz, qw)), moving, (0.0, 0.0, spin[2])))
+                self._states[place] = self._state(body)
+
+    def robot_states(self, holding: int | None) -> tuple[RobotState, ...]:
+        """All robots, as they were read."""
+        return tuple(_robot_state(state, place == holding) for place, state in enumerate(self._states[:-1]))
+
+    def ball_state(self) -> BallState:
+        """The ball, as it was read."""
+        position, _, velocity, _ = self._states[-1]
+        return BallState(*position, *velocity)
+
+    def packed(self) -> bytes:
+        """What was read, every robot and then the ball, as little-endian doubles: equal bytes, equal worlds."""
+        return b"".join([_STATE.pack(*p, *o, *v, *s) for p, o, v, s in self._states])
+
+    def robot_now(self, place: int) -> RobotState:
+        """One robot between two steps."""
+        return _robot_state(self._state(self.robots[place]), True)
+
+    def ball_now(self) -> BallState:
+        """The ball between two steps."""
+        position, _ = pybullet.getBasePositionAndOrientation(self.ball, physicsClientId=self.client)
+        velocity, _ = pybullet.getBaseVelocity(self.ball, physicsClientId=self.client)
+        return BallState(*position, *velocity)
+
+    def drive(self, velocities: Sequence[tuple[float, float, float]]) -> None:
+        """Set every robot's velocity in the field frame, (vx, vy, omega), for the next step."""
+        lift, client, reset = self._lift, self.client, pybullet.resetBaseVelocity
+        for body, (vx, vy, omega) in zip(self.robots, velocities, strict=True):
+            reset(body, (vx, vy, lift), (0.0, 0.0, omega), physicsClientId=client)
+
+    def move_ball(self, velocity: Vector, spin: Vector) -> None:
+        """Set the ball's velocity and spin."""
+        pybullet.resetBaseVelocity(self.ball, velocity, spin, physicsClientId=self.client)
+
+    def set_ball(self, position: Vector, velocity: Vector, spin: Vector) -> None:
+        """Set the ball's place, velocity and spin."""
+        self._put(self.ball, BodyState(position, _NO_TURN, velocity, spin))
+
+    def push_ball(self, force: Vector, at: Vector) -> None:
+        """Apply a force, N, to the ball's centre `at` for the next step."""
+        pybullet.applyExternalForce(self.ball, -1, force, at, pybullet.WORLD_FRAME, physicsClientId=self.client)
+
+    def let_through(self, robot: int | None) -> None:
+        """Let the ball not collide with this one robot, or collide with all: a held ball lies a little in the hull."""
+        if robot == self._through:
+            return
+        for place, collide in ((self._through, 1), (robot, 0)):
+            if place is not None:
+                pybullet.setCollisionFilterPair(
+                    self.robots[place], self.ball, -1, -1, collide, physicsClientId=self.client
+                )
+        self._through = robot
+
+    def step(self) -> None:
+        """One physics step."""
+        pybullet.stepSimulation(physicsClientId=self.client)
+
+    def ball_contacts(self) -> "BallContacts":
+        """What the ball touched in the last step, beside the ground."""
+        contacts = pybullet.getContactPoints(self.ball, physicsClientId=self.client)
+        if len(contacts) < 2 and (not contacts or contacts[0][2] == self._ground):
+            return _NO_CONTACTS
+        depth = {contact[2]: -contact[8] for contact in contacts if contact[2] != self._ground}
+        robots = [place for place, body in enumerate(self.robots) if body in depth]
+        return BallContacts(robots, max(depth.values(), default=0.0))
+
+
+def _upright(heading: float) -> Quaternion:
+    return (0.0, 0.0, math.sin(heading / 2.0), math.cos(heading / 2.0))
+
+
+def _robot_state(state: BodyState, holding: bool) -> RobotState:
+    (x, y, z), (_, _, qz, qw), (vx, vy, _), (_, _, omega) = state
+    return RobotState(x, y, z, wrap(2.0 * math.atan2(qz, qw)), vx, vy, omega, holding)
+
+
+class BallContacts(NamedTuple):
+    """Robots that touch the ball, in roster order, and how deep it is pressed into any body but the ground, m."""
+
+    robots: list[int]
+    depth: float
+
+
+_NO_CONTACTS = BallContacts([], 0.0)
+
+
+def fingerprint() -> dict[str, str]:
+    """What two machines must share to compute the same world: the engine, and the maths library's answers."""
+    answers = (math.sin(1e5), math.cos(2.5), math.exp(1.1), math.atan2(0.3, -0.7), math.pow(1.1, 7.3), math.log(3.3))
+    version = importlib.metadata.version("pybullet")
+    return {"engine": f"pybullet {version}, api {pybullet.getAPIVersion()}", "libm": struct.pack("<6d", *answers).hex()}

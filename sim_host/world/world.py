@@ -1,0 +1,109 @@
+"""The world over one control tick: inputs become motion, step by step, and a snapshot of what came of it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from hashlib import blake2b
+
+from schemas.host import AppliedInput, Placement
+from schemas.profile import Profile
+from sim_host.actuation.ball_handling import BallHandling, BallReport
+from sim_host.actuation.chassis import Chassis
+from sim_host.snapshot import Roster, Snapshot
+from sim_host.world.engine import Engine
+
+_NOTHING = BallReport()
+
+
+@dataclass(frozen=True, slots=True)
+class Advance:
+    """What one tick brought."""
+
+    snapshot: Snapshot
+    refused: dict[str, str]
+    """Robot → why its kick could not be done."""
+    stuck: list[bool]
+    """Per robot, in the order of the roster."""
+
+
+class World:
+    """All bodies of a match, and what moves them."""
+
+    def __init__(self, profile: Profile, roster: Roster) -> None:
+        self._roster = roster
+        self._tick_s = profile.time.tick
+        self._engine = Engine(profile, roster.names)
+        self._chassis = Chassis(profile, len(roster.names))
+        self._ball = BallHandling(profile, self._engine)
+        self.tick = 0
+        self._chain = b""
+        self._look()
+
+    def close(self) -> None:
+        """Free the engine."""
+        self._engine.close()
+
+    def place(self, placements: Sequence[Placement]) -> None:
+        """Set bodies down at rest, between two ticks."""
+        if not placements:
+            return
+        self._ball.hold(None)
+        for placement in placements:
+            self._engine.place(placement)
+        self._engine.read()
+        self._look()
+        if any(placement.body != "ball" for placement in placements):
+            self._chassis.forget()
+
+    def rebuild(self) -> None:
+        """Make a checkpoint: equal poses and velocities in a world that remembers nothing else."""
+        self._ball.hold(None)
+        self._engine.rebuild(self._robots, self._ball_state)
+        self._chassis.forget()
+        self._look()
+
+    def advance(self, inputs: Mapping[str, AppliedInput]) -> Advance:
+        """One control tick."""
+        engine, ball = self._engine, self._ball
+        ordered = [inputs[name] for name in self._roster.names]
+        report = ball.begin(self._robots, self._ball_state, ordered)
+        for drives in self._chassis.plan(self._robots, ordered):
+            ball.before_step(drives)
+            engine.drive(drives)
+            engine.step()
+            ball.after_step(report)
+        engine.read()
+        self._look()
+        if ball.let_go(self._robots, self._ball_state):
+            self._look()
+        self.tick += 1
+        names = self._roster.names
+        return Advance(
+            snapshot=self.snapshot(report),
+            refused={names[place]: reason for place, reason in report.refused.items()},
+            stuck=self._chassis.stuck(),
+        )
+
+    def snapshot(self, report: BallReport = _NOTHING) -> Snapshot:
+        """Everything there is now; `touches` and `kicked` as the report of the tick tells them."""
+        names, holding = self._roster.names, self._ball.holding
+        last_touches = dict.fromkeys(reversed(report.touches))  # each robot once, where it touched last
+        return Snapshot(
+            tick=self.tick,
+            time=self.tick * self._tick_s,
+            roster=self._roster,
+            robots=self._robots,
+            ball=self._ball_state,
+            possession=None if holding is None else names[holding],
+            touches=tuple([names[place] for place in reversed(last_touches)]),
+            kicked=None if report.kicked is None else names[report.kicked],
+        )
+
+    def _look(self) -> None:
+        """Take the states that the engine has read."""
+        self._robots = self._engine.robot_states(self._ball.holding)
+        self._ball_state = self._engine.ball_state()
+
+    def chain(self) -> str:
+        """Lengthen the hash chain by the state of this tick and return it, hex: equal chains, equal histories."""
+        self._chain = blake2b(self._engine.packed(), key=self._chain, digest_size=32).digest()
+        return self._chain.hex()
