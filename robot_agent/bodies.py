@@ -1,0 +1,81 @@
+"""What moves on the pitch as plain numbers in the team frame, and where it will be a moment later."""
+
+import math
+from typing import NamedTuple
+
+from schemas.host import Setup
+
+
+class Body(NamedTuple):
+    """A robot: m, rad, m/s, rad/s."""
+
+    x: float
+    y: float
+    heading: float
+    vx: float = 0.0
+    vy: float = 0.0
+    omega: float = 0.0
+
+    def after(self, time: float) -> "Body":
+        """Where it is `time` s later if it goes on as it does."""
+        return Body(
+            self.x + self.vx * time,
+            self.y + self.vy * time,
+            self.heading + self.omega * time,
+            self.vx,
+            self.vy,
+            self.omega,
+        )
+
+
+class Ball(NamedTuple):
+    """The ball on the ground: m, m/s."""
+
+    x: float
+    y: float
+    vx: float = 0.0
+    vy: float = 0.0
+
+    def after(self, time: float, deceleration: float) -> "Ball":
+        """Where it is `time` s later if nobody touches it and it loses `deceleration` m/s of speed each second."""
+        speed = math.hypot(self.vx, self.vy)
+        left = speed - deceleration * time
+        if speed < 1e-6:
+            return self
+        if left <= 0.0:
+            way = 0.5 * speed / deceleration
+            return Ball(self.x + self.vx * way, self.y + self.vy * way)
+        way = time * (0.5 * (speed + left)) / speed
+        kept = left / speed
+        return Ball(self.x + self.vx * way, self.y + self.vy * way, self.vx * kept, self.vy * kept)
+
+
+class Limits(NamedTuple):
+    """What the drive can do, and how late a demand acts."""
+
+    speed: float
+    turn_rate: float
+    acceleration: float
+    deceleration: float
+    turn_acceleration: float
+    tick: float
+
+    @classmethod
+    def of(cls, setup: Setup) -> "Limits":
+        """Those of the match."""
+        drive = setup.drive
+        return cls(
+            drive.max_speed,
+            drive.max_turn_rate,
+            drive.acceleration,
+            drive.deceleration,
+            drive.turn_acceleration,
+            setup.time.tick,
+        )
+
+    def capped(self, speed: float | None = None, turn_rate: float | None = None) -> "Limits":
+        """The same drive, told to be slower."""
+        return self._replace(
+            speed=self.speed if speed is None else min(self.speed, speed),
+            turn_rate=self.turn_rate if turn_rate is None else min(self.turn_rate, turn_rate),
+        )

@@ -1,0 +1,191 @@
+"""Runs one brain on the bus: a sight in, a command out, until the host or a person ends it."""
+
+import gc
+import sys
+import traceback
+from collections.abc import Callable
+
+from robot_agent.contract import Brain
+from schemas.bus.contract import Bus, NoAnswerError
+from schemas.command import Command
+from schemas.errors import TouchlineError
+from schemas.host import Setup, SetupRequest
+from schemas.message import BadMessageError
+from schemas.sight import Sight
+from schemas.topics import COMMAND, SETUP, SIGHT
+
+KIND = "agent"
+"""The kind of an agent's liveliness token."""
+HOST_KIND = "host"
+"""The kind of the host's."""
+_IDLE = 0.25
+"""s without a sight after which the host is looked for."""
+_ASK = 1.0
+"""s that one question for the setup stays open."""
+
+
+class BrainError(Exception):
+    """The brain raised, or answered with something that is no command; the cause has the traceback."""
+
+    def report(self) -> str:
+        """For the log: where the brain raised, then at which tick and what, in the last line."""
+        cause = self.__cause__
+        if cause is None:
+            return f"{self}\n"
+        frames = cause.__traceback__.tb_next if cause.__traceback__ is not None else None
+        where = "".join(traceback.format_exception(type(cause), cause, frames))
+        return f"{where}{self}: {type(cause).__name__}: {' '.join(str(cause).split())}\n"
+
+
+class Runner:
+    """Answers the sights of one robot, each once."""
+
+    def __init__(self, bus: Bus, brain: Brain, robot: str) -> None:
+        self.brain = brain
+        self.answered = 0
+        self.repeated = 0
+        """Sights that came again and got the same answer again."""
+        self.invalid = 0
+        """Payloads on the sight's key that were no sight."""
+        self._clock = bus.clock
+        self._sights = bus.subscribe(SIGHT, robot=robot)
+        self._commands = bus.publisher(COMMAND, robot=robot)
+        self._last_tick: int | None = None
+        self._last_answer = b""
+
+    def answer_next(self, timeout: float | None) -> bool:
+        """Answer the newest sight, waiting up to `timeout` s for one (None: for ever); whether one was answered.
+
+        Raises:
+            BrainError: the brain could not answer.
+        """
+        sight = self.next_sight(timeout)
+        if sight is None:
+            return False
+        self.answer(sight)
+        return True
+
+    def next_sight(self, timeout: float | None) -> Sight | None:
+        """The newest sight, waiting up to `timeout` s for one (None: for ever)."""
+        received = self._sights.receive(timeout)
+        if received is None:
+            return None
+        try:
+            return Sight.decode(received.payload)
+        except BadMessageError as error:
+            self._count_invalid(error)
+            return None
+
+    def answer(self, sight: Sight) -> None:
+        """Send the brain's command; a sight that came before gets the same answer as before.
+
+        Raises:
+            BrainError: the brain could not answer.
+        """
+        self._clock.sim_ns = round(sight.time * 1e9)
+        if sight.tick == self._last_tick:
+            self.repeated += 1
+        else:
+            self._last_answer = self._think(sight)
+            self._last_tick = sight.tick
+            self.answered += 1
+        self._commands.put_payload(self._last_answer)
+
+    def forget(self, brain: Brain) -> None:
+        """Begin anew with a new brain: the next sight is of another match, whose ticks begin at 0 again."""
+        self.brain = brain
+        self._last_tick = None
+
+    def _think(self, sight: Sight) -> bytes:
+        try:
+            command = self.brain.act(sight)
+        except Exception as error:
+            raise BrainError(f"act raised at tick {sight.tick}") from error
+        if not isinstance(command, Command):
+            raise BrainError(f"act returned {command!r} at tick {sight.tick}; return a Command")
+        return command.encode()
+
+    def _count_invalid(self, error: BadMessageError) -> None:
+        self.invalid += 1
+        if self.invalid == 1:
+            sys.stderr.write(f"a sight was skipped, as all like it will be: {error}\n")
+
+
+def ask_setup(bus: Bus, patience: float) -> Setup:
+    """How the match is set up; asks until the host answers.
+
+    Raises:
+        TouchlineError: no host for `patience` s of wall time.
+    """
+    clock = bus.clock
+    deadline = clock.now() + patience
+    while True:
+        try:
+            setup: Setup = bus.ask(SETUP, SetupRequest(), timeout=_ASK).result(_ASK + 0.5)
+        except NoAnswerError as error:
+            if clock.now() >= deadline:
+                raise TouchlineError(
+                    f"match {bus.match}: no host told the setup for {patience:g} s ({error}); "
+                    "is --match the name of the match that the host plays?"
+                ) from None
+            clock.sleep_until(clock.now() + 0.1)
+        else:
+            return setup
+
+
+def serve(bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float) -> int:
+    """Run a robot until its host has been gone for `patience` s; the exit status of the process.
+
+    A host that left and is back plays another match, for which the brain is built anew before it sees anything of it.
+
+    Raises:
+        TouchlineError: the brain that `build` makes cannot be made, or there is no host to begin with.
+    """
+    runner = Runner(bus, build(ask_setup(bus, patience)), robot)
+    host = _HostWatch(bus)
+    bus.declare_alive(KIND, robot)
+    gc.collect()
+    gc.freeze()
+    gone_since: float | None = None
+    is_new_match = False
+    while True:
+        sight = runner.next_sight(_IDLE)
+        is_new_match = host.left() or is_new_match
+        if sight is not None and not is_new_match:
+            try:
+                runner.answer(sight)
+            except BrainError as error:
+                sys.stderr.write(error.report())
+                return 1
+        elif host.there():
+            gone_since = None
+            if is_new_match:
+                runner.forget(build(ask_setup(bus, patience)))
+                is_new_match = False
+        elif gone_since is None:
+            gone_since, is_new_match = bus.clock.now(), True
+        elif bus.clock.now() - gone_since >= patience:
+            sys.stderr.write(f"{robot}: the host has been gone for {patience:g} s; leaving\n")
+            return 0
+
+
+class _HostWatch:
+    """Knows whether the host is there: its token, and the link to it."""
+
+    def __init__(self, bus: Bus) -> None:
+        self._bus = bus
+        self._watch = bus.watch_alive()
+        self._hosts: dict[str, bool] = {}
+
+    def left(self) -> bool:
+        """Whether the host went away since this was last asked, be it back by now or not."""
+        left = False
+        while (presence := self._watch.receive()) is not None:
+            if presence.kind == HOST_KIND:
+                left = left or not presence.alive
+                self._hosts[presence.name] = presence.alive
+        return left
+
+    def there(self) -> bool:
+        """Whether it can be reached; a host without a token counts while the link is up."""
+        return self._bus.connected() and (not self._hosts or any(self._hosts.values()))

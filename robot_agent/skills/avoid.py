@@ -1,0 +1,92 @@
+"""Go around what is in the way: the free direction nearest to the wanted one."""
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from robot_agent.bodies import Body, Limits
+from robot_agent.skills.go_to import drive, velocity_to
+from robot_agent.skills.turn_to import turn_rate
+from schemas.command import Drive
+from schemas.frames import wrap
+
+LOOK_AHEAD = 2.0
+"""m; what is farther away than this beyond its own circle is not in the way yet."""
+_MARGIN = 0.02
+"""rad; how far beside a blocked arc a direction counts as free."""
+_MOMENTUM = 0.3
+"""Weight of turning away from the way one already goes, against turning away from the goal."""
+
+
+class Circle(NamedTuple):
+    """A place that the robot's centre shall not enter: m."""
+
+    x: float
+    y: float
+    radius: float
+
+
+def circles(points: Iterable[tuple[float, float]], radius: float) -> list[Circle]:
+    """The same circle around each point."""
+    return [Circle(x, y, radius) for x, y in points]
+
+
+def go_around(me: Body, x: float, y: float, heading: float, blocked: Sequence[Circle], limits: Limits) -> Drive:
+    """Drive to (x, y) around the circles and stop there."""
+    vx, vy = velocity_to(me, x, y, limits)
+    vx, vy = steer(me, vx, vy, math.hypot(x - me.x, y - me.y), blocked)
+    return drive(me, vx, vy, turn_rate(me, heading, limits), limits)
+
+
+def steer(me: Body, vx: float, vy: float, distance: float, blocked: Sequence[Circle]) -> tuple[float, float]:
+    """The velocity turned into the nearest direction that is free for `distance` m; the speed stays."""
+    speed = math.hypot(vx, vy)
+    if speed < 1e-6:
+        return vx, vy
+    wanted = math.atan2(vy, vx)
+    direction = free_direction(me, wanted, distance, blocked)
+    if direction == wanted:
+        return vx, vy
+    return speed * math.cos(direction), speed * math.sin(direction)
+
+
+def free_direction(me: Body, wanted: float, distance: float, blocked: Sequence[Circle]) -> float:
+    """The direction nearest to `wanted` that enters no circle; `wanted` itself when every direction is blocked.
+
+    A robot inside a circle may leave it: at its edge sideways, the more outward the deeper it is inside.
+    """
+    if not any(_enters(me, wanted, distance, circle) for circle in blocked):
+        return wanted
+    arcs = _arcs(me, distance, blocked)
+    moving = math.atan2(me.vy, me.vx) if math.hypot(me.vx, me.vy) > 0.3 else wanted
+    best, least = wanted, math.inf
+    for middle, half in arcs:
+        for edge in (middle + half + _MARGIN, middle - half - _MARGIN):
+            turn = abs(wrap(edge - wanted)) + _MOMENTUM * abs(wrap(edge - moving))
+            if turn < least and all(abs(wrap(edge - other)) >= width for other, width in arcs):
+                best, least = edge, turn
+    return best
+
+
+def _enters(me: Body, direction: float, distance: float, circle: Circle) -> bool:
+    """Whether the next piece of a straight way leads into a circle, or deeper into it."""
+    dx, dy = circle.x - me.x, circle.y - me.y
+    c, s = math.cos(direction), math.sin(direction)
+    along = dx * c + dy * s
+    if along <= 0.0:
+        return False
+    along = min(along, distance, LOOK_AHEAD + circle.radius)
+    return math.hypot(dx - along * c, dy - along * s) < circle.radius
+
+
+def _arcs(me: Body, distance: float, blocked: Sequence[Circle]) -> list[tuple[float, float]]:
+    """Middle and half width in rad of each direction range that leads into a circle on the way."""
+    arcs = []
+    for x, y, radius in blocked:
+        dx, dy = x - me.x, y - me.y
+        away = math.hypot(dx, dy)
+        if away - radius > min(distance, LOOK_AHEAD):
+            continue
+        half = math.asin(radius / away) if away > radius else 0.5 * math.pi + min(1.0, 2.0 * (1.0 - away / radius))
+        arcs.append((math.atan2(dy, dx), half))
+    return arcs

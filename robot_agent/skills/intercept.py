@@ -1,0 +1,53 @@
+"""Meet a rolling ball: where and when a robot can be at it first."""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from robot_agent.bodies import Ball, Body, Limits
+from robot_agent.skills.braking import travel_time
+
+MOMENTS = (0.0, 0.25, 0.5, 0.8, 1.2, 1.7, 2.4, 3.5)
+"""s from now at which the ball's way is looked at; between them the meeting is interpolated."""
+
+
+class Meeting(NamedTuple):
+    """Place in m and time from now in s."""
+
+    x: float
+    y: float
+    time: float
+
+
+def way_of(ball: Ball, deceleration: float) -> list[Ball]:
+    """The ball at each of the moments."""
+    return [ball.after(moment, deceleration) for moment in MOMENTS]
+
+
+def meet(me: Body, way: Sequence[Ball], reach: float, limits: Limits) -> Meeting:
+    """The first point of the ball's way that the robot reaches no later than the ball.
+
+    `reach` is how close to the ball the robot's centre has to come, in m.
+    """
+    early = spare = 0.0
+    before = way[0]
+    for moment, ball in zip(MOMENTS, way, strict=True):
+        late = _time_to(me, ball, reach, limits) - moment
+        if late <= 0.0:
+            part = spare / (spare - late) if spare - late > 1e-9 else 0.0
+            return Meeting(
+                before.x + part * (ball.x - before.x),
+                before.y + part * (ball.y - before.y),
+                early + part * (moment - early),
+            )
+        early, spare, before = moment, late, ball
+    return Meeting(before.x, before.y, early + spare)
+
+
+def _time_to(me: Body, ball: Ball, reach: float, limits: Limits) -> float:
+    dx, dy = ball.x - me.x, ball.y - me.y
+    distance = math.hypot(dx, dy)
+    if distance <= reach:
+        return 0.0
+    toward = (me.vx * dx + me.vy * dy) / distance
+    return travel_time(distance - reach, toward, limits.speed, limits.acceleration, limits.deceleration)

@@ -1,0 +1,54 @@
+"""Keep the own goal: stand where a shot must pass, go where one will."""
+
+import math
+
+from robot_agent.bodies import Ball, Body, Limits
+from robot_agent.skills.go_to import drive, velocity_to
+from robot_agent.skills.turn_to import turn_rate
+from schemas.command import Drive
+from schemas.profile import Field
+
+_OUT = 0.15
+"""m between the goal line and the robot's hull."""
+_SHOT_SPEED = 1.0
+"""m/s toward the goal line; a slower ball is no shot."""
+_SHOT_TIME = 2.0
+"""s to the goal line; a shot that takes longer can wait."""
+
+
+def keep_goal(me: Body, ball: Ball, pitch: Field, radius: float, limits: Limits) -> Drive:
+    """Drive to the guard's place and face the ball."""
+    x, y = guard_place(ball, pitch, radius)
+    vx, vy = velocity_to(me, x, y, limits)
+    shot = shot_place(ball, x, pitch, radius)
+    if shot is not None:
+        vy = _sprint(shot - me.y, limits)
+    facing = math.atan2(ball.y - me.y, ball.x - me.x)
+    return drive(me, vx, vy, turn_rate(me, facing, limits), limits)
+
+
+def guard_place(ball: Ball, pitch: Field, radius: float) -> tuple[float, float]:
+    """In front of the goal line, where the angle between ball and posts is halved; between the posts."""
+    half = 0.5 * pitch.goal_width
+    x = -pitch.goal_line + radius + _OUT
+    back = min(x - ball.x, -0.1)
+    left, right = math.hypot(half - ball.y, back), math.hypot(half + ball.y, back)
+    slope = ((half - ball.y) / left - (half + ball.y) / right) / (back / left + back / right)
+    widest = half - radius
+    return x, max(-widest, min(widest, ball.y + slope * back))
+
+
+def shot_place(ball: Ball, x: float, pitch: Field, radius: float) -> float | None:
+    """Where a ball on its way into the goal crosses the keeper's line; nothing when there is no shot."""
+    if ball.vx > -_SHOT_SPEED:
+        return None
+    time = (x - ball.x) / ball.vx
+    widest = 0.5 * pitch.goal_width
+    if not 0.0 < time < _SHOT_TIME or abs(ball.y + ball.vy * time) > widest + 2.0 * radius:
+        return None
+    return max(-widest, min(widest, ball.y + ball.vy * time))
+
+
+def _sprint(way: float, limits: Limits) -> float:
+    """Full speed toward the crossing, easing off only over the last centimetres."""
+    return max(-limits.speed, min(limits.speed, 8.0 * way))

@@ -1,0 +1,27 @@
+"""Line up behind the ball for a target, without touching the ball on the way."""
+
+import math
+from collections.abc import Sequence
+
+from robot_agent.bodies import Body, Limits
+from robot_agent.skills.avoid import Circle, go_around
+from schemas.command import Drive
+
+
+def behind(ball: tuple[float, float], target: tuple[float, float], distance: float) -> tuple[float, float, float]:
+    """The pose `distance` m behind the ball that faces ball and target: x, y, heading."""
+    heading = math.atan2(target[1] - ball[1], target[0] - ball[0])
+    return ball[0] - distance * math.cos(heading), ball[1] - distance * math.sin(heading), heading
+
+
+def line_up(
+    me: Body,
+    ball: tuple[float, float],
+    target: tuple[float, float],
+    distance: float,
+    blocked: Sequence[Circle],
+    limits: Limits,
+) -> Drive:
+    """Go around the ball, no closer than 0.8 × `distance`, to the place behind it."""
+    x, y, heading = behind(ball, target, distance)
+    return go_around(me, x, y, heading, [*blocked, Circle(*ball, 0.8 * distance)], limits)

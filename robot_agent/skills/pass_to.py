@@ -1,0 +1,57 @@
+"""Pass along the ground: to whom, how fast, and the kick itself."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+from robot_agent.bodies import Body, Limits
+from robot_agent.skills.kick_at import kick_at
+from robot_agent.skills.shoot import lane_width
+from schemas.command import Drive, Kick
+from schemas.frames import wrap
+from schemas.host import Setup
+
+Point = tuple[float, float]
+
+OPEN = 0.5
+"""m of free lane that make a pass worth it."""
+ARRIVING = 3.5
+"""m/s of a pass when it arrives."""
+LEAST, LONGEST = 2.0, 9.0
+"""m."""
+_TURN_COSTS = 2.0
+"""m a radian."""
+ERROR = 0.3
+"""m beside the receiver."""
+
+
+def best_receiver(
+    ball: Point, mates: Mapping[str, Point], opponents: Sequence[Point], heading: float | None = None
+) -> str | None:
+    """The teammate whom a pass reaches and who is farthest ahead, the middle before the wings.
+
+    With a `heading`, turning away from it counts as much as metres do. Nobody when each lane is closed.
+    """
+    best, farthest = None, -math.inf
+    for name, (x, y) in mates.items():
+        ahead = x - 0.3 * abs(y)
+        if heading is not None:
+            ahead -= _TURN_COSTS * abs(wrap(math.atan2(y - ball[1], x - ball[0]) - heading))
+        if ahead > farthest and is_open(ball, (x, y), opponents):
+            best, farthest = name, ahead
+    return best
+
+
+def is_open(ball: Point, receiver: Point, opponents: Sequence[Point]) -> bool:
+    """Whether a pass is neither too short nor too long, and its lane is free."""
+    return LEAST < math.dist(ball, receiver) < LONGEST and lane_width(ball, receiver, opponents) > OPEN
+
+
+def pass_speed(distance: float, setup: Setup) -> float:
+    """The exit speed in m/s of a ball that still rolls well after `distance` m."""
+    speed = math.sqrt(ARRIVING * ARRIVING + 2.0 * setup.ball.rolling_deceleration * distance)
+    return min(setup.kicker.max_ground_speed, speed)
+
+
+def pass_to(me: Body, target: Point, setup: Setup, limits: Limits) -> tuple[Drive, Kick | None]:
+    """Aim at the target, and kick so that the ball arrives there."""
+    return kick_at(me, target, pass_speed(math.dist(target, me[:2]), setup), ERROR, limits)

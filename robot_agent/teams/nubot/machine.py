@@ -1,0 +1,224 @@
+"""The paper's behaviour state machine (figure 5): its states, its transition table, and what each state does.
+
+Knows one robot, one ball and a goal: no teammates, no opponents, no rules. Time passes as the ticks say, not by a
+constant.
+"""
+
+import math
+from collections.abc import Callable
+from enum import StrEnum
+from typing import NamedTuple
+
+from robot_agent.bodies import Body
+from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
+from schemas.command import Kick, KickMode
+from schemas.frames import wrap
+from schemas.profile import Field
+
+REACH = 0.40
+"""m, centre to centre; CHASE_BALL ends here."""
+ARRIVED = 0.1
+"""m; closer than this to a point is at it."""
+FACING = math.radians(0.5)
+"""rad in total, half of it to either side: closer than this to a direction is facing it."""
+MOVED = 0.5
+"""m; a target that moved farther than this is planned for anew."""
+KICK = Kick(mode=KickMode.LOB, speed=20.0)
+"""m/s; the paper's kick_ball_vel."""
+_KEEP = 4.0
+"""1/s; how strongly the heading is kept while translating."""
+
+
+class State(StrEnum):
+    """The behaviour states; DRIBBLE_BALL has two sub-states."""
+
+    CHASE_BALL = "CHASE_BALL"
+    MOVE_BALL = "DRIBBLE_BALL/MOVE_BALL"
+    ROTATE_BALL = "DRIBBLE_BALL/ROTATE_BALL"
+    KICK_BALL = "KICK_BALL"
+    RESET = "RESET"
+    HOME = "HOME"
+
+
+class Points(NamedTuple):
+    """Where the machine goes and shoots, m, team frame; by default the paper's, on its pitch of 18 × 12 m."""
+
+    dribble: tuple[float, float] = (4.0, -2.0)
+    goal: tuple[float, float] = (9.0, 0.0)
+    reset: tuple[float, float] = (-4.0, -2.0)
+
+    def on(self, pitch: Field) -> "Points":
+        """The same points on another pitch."""
+        along, across = pitch.length / 18.0, pitch.width / 12.0
+        return Points(*((x * along, y * across) for x, y in self))
+
+
+class Situation(NamedTuple):
+    """What the machine is told at one tick."""
+
+    me: Body
+    ball: tuple[float, float]
+    holding: bool
+    dt: float
+    """s since the tick before."""
+    world_reset: bool = False
+
+
+class Doing(NamedTuple):
+    """What the machine wants at one tick: velocity in the team frame, m/s and rad/s."""
+
+    vx: float = 0.0
+    vy: float = 0.0
+    omega: float = 0.0
+    dribble: bool = False
+    kick: Kick | None = None
+
+
+Condition = Callable[[Situation, Points], bool]
+
+
+def ball_in_reach(now: Situation, points: Points) -> bool:
+    """Within the paper's distance; or held, since robots wider than the paper's threshold touch the ball before."""
+    del points
+    return now.holding or math.dist(now.ball, now.me[:2]) <= REACH
+
+
+def hold_lost(now: Situation, points: Points) -> bool:
+    """The hold condition is not met, or another robot has the ball."""
+    del points
+    return not now.holding
+
+
+def at_dribble_point(now: Situation, points: Points) -> bool:
+    """The robot has brought the ball where it wants to shoot from."""
+    return math.dist(points.dribble, now.me[:2]) <= ARRIVED
+
+
+def facing_goal(now: Situation, points: Points) -> bool:
+    """The kick axis points at the goal's centre."""
+    return abs(_error(now.me, points.goal)) <= FACING / 2.0
+
+
+def at_once(now: Situation, points: Points) -> bool:
+    """Nothing is waited for."""
+    del now, points
+    return True
+
+
+def at_reset_point(now: Situation, points: Points) -> bool:
+    """The robot is back."""
+    return math.dist(points.reset, now.me[:2]) <= ARRIVED
+
+
+def world_reset(now: Situation, points: Points) -> bool:
+    """Somebody set the world back: Gazebo's Reset World, or in a match the ball that is the robot's own again."""
+    del points
+    return now.world_reset
+
+
+class Row(NamedTuple):
+    """One transition."""
+
+    state: State
+    condition: Condition
+    next: State
+
+
+TABLE = (
+    Row(State.CHASE_BALL, ball_in_reach, State.MOVE_BALL),
+    Row(State.MOVE_BALL, hold_lost, State.CHASE_BALL),
+    Row(State.MOVE_BALL, at_dribble_point, State.ROTATE_BALL),
+    Row(State.ROTATE_BALL, hold_lost, State.CHASE_BALL),
+    Row(State.ROTATE_BALL, facing_goal, State.KICK_BALL),
+    Row(State.KICK_BALL, at_once, State.RESET),
+    Row(State.RESET, at_reset_point, State.HOME),
+    Row(State.HOME, world_reset, State.CHASE_BALL),
+)
+"""All transitions; the first row of a state whose condition is met decides, one in each tick."""
+
+
+class Machine:
+    """One run through the states, tick by tick."""
+
+    def __init__(self, points: Points) -> None:
+        self.points = points
+        self._enter(State.CHASE_BALL)
+
+    def restart(self) -> None:
+        """Begin at CHASE_BALL again, from whatever state."""
+        self._enter(State.CHASE_BALL)
+
+    def step(self, now: Situation) -> Doing:
+        """Take the transition that is due, and do what the state does."""
+        for row in TABLE:
+            if row.state is self.state and row.condition(now, self.points):
+                self._enter(row.next)
+                break
+        return _DOES[self.state](self, now)
+
+    def _enter(self, state: State) -> None:
+        self.state = state
+        self._target = (math.inf, math.inf)
+        self._speed = self._rate = 0.0
+        self._faced = False
+
+    def _chase(self, now: Situation) -> Doing:
+        """Rotate toward the ball, then translate to it; from the start, with the speeds it has, when the ball moved."""
+        if not math.dist(now.ball, self._target) <= MOVED:
+            self._target, self._faced = now.ball, False
+        self._faced = self._faced or abs(_error(now.me, now.ball)) <= FACING / 2.0
+        if not self._faced:
+            self._speed = 0.0
+            return Doing(omega=self._turn(now, now.ball), dribble=True)
+        vx, vy = self._translate(now, now.ball)
+        keep = max(-ROTATION.top, min(ROTATION.top, _KEEP * _error(now.me, now.ball)))
+        return Doing(vx, vy, keep, dribble=True)
+
+    def _move_ball(self, now: Situation) -> Doing:
+        return Doing(*self._translate(now, self.points.dribble), dribble=True)
+
+    def _rotate_ball(self, now: Situation) -> Doing:
+        return Doing(omega=self._turn(now, self.points.goal), dribble=True)
+
+    def _kick_ball(self, now: Situation) -> Doing:
+        del now
+        return Doing(dribble=True, kick=KICK)
+
+    def _reset(self, now: Situation) -> Doing:
+        return Doing(*self._translate(now, self.points.reset))
+
+    def _home(self, now: Situation) -> Doing:
+        del now
+        return Doing()
+
+    def _turn(self, now: Situation, target: tuple[float, float]) -> float:
+        error = _error(now.me, target)
+        if abs(error) <= FACING / 2.0:
+            self._rate = 0.0
+            return 0.0
+        self._rate = ROTATION.next_speed(self._rate, abs(error), now.dt)
+        return math.copysign(self._rate, error)
+
+    def _translate(self, now: Situation, target: tuple[float, float]) -> tuple[float, float]:
+        dx, dy = target[0] - now.me.x, target[1] - now.me.y
+        left = math.hypot(dx, dy)
+        if left < 1e-6:
+            return 0.0, 0.0
+        self._speed = TRANSLATION.next_speed(self._speed, left, now.dt)
+        return self._speed * dx / left, self._speed * dy / left
+
+
+_DOES: dict[State, Callable[[Machine, Situation], Doing]] = {
+    State.CHASE_BALL: Machine._chase,
+    State.MOVE_BALL: Machine._move_ball,
+    State.ROTATE_BALL: Machine._rotate_ball,
+    State.KICK_BALL: Machine._kick_ball,
+    State.RESET: Machine._reset,
+    State.HOME: Machine._home,
+}
+"""State → what the robot does in it."""
+
+
+def _error(me: Body, target: tuple[float, float]) -> float:
+    """How far to turn to face a point, rad."""
+    return wrap(math.atan2(target[1] - me.y, target[0] - me.x) - me.heading)

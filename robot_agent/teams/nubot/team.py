@@ -1,0 +1,175 @@
+"""Five of the paper's robots in a match: the one nearest to the ball runs the machine, the others hold their places."""
+
+import math
+
+from robot_agent.contract import Briefing
+from robot_agent.skills.avoid import circles, steer
+from robot_agent.skills.go_to import drive
+from robot_agent.skills.intercept import meet, way_of
+from robot_agent.skills.keep_goal import keep_goal
+from robot_agent.skills.kick_at import kick_at
+from robot_agent.skills.pass_to import best_receiver, pass_speed
+from robot_agent.skills.take_ball import take_ball
+from robot_agent.skills.turn_to import turn_rate
+from robot_agent.teams.nubot.machine import KICK, Doing, Machine, Points, Situation, State
+from robot_agent.teams.nubot.trajectory import ROTATION
+from robot_agent.teams.player import Action, Player
+from robot_agent.teams.set_piece import stand, step_in, wait_behind
+from robot_agent.world_model import Scene, SeenBall, places_of
+from schemas.coach import CoachMode, CoachOrder
+from schemas.command import Drive, KickMode
+from schemas.game import TeamPhase
+
+HOMES = ((-10.5, 0.0), (-2.0, 1.0), (-2.0, -1.0), (-5.0, 2.0), (-5.0, -2.0))
+"""m on 22 × 14 m, the goalkeeper first; simatch's start poses."""
+LOYALTY = 0.5
+"""m by which a teammate must be nearer to the ball than the robot that plays it, to play it instead."""
+_KICKED = 2.0
+"""m/s; a ball faster than this is still on its way from the kick."""
+_NEAR_ENOUGH = 1.5
+"""m around the dribble point; who is pressed does not brake for the last step."""
+_TURNS = 4.0
+"""m before the dribble point, where the robot begins to turn to the goal; before that its body shields the ball."""
+_BALL_ROOM = 0.1
+"""m of air to opponents, for the ball before the robot."""
+_RESTART_SPEED = 3.0
+"""m/s at most; of the ball kicked at a restart."""
+_KICK_OFF_TO = (0.2, -1.0)
+"""m; a kick-off goes softly to the side, and the taker after it."""
+_RESTART_ERROR = 0.4
+"""m; how far beside the target it may pass."""
+PLAYS, HOLDS, KEEPS = "plays the ball", "holds its place", "keeper"
+
+
+class NuBot(Player):
+    """One of the five; alone, the paper's robot."""
+
+    plays_alone = True
+
+    def __init__(self, briefing: Briefing) -> None:
+        super().__init__(briefing)
+        pitch = self.setup.pitch
+        x, y = HOMES[briefing.number - 1]
+        self._home = x * pitch.length / 22.0, y * pitch.width / 14.0
+        self._points = Points().on(pitch)
+        self._machine = Machine(self._points)
+        self._role = HOLDS
+
+    def play(self, scene: Scene, order: CoachOrder | None) -> Action:
+        """Keep, play the ball, or hold the place."""
+        ball = scene.ball
+        if order is not None and order.mode is CoachMode.TEST:
+            return self._test(scene, order)
+        if ball is None:
+            return self._hold(scene, self._home)
+        spot = _spot(scene, ball)
+        if self.is_keeper:
+            return self._keep(scene, ball, spot)
+        plays = self._nearest(scene, spot) == self.briefing.robot
+        self._role = PLAYS if plays else HOLDS
+        phase = scene.game.phase
+        if not plays or phase.theirs or (phase is TeamPhase.DROP_BALL and not scene.game.running):
+            self._machine.restart()
+            return self._hold(scene, spot)
+        return self._take_restart(scene, ball, spot) if phase.ours else self._run_machine(scene, ball)
+
+    def _nearest(self, scene: Scene, spot: tuple[float, float]) -> str:
+        """The field robot that plays the ball: the nearest, and the one that does already unless clearly farther."""
+        me = self.briefing.robot
+        far = {me: math.dist(spot, scene.me[:2]) - (LOYALTY if self._role == PLAYS else 0.0)}
+        for name, mate in scene.mates.items():
+            if name != self.keeper:
+                far[name] = math.dist(spot, mate.body[:2]) - (LOYALTY if mate.role == PLAYS else 0.0)
+        return min(far, key=lambda name: (far[name], name))
+
+    def _run_machine(self, scene: Scene, ball: SeenBall) -> Action:
+        """The paper's machine; when it has kicked and the ball is this robot's own again, it begins anew."""
+        self._machine.points = self._points._replace(dribble=self._dribble_point(scene, ball))
+        back = self._machine.state in (State.RESET, State.HOME)
+        if back and math.hypot(ball.now.vx, ball.now.vy) < _KICKED:
+            self._machine.restart()
+        doing = self._machine.step(Situation(scene.me, ball.now[:2], scene.holding, scene.dt))
+        if self._machine.state is State.CHASE_BALL:
+            return Action(PLAYS, self._machine.state.value, self._meet(scene, ball), dribble=True)
+        return self._carried_out(scene, doing)
+
+    def _dribble_point(self, scene: Scene, ball: SeenBall) -> tuple[float, float]:
+        """The paper's point or its mirror image on the ball's side; where the robot is, once that is near enough."""
+        x, y = self._points.dribble
+        point = x, math.copysign(y, ball.now.y)
+        return scene.me[:2] if math.dist(point, scene.me[:2]) < _NEAR_ENOUGH else point
+
+    def _meet(self, scene: Scene, ball: SeenBall) -> Drive:
+        """CHASE_BALL in a match: the paper's ball lies still, this one rolls, or an opponent has it."""
+        way = way_of(ball.now, self.setup.ball.rolling_deceleration)
+        gap, clearance = self.setup.dribble.gap, 2.0 * self.setup.robot.radius + 0.05
+        meeting = meet(scene.me, way, gap, self.limits)
+        return take_ball(scene.me, ball.now, meeting, gap, scene.opponents, clearance, self.limits)
+
+    def _carried_out(self, scene: Scene, doing: Doing) -> Action:
+        """The machine's wish, led around opponents, and turned to the goal on its last metres with the ball."""
+        vx, vy = doing.vx, doing.vy
+        if self._machine.state is not State.CHASE_BALL:
+            others = circles(scene.opponents, 2.0 * self.setup.robot.radius + _BALL_ROOM)
+            vx, vy = steer(scene.me, vx, vy, 1.5, others)
+        omega = doing.omega
+        if self._machine.state is State.MOVE_BALL and self._is_nearly_there(scene):
+            x, y = self._points.goal
+            facing = math.atan2(y - scene.me.y, x - scene.me.x)
+            omega = turn_rate(scene.me, facing, self.limits.capped(turn_rate=ROTATION.top))
+        motion = drive(scene.me, vx, vy, omega, self.limits)
+        return Action(PLAYS, self._machine.state.value, motion, doing.dribble, doing.kick)
+
+    def _is_nearly_there(self, scene: Scene) -> bool:
+        return math.dist(self._machine.points.dribble, scene.me[:2]) < _TURNS
+
+    def _take_restart(self, scene: Scene, ball: SeenBall, spot: tuple[float, float]) -> Action:
+        """Kick to whom a pass reaches, else ahead and run after it; at a penalty, the machine's own kick."""
+        target = self._restart_target(scene, spot)
+        if not scene.game.running:
+            motion = wait_behind(scene.me, spot, target, scene.others, self.setup, self.limits)
+            return Action(PLAYS, "wait behind the ball", motion)
+        if not scene.holding:
+            motion = step_in(scene.me, ball.now[:2], target, self.setup, self.limits)
+            return Action(PLAYS, "step in", motion, dribble=True)
+        mode, speed = KickMode.GROUND, min(pass_speed(math.dist(spot, target), self.setup), _RESTART_SPEED)
+        if scene.game.phase is TeamPhase.OUR_PENALTY:
+            mode, speed = KICK.mode, KICK.speed
+        motion, kick = kick_at(scene.me, target, speed, _RESTART_ERROR, self.limits, mode)
+        return Action(PLAYS, "kick", motion, dribble=True, kick=kick)
+
+    def _restart_target(self, scene: Scene, spot: tuple[float, float]) -> tuple[float, float]:
+        phase = scene.game.phase
+        if phase is TeamPhase.OUR_PENALTY:
+            return self._points.goal
+        if phase is TeamPhase.OUR_KICK_OFF:
+            return _KICK_OFF_TO
+        mates = {name: place for name, place in places_of(scene.mates).items() if name != self.keeper}
+        receiver = best_receiver(spot, mates, scene.opponents)
+        return mates[receiver] if receiver is not None else self._points.dribble
+
+    def _hold(self, scene: Scene, spot: tuple[float, float]) -> Action:
+        motion = stand(scene.me, self._home, scene.game, spot, scene.others, self.setup, self.limits)
+        return Action(HOLDS, "hold", motion)
+
+    def _keep(self, scene: Scene, ball: SeenBall, spot: tuple[float, float]) -> Action:
+        if scene.game.phase is TeamPhase.DROP_BALL:
+            return self._hold(scene, spot)._replace(role=KEEPS)
+        motion = keep_goal(scene.me, ball.now, self.setup.pitch, self.setup.robot.radius, self.limits)
+        return Action(KEEPS, "keep", motion)
+
+    def _test(self, scene: Scene, order: CoachOrder) -> Action:
+        """The paper's own experiment: one robot runs the machine once, to the points of the order or the paper's."""
+        if order.robot_a not in (None, self.briefing.robot) or scene.ball is None:
+            return self._hold(scene, self._home)
+        dribble = (order.point_a.x, order.point_a.y) if order.point_a else self._points.dribble
+        reset = (order.point_b.x, order.point_b.y) if order.point_b else self._points.reset
+        self._machine.points = Points(dribble, self._points.goal, reset)
+        situation = Situation(scene.me, scene.ball.now[:2], scene.holding, scene.dt)
+        return self._carried_out(scene, self._machine.step(situation))
+
+
+def _spot(scene: Scene, ball: SeenBall) -> tuple[float, float]:
+    """Where a restart is taken, in play where the ball is."""
+    spot = scene.game.spot
+    return (spot.x, spot.y) if spot is not None else (ball.now.x, ball.now.y)

@@ -1,0 +1,131 @@
+"""What a robot of every shipped team does alike: takes in the sight, obeys coach and referee, speaks on the radio."""
+
+from abc import ABC, abstractmethod
+from typing import ClassVar, NamedTuple
+
+from robot_agent.bodies import Limits
+from robot_agent.contract import Briefing
+from robot_agent.skills.go_to import go_to
+from robot_agent.world_model import Scene, WorldModel
+from schemas.coach import CoachMode, CoachOrder
+from schemas.command import BallBelief, Command, Drive, Kick, Motion, Radio
+from schemas.game import GameView, TeamPhase
+from schemas.sight import Sight
+
+SPEAKS_EVERY = 5
+"""Ticks between two words on the radio: 10 Hz at a tick of 20 ms."""
+FAR = 3.0
+"""m along x and y together; a robot farther from the ball decides in every second tick, and goes on in between."""
+LETS_GO = 0.4
+"""s without the dribbler after a kick: a soft one would be caught again before it has left."""
+STILL = frozenset({TeamPhase.PRE_GAME, TeamPhase.STOPPED, TeamPhase.HALF_TIME, TeamPhase.FULL_TIME})
+"""Phases in which nobody has anything to do."""
+_PARKING_SPEED = 1.5
+"""m/s."""
+
+
+class Action(NamedTuple):
+    """What a robot does in one tick, and what it calls that."""
+
+    role: str
+    intention: str
+    drive: Drive
+    dribble: bool = False
+    kick: Kick | None = None
+    pass_to: str | None = None
+
+
+class Player(ABC):
+    """One robot of a team; a team says what it does while the ball is in play or about to be."""
+
+    plays_alone: ClassVar[bool] = False
+    """A robot without teammates plays in the field; otherwise it keeps the goal."""
+
+    def __init__(self, briefing: Briefing) -> None:
+        self.briefing = briefing
+        self.setup = briefing.setup
+        self.limits = Limits.of(briefing.setup)
+        plays_field = self.plays_alone and not briefing.teammates
+        self.keeper = None if plays_field else self.setup.teams[briefing.side].robots[0]
+        """The goalkeeper's name, or nothing."""
+        self.is_keeper = self.keeper == briefing.robot
+        self._full_limits = self.limits
+        self._world = WorldModel(briefing)
+        self._lets_go = 0.0
+        """s for which the dribbler stays off after a kick."""
+        self._last: Command | None = None
+        self._game: GameView | None = None
+
+    def act(self, sight: Sight) -> Command:
+        """The answer to one sight."""
+        if self._last is not None and self._may_go_on(sight, self._last):
+            return self._last.model_copy(update={"answers_tick": sight.tick, "radio": None})
+        self._last = command = self._decide(sight)
+        self._game = sight.game
+        return command
+
+    def _may_go_on(self, sight: Sight, last: Command) -> bool:
+        """Whether nothing asks for a decision: far from the ball, nothing to say, the same game, the same order."""
+        beat, ball, me, game, before = sight.tick + self.briefing.number, sight.ball, sight.self, sight.game, self._game
+        return (
+            beat % 2 == 1
+            and beat % SPEAKS_EVERY != 0
+            and sight.tick == last.answers_tick + 1
+            and last.kick is None
+            and ball is not None
+            and abs(ball.x - me.x) + abs(ball.y - me.y) > FAR
+            and before is not None
+            and game.phase is before.phase
+            and game.running == before.running
+            and (sight.order.sequence if sight.order else None) == last.acknowledges_order
+        )
+
+    def _decide(self, sight: Sight) -> Command:
+        """A new decision."""
+        scene = self._world.take_in(sight)
+        order = sight.order
+        self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits
+        action = self._obey(scene, order) or self.play(scene, order)
+        self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - scene.dt)
+        return Command(
+            answers_tick=sight.tick,
+            drive=action.drive,
+            dribble=action.dribble and (action.kick is not None or self._lets_go == 0.0),
+            kick=action.kick,
+            radio=self._word(scene, action),
+            acknowledges_order=order.sequence if order else None,
+        )
+
+    @abstractmethod
+    def play(self, scene: Scene, order: CoachOrder | None) -> Action:
+        """What to do in a restart or in play."""
+
+    def _obey(self, scene: Scene, order: CoachOrder | None) -> Action | None:
+        """What the referee or the coach leaves no choice about."""
+        phase = scene.game.phase
+        if phase in STILL:
+            return Action("", "wait", Drive())
+        if phase is TeamPhase.PARKING or (order and order.mode is CoachMode.PARK):
+            return Action("", "park", self._park(scene))
+        if order and order.mode is CoachMode.HOLD:
+            return Action("", "hold", Drive())
+        return None
+
+    def _park(self, scene: Scene) -> Drive:
+        """To the right touch line of the own half, beside each other (simatch: 1.5 m apart)."""
+        pitch, radius = self.setup.pitch, self.setup.robot.radius
+        x = -pitch.goal_line + 1.5 * self.briefing.number
+        y = -pitch.touch_line + radius + 0.1
+        return go_to(scene.me, x, y, 0.0, self.limits.capped(_PARKING_SPEED))
+
+    def _word(self, scene: Scene, action: Action) -> Radio | None:
+        if (scene.tick + self.briefing.number) % SPEAKS_EVERY and action.pass_to is None:
+            return None
+        me, ball = scene.me, scene.ball
+        return Radio(
+            self=Motion(x=me.x, y=me.y, heading=me.heading, vx=me.vx, vy=me.vy, omega=me.omega),
+            ball=BallBelief(x=ball.now.x, y=ball.now.y, vx=ball.now.vx, vy=ball.now.vy, age=ball.age) if ball else None,
+            role=action.role,
+            intention=action.intention,
+            pass_to=action.pass_to,
+        )

@@ -1,0 +1,103 @@
+"""Set pieces as both shipped teams play them: how far to stay away, where to stand, how to take one."""
+
+import math
+from collections.abc import Sequence
+
+from robot_agent.bodies import Body, Limits
+from robot_agent.skills.avoid import Circle, circles, go_around
+from robot_agent.skills.go_to import drive
+from robot_agent.skills.keep_off import inside, keep_off
+from robot_agent.skills.line_up import line_up
+from robot_agent.skills.turn_to import turn_rate
+from schemas.command import Drive
+from schemas.game import GameView, TeamPhase
+from schemas.host import Setup
+from schemas.rule_book import Restarts
+
+MARGIN = 0.2
+"""m beyond what the rules ask for: noise of the positions, and a little politeness."""
+NEAR = 1.0
+"""m outside the forbidden circle where one drives slowly enough to follow its bend."""
+_BEND = 0.6
+"""Part of the acceleration that following the bend may take."""
+LINE_UP = 0.25
+"""m of air between the taker's hull and the ball before START."""
+KICK_OFFS = frozenset({TeamPhase.OUR_KICK_OFF, TeamPhase.THEIR_KICK_OFF})
+PENALTIES = frozenset({TeamPhase.OUR_PENALTY, TeamPhase.THEIR_PENALTY})
+
+
+def asked_distance(phase: TeamPhase, restarts: Restarts) -> float:
+    """How far the rules keep a robot that does not take the restart from the ball, hull to ball, in m; 0 in play."""
+    if phase is TeamPhase.DROP_BALL:
+        return restarts.drop_ball_distance
+    if phase in PENALTIES or phase.theirs:
+        return restarts.opponent_distance
+    return restarts.teammate_distance if phase.ours else 0.0
+
+
+def legal_place(x: float, y: float, game: GameView, spot: tuple[float, float], setup: Setup) -> tuple[float, float]:
+    """The place nearest to the wanted one where a robot that does not take the restart may stand."""
+    pitch, radius, phase = setup.pitch, setup.robot.radius, game.phase
+    if phase in KICK_OFFS:
+        x = min(x, -radius - MARGIN)
+    if phase in PENALTIES:
+        x = math.copysign(min(abs(x), pitch.goal_line - pitch.penalty_mark - setup.restarts.opponent_distance), x)
+    distance = asked_distance(phase, setup.restarts)
+    if distance == 0.0:
+        return inside(x, y, pitch, radius)
+    return keep_off(x, y, spot, distance + radius + MARGIN, pitch, radius)
+
+
+def stand(
+    me: Body,
+    place: tuple[float, float],
+    game: GameView,
+    spot: tuple[float, float],
+    others: Sequence[tuple[float, float]],
+    setup: Setup,
+    limits: Limits,
+) -> Drive:
+    """Go to a place and face the spot, around everybody and around the circle that the rules draw."""
+    radius = setup.robot.radius
+    x, y = legal_place(*place, game, spot, setup)
+    facing = math.atan2(spot[1] - me.y, spot[0] - me.x)
+    blocked = circles(others, 2.0 * radius + 0.1)
+    asked = asked_distance(game.phase, setup.restarts)
+    if asked == 0.0:
+        return go_around(me, x, y, facing, blocked, limits)
+    forbidden = asked + radius + 0.5 * MARGIN
+    away = max(0.01, math.hypot(me.x - spot[0], me.y - spot[1]))
+    if away > forbidden:
+        blocked.append(Circle(*spot, forbidden))
+        if away < forbidden + NEAR:
+            limits = limits.capped(math.sqrt(_BEND * limits.acceleration * forbidden))
+    else:
+        out = (forbidden + MARGIN) / away
+        x, y = inside(spot[0] + (me.x - spot[0]) * out, spot[1] + (me.y - spot[1]) * out, setup.pitch, radius)
+    return go_around(me, x, y, facing, blocked, limits)
+
+
+def wait_behind(
+    me: Body,
+    spot: tuple[float, float],
+    target: tuple[float, float],
+    others: Sequence[tuple[float, float]],
+    setup: Setup,
+    limits: Limits,
+) -> Drive:
+    """Before START: behind the ball for the target, without touching it."""
+    distance = setup.robot.radius + setup.ball.radius + LINE_UP
+    return line_up(me, spot, target, distance, circles(others, 2.0 * setup.robot.radius + 0.1), limits)
+
+
+def step_in(me: Body, ball: tuple[float, float], target: tuple[float, float], setup: Setup, limits: Limits) -> Drive:
+    """After START: straight at the ball along the line to the target, until the dribbler has it."""
+    distance = math.hypot(ball[0] - me.x, ball[1] - me.y)
+    heading = math.atan2(target[1] - ball[1], target[0] - ball[0])
+    beside = abs((me.y - ball[1]) * math.cos(heading) - (me.x - ball[0]) * math.sin(heading))
+    if distance > 2.0 * setup.dribble.distance or beside > 0.15:
+        return wait_behind(me, ball, target, (), setup, limits)
+    facing = math.atan2(ball[1] - me.y, ball[0] - me.x)
+    speed = 0.3 + min(1.0, 2.0 * max(0.0, distance - setup.dribble.gap))
+    c, s = math.cos(facing), math.sin(facing)
+    return drive(me, speed * c, speed * s, turn_rate(me, facing, limits), limits)

@@ -1,0 +1,39 @@
+"""Where those who do not play the ball stand, relative to it."""
+
+import math
+
+from robot_agent.skills.keep_off import inside, keep_off
+from robot_agent.teams.simple.roles import Role
+from schemas.profile import Field
+
+CLEAR = 2.4
+"""m that everybody leaves between himself and the ball that a teammate plays."""
+WING = 0.25
+"""Share of the pitch's width between its middle and a supporter."""
+AHEAD = 2.0
+"""m that supporters are ahead of the ball."""
+GUARD = 0.45
+"""Share of the way from the own goal to the ball where the defender stands."""
+FARTHEST = 0.32
+"""Share of the pitch's length that the defender leaves his goal at most."""
+
+
+def places(ball: tuple[float, float], pitch: Field, inset: float) -> list[tuple[Role, tuple[float, float]]]:
+    """The places of the formation, the most important first; all of them outside the penalty areas."""
+    front = pitch.goal_line - pitch.penalty_area_depth - inset
+    ahead = max(-front, min(front, ball[0] + AHEAD))
+    wing = WING * pitch.width
+    wanted = (
+        (Role.DEFENDER, _guard(ball, pitch, front)),
+        (Role.LEFT, (ahead, wing)),
+        (Role.RIGHT, (ahead, -wing)),
+    )
+    return [(role, keep_off(x, y, ball, CLEAR, pitch, inset)) for role, (x, y) in wanted]
+
+
+def _guard(ball: tuple[float, float], pitch: Field, front: float) -> tuple[float, float]:
+    """Between the own goal and the ball."""
+    dx, dy = ball[0] + pitch.goal_line, ball[1]
+    share = min(GUARD, FARTHEST * pitch.length / max(math.hypot(dx, dy), 1e-6))
+    x, y = inside(share * dx - pitch.goal_line, share * dy, pitch, 0.0)
+    return max(-front, x), y

@@ -1,0 +1,75 @@
+"""Who does what: the field robot that is at the ball first plays it, the others share the places of the formation.
+
+Every robot decides for itself, from its own pose and the radio; the same beliefs give the same decision. What a
+robot does already counts a little in its favour, so that two of them do not swap each tick.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from enum import StrEnum
+from itertools import permutations
+from typing import NamedTuple
+
+from robot_agent.bodies import Ball, Body, Limits
+from robot_agent.skills.intercept import meet, way_of
+
+
+class Role(StrEnum):
+    """What a robot is for just now."""
+
+    KEEPER = "keeper"
+    STRIKER = "striker"
+    DEFENDER = "defender"
+    LEFT = "left supporter"
+    RIGHT = "right supporter"
+
+
+class Candidate(NamedTuple):
+    """A field robot, and what it says it does."""
+
+    body: Body
+    role: str
+    is_receiver: bool = False
+    """A teammate asks it to receive a pass."""
+
+
+STAYS = 0.35
+"""s by which another robot must be at the ball earlier than the striker, to become the striker."""
+RECEIVES = 0.8
+"""s that the robot which was promised the ball is given."""
+KEEPS_PLACE = 0.8
+"""m that another robot must be nearer to a place than the one that has it."""
+
+
+def striker_of(
+    candidates: Mapping[str, Candidate], ball: Ball, deceleration: float, reach: float, limits: Limits
+) -> str:
+    """The robot that plays the ball: first at it, ties by name."""
+    way = way_of(ball, deceleration)
+
+    def cost(name: str) -> tuple[float, str]:
+        candidate = candidates[name]
+        time = meet(candidate.body, way, reach, limits).time
+        time -= STAYS if candidate.role == Role.STRIKER else 0.0
+        time -= RECEIVES if candidate.is_receiver else 0.0
+        return time, name
+
+    return min(candidates, key=cost)
+
+
+def share_places(
+    candidates: Mapping[str, Candidate], places: Sequence[tuple[Role, tuple[float, float]]]
+) -> dict[str, Role]:
+    """Who takes which place: the least sum of distances, as many places as robots, the first ones first."""
+    names = sorted(candidates)
+    open_places = places[: len(names)]
+
+    def cost(order: Sequence[str]) -> float:
+        total = 0.0
+        for name, (role, (x, y)) in zip(order, open_places, strict=True):
+            body, now, _ = candidates[name]
+            total += math.hypot(body.x - x, body.y - y) - (KEEPS_PLACE if now == role else 0.0)
+        return total
+
+    best = min(permutations(names), key=cost, default=())
+    return {name: role for name, (role, _) in zip(best, open_places, strict=True)}

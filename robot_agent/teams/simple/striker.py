@@ -1,0 +1,142 @@
+"""The robot with the ball: shoot when the goal is open, pass when the way is not, else carry it to where it is."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from robot_agent.bodies import Body, Limits
+from robot_agent.skills.avoid import circles
+from robot_agent.skills.dribble_to import dribble_to
+from robot_agent.skills.go_to import drive
+from robot_agent.skills.keep_off import inside
+from robot_agent.skills.kick_at import kick_at
+from robot_agent.skills.pass_to import best_receiver, is_open, pass_to
+from robot_agent.skills.shoot import best_place, lane_width
+from robot_agent.teams.player import Action
+from robot_agent.teams.simple.roles import Role
+from robot_agent.world_model import Mate, places_of
+from schemas.command import Kick, KickMode
+from schemas.host import Setup
+from schemas.profile import Field
+
+Point = tuple[float, float]
+
+RANGE = 8.0
+"""m from the goal's middle; from farther away nobody shoots."""
+OPEN = 0.5
+"""m of free lane that make a shot worth it."""
+SHOOT_FROM = 3.2
+"""m in front of the goal line: where the ball is carried to."""
+PRESSED = 0.9
+"""m between the centres; an opponent this near presses."""
+RISES = 1.5
+"""m after which a lob is above everybody."""
+DUEL = 0.6
+"""s under pressure after which the ball is knocked on into free ground."""
+KNOCK_ON = 3.0
+"""m of ground that must be free for it."""
+PATIENCE = 2.5
+"""s with the ball after which the best kick there is gets done."""
+SHOT_ERROR = 0.15
+"""m beside the target."""
+
+
+class Ground(NamedTuple):
+    """What the striker decides on."""
+
+    me: Body
+    mates: Mapping[str, Mate]
+    """Teammates in the field."""
+    opponents: Sequence[Point]
+    held: float
+    """s with the ball."""
+    pressed: float
+    """s with the ball and an opponent beside it."""
+    receiver: str | None
+    """To whom a pass was meant a tick ago."""
+
+
+def play_ball(ground: Ground, setup: Setup, limits: Limits) -> Action:
+    """One tick of a robot that holds the ball."""
+    me, pitch = ground.me, setup.pitch
+    ball = (me.x + setup.dribble.gap * math.cos(me.heading), me.y + setup.dribble.gap * math.sin(me.heading))
+    aim, width = best_place(ball, ground.opponents, pitch)
+    far = math.hypot(pitch.goal_line - ball[0], ball[1])
+    hurried = ground.held > PATIENCE or is_pressed(me, ground.opponents)
+    if far < RANGE and (width > OPEN or (hurried and _can_lob(ball, aim, ground.opponents, pitch))):
+        return _shoot(ground, (pitch.goal_line, aim), width, setup, limits)
+    if ground.pressed > DUEL and _can_knock_on(ground, ball, setup):
+        return _knock_on(ground, setup, limits)
+    receiver = _receiver(ground, ball, hurried)
+    if receiver is not None:
+        return _pass(ground, receiver, setup, limits)
+    if ground.held > 2.0 * PATIENCE:
+        return _shoot(ground, (pitch.goal_line, aim), width, setup, limits)
+    return _carry(ground, setup, limits)
+
+
+def _receiver(ground: Ground, ball: Point, hurried: bool) -> str | None:
+    """The one who was chosen already while the lane to him stays open; somebody new only in a hurry."""
+    places = places_of(ground.mates)
+    if ground.receiver in places and is_open(ball, places[ground.receiver], ground.opponents):
+        return ground.receiver
+    return best_receiver(ball, places, ground.opponents, ground.me.heading) if hurried else None
+
+
+def is_pressed(me: Body, opponents: Sequence[Point]) -> bool:
+    """An opponent is near and not behind."""
+    for x, y in opponents:
+        dx, dy = x - me.x, y - me.y
+        if math.hypot(dx, dy) < PRESSED and dx * math.cos(me.heading) + dy * math.sin(me.heading) > -0.2:
+            return True
+    return False
+
+
+def _can_lob(ball: Point, aim: float, opponents: Sequence[Point], pitch: Field) -> bool:
+    """Whether the ball can rise: nobody stands right before it, and the goal is far enough to come down in."""
+    dx, dy = pitch.goal_line - ball[0], aim - ball[1]
+    far = math.hypot(dx, dy)
+    risen = ball[0] + dx / far * RISES, ball[1] + dy / far * RISES
+    return far > 2.0 * RISES and lane_width(ball, risen, opponents) > OPEN
+
+
+def _can_knock_on(ground: Ground, ball: Point, setup: Setup) -> bool:
+    """Whether the ground ahead of the kick axis is free, on the pitch, and not toward the own goal."""
+    heading = ground.me.heading
+    end = (ball[0] + KNOCK_ON * math.cos(heading), ball[1] + KNOCK_ON * math.sin(heading))
+    is_on_pitch = inside(*end, setup.pitch, 0.0) == end
+    return math.cos(heading) > -0.2 and is_on_pitch and lane_width(ball, end, ground.opponents) > OPEN
+
+
+def _knock_on(ground: Ground, setup: Setup, limits: Limits) -> Action:
+    """Out of a duel: kick the ball past the opponent, and run after it."""
+    speed = math.sqrt(2.0 * setup.ball.rolling_deceleration * 2.0 * KNOCK_ON)
+    motion = drive(ground.me, ground.me.vx, ground.me.vy, 0.0, limits)
+    kick = Kick(mode=KickMode.GROUND, speed=speed)
+    return Action(Role.STRIKER, "knock on", motion, dribble=True, kick=kick)
+
+
+def _shoot(ground: Ground, target: Point, width: float, setup: Setup, limits: Limits) -> Action:
+    """Along the ground into an open lane, over everybody when there is none."""
+    kicker = setup.kicker
+    mode, speed = KickMode.GROUND, kicker.max_ground_speed
+    if width <= OPEN:
+        mode, speed = KickMode.LOB, kicker.max_lob_speed
+    motion, kick = kick_at(ground.me, target, speed, SHOT_ERROR, limits, mode)
+    return Action(Role.STRIKER, "shoot", motion, dribble=True, kick=kick)
+
+
+def _pass(ground: Ground, receiver: str, setup: Setup, limits: Limits) -> Action:
+    motion, kick = pass_to(ground.me, ground.mates[receiver].body[:2], setup, limits)
+    return Action(
+        Role.STRIKER, f"pass to {receiver}", motion, dribble=True, kick=kick, pass_to=receiver if kick else None
+    )
+
+
+def _carry(ground: Ground, setup: Setup, limits: Limits) -> Action:
+    """Toward the goal, to where one shoots from."""
+    me, pitch = ground.me, setup.pitch
+    x, y = pitch.goal_line - SHOOT_FROM, 0.4 * me.y
+    facing = math.atan2(-me.y, pitch.goal_line - me.x)
+    blocked = circles(ground.opponents, 2.0 * setup.robot.radius + setup.ball.radius + 0.15)
+    return Action(Role.STRIKER, "carry", dribble_to(me, x, y, facing, blocked, limits), dribble=True)

@@ -1,0 +1,210 @@
+"""One robot of the team: it finds its role, and does what the role and the phase ask for."""
+
+import math
+
+from robot_agent.bodies import Ball
+from robot_agent.contract import Briefing
+from robot_agent.skills.intercept import meet, way_of
+from robot_agent.skills.keep_goal import keep_goal
+from robot_agent.skills.kick_at import kick_at
+from robot_agent.skills.pass_to import best_receiver, pass_to
+from robot_agent.skills.take_ball import HAS_IT, take_ball
+from robot_agent.teams.player import Action, Player
+from robot_agent.teams.set_piece import stand, step_in, wait_behind
+from robot_agent.teams.simple.formation import places
+from robot_agent.teams.simple.roles import Candidate, Role, share_places, striker_of
+from robot_agent.teams.simple.striker import SHOT_ERROR, Ground, is_pressed, play_ball
+from robot_agent.world_model import Mate, Scene, places_of
+from schemas.coach import CoachOrder
+from schemas.command import Drive, Kick
+from schemas.game import TeamPhase
+
+Point = tuple[float, float]
+
+CLEAR = "clear"
+"""Intention of a keeper that leaves its line for the ball."""
+PROMISE = 2.0
+"""s for which a receiver counts on the pass it was promised."""
+THREAT = 0.75
+"""Share of the own half, from the middle, beyond which an opponent with the ball is met by the defender, too."""
+KICK_OFF_TO = (1.5, 3.2)
+"""m; where a kick-off is played to: ahead, so that the taker waits in his own half."""
+
+
+class Simple(Player):
+    """One of up to five."""
+
+    def __init__(self, briefing: Briefing) -> None:
+        super().__init__(briefing)
+        self._role: Role = Role.KEEPER if self.is_keeper else Role.DEFENDER
+        self._held = self._pressed = 0.0
+        self._promised: tuple[str, float] | None = None
+        """Who was promised a pass, and for how many s more."""
+        self._receiver: str | None = None
+        """Who is meant to get the ball that this robot holds."""
+        self._clearance = 2.0 * self.setup.robot.radius + 0.05
+
+    def play(self, scene: Scene, order: CoachOrder | None) -> Action:
+        """Find the role, then do what it asks for."""
+        del order
+        self._held = self._held + scene.dt if scene.holding else 0.0
+        pressed = scene.holding and is_pressed(scene.me, scene.opponents)
+        self._pressed = self._pressed + scene.dt if pressed else 0.0
+        self._remember_promise(scene)
+        if scene.ball is None:
+            return Action(self._role, "look for the ball", Drive(omega=1.0))
+        ball, phase = scene.ball.now, scene.game.phase
+        spot = (scene.game.spot.x, scene.game.spot.y) if scene.game.spot is not None else (ball.x, ball.y)
+        if self.is_keeper:
+            return self._keep(scene, ball, spot)
+        self._role = self._find_role(scene, ball, spot)
+        if self._role is not Role.STRIKER or phase.theirs:
+            return self._support(scene, spot)
+        if phase.ours:
+            return self._take_restart(scene, ball, spot)
+        if phase is TeamPhase.DROP_BALL and not scene.game.running:
+            return self._wait_for_drop(scene, spot)
+        if any(mate.intention == CLEAR for mate in scene.mates.values()):
+            return self._support(scene, spot)
+        return self._strike(scene, ball)
+
+    def _remember_promise(self, scene: Scene) -> None:
+        """Count down the last promise heard or given; a new one, or the ball in hand, ends it."""
+        if self._promised is not None:
+            name, left = self._promised
+            self._promised = (name, left - scene.dt) if left > scene.dt and not scene.holding else None
+        for mate in scene.mates.values():
+            if mate.pass_to is not None:
+                self._promised = mate.pass_to, PROMISE
+
+    def _find_role(self, scene: Scene, ball: Ball, spot: Point) -> Role:
+        """The role that everybody's poses and present roles give this robot."""
+        me = self.briefing.robot
+        receiver = self._promised[0] if self._promised is not None else None
+        candidates = {me: Candidate(scene.me, self._role, receiver == me)}
+        for name, mate in self._field_mates(scene).items():
+            candidates[name] = Candidate(mate.body, mate.role, receiver == name)
+        if scene.game.phase is not TeamPhase.PLAY:
+            ball = Ball(*spot)
+        striker = striker_of(candidates, ball, self.setup.ball.rolling_deceleration, self._gap, self.limits)
+        if striker == me:
+            return Role.STRIKER
+        del candidates[striker]
+        return share_places(candidates, self._places(spot)).get(me, Role.DEFENDER)
+
+    def _field_mates(self, scene: Scene) -> dict[str, Mate]:
+        return {name: mate for name, mate in scene.mates.items() if name != self.keeper}
+
+    def _places(self, ball: Point) -> list[tuple[Role, Point]]:
+        return places(ball, self.setup.pitch, self.setup.robot.radius)
+
+    @property
+    def _gap(self) -> float:
+        return self.setup.dribble.gap
+
+    def _strike(self, scene: Scene, ball: Ball) -> Action:
+        """Get the ball, then play it."""
+        if scene.holding:
+            mates = self._field_mates(scene)
+            ground = Ground(scene.me, mates, scene.opponents, self._held, self._pressed, self._receiver)
+            action = play_ball(ground, self.setup, self.limits)
+            self._receiver = action.pass_to
+            if action.kick is None:
+                return action._replace(pass_to=None)
+            if action.pass_to is not None:
+                self._promised = action.pass_to, PROMISE
+            return action
+        self._receiver = None
+        return Action(Role.STRIKER, "get the ball", self._get(scene, ball), dribble=True)
+
+    def _get(self, scene: Scene, ball: Ball) -> Drive:
+        way = way_of(ball, self.setup.ball.rolling_deceleration)
+        meeting = meet(scene.me, way, self._gap, self.limits)
+        return take_ball(scene.me, ball, meeting, self._gap, scene.opponents, self._clearance, self.limits)
+
+    def _support(self, scene: Scene, spot: Point) -> Action:
+        """Hold the role's place; a striker who may not play the ball stands between it and the own goal."""
+        if self._role is Role.DEFENDER and self._is_threat(scene, spot):
+            return Action(self._role, "block", self._stand(scene, self._before_own_goal(spot), spot))
+        wanted = dict(self._places(spot)).get(self._role) or self._before_own_goal(spot)
+        return Action(self._role, "hold", self._stand(scene, wanted, spot))
+
+    def _is_threat(self, scene: Scene, ball: Point) -> bool:
+        """An opponent has the ball near our goal."""
+        in_play = scene.game.phase is TeamPhase.PLAY and ball[0] < -THREAT * self.setup.pitch.goal_line
+        return in_play and any(math.dist(ball, opponent) < HAS_IT for opponent in scene.opponents)
+
+    def _wait_for_drop(self, scene: Scene, spot: Point) -> Action:
+        return Action(Role.STRIKER, "wait for the drop", self._stand(scene, self._before_own_goal(spot), spot))
+
+    def _before_own_goal(self, spot: Point) -> Point:
+        """A step from the ball toward the own goal; the rules of the phase move it farther away."""
+        dx, dy = -self.setup.pitch.goal_line - spot[0], -spot[1]
+        away = max(math.hypot(dx, dy), 1e-6)
+        return spot[0] + dx / away, spot[1] + dy / away
+
+    def _stand(self, scene: Scene, place: Point, spot: Point) -> Drive:
+        return stand(scene.me, place, scene.game, spot, scene.others, self.setup, self.limits)
+
+    def _take_restart(self, scene: Scene, ball: Ball, spot: Point) -> Action:
+        """Line up behind the ball, and after START kick it at once to a teammate; at a penalty, at the goal."""
+        target, receiver = self._restart_kick(scene, spot)
+        if not scene.game.running:
+            motion = wait_behind(scene.me, spot, target, scene.others, self.setup, self.limits)
+            return Action(Role.STRIKER, "wait behind the ball", motion)
+        if not scene.holding:
+            motion = step_in(scene.me, (ball.x, ball.y), target, self.setup, self.limits)
+            return Action(Role.STRIKER, "step in", motion, dribble=True)
+        motion, kick = self._restart_motion(scene, target)
+        if kick is not None and receiver is not None:
+            self._promised = receiver, PROMISE
+        return Action(Role.STRIKER, "kick", motion, True, kick, receiver if kick is not None else None)
+
+    def _restart_kick(self, scene: Scene, spot: Point) -> tuple[Point, str | None]:
+        """Target and receiver of a restart of our own."""
+        pitch, mates = self.setup.pitch, self._field_mates(scene)
+        if scene.game.phase is TeamPhase.OUR_PENALTY:
+            return (pitch.goal_line, 0.35 * pitch.goal_width), None
+        if scene.game.phase is TeamPhase.OUR_KICK_OFF:
+            return KICK_OFF_TO, next((name for name, mate in mates.items() if mate.role == Role.LEFT), None)
+        receiver = best_receiver(spot, places_of(mates), scene.opponents)
+        if receiver is None:
+            return (pitch.goal_line - pitch.penalty_mark, 0.0), None
+        return mates[receiver].body[:2], receiver
+
+    def _restart_motion(self, scene: Scene, target: Point) -> tuple[Drive, Kick | None]:
+        if scene.game.phase is TeamPhase.OUR_PENALTY:
+            return kick_at(scene.me, target, self.setup.kicker.max_ground_speed, SHOT_ERROR, self.limits)
+        return pass_to(scene.me, target, self.setup, self.limits)
+
+    def _keep(self, scene: Scene, ball: Ball, spot: Point) -> Action:
+        """Guard the goal; take a slow ball near it, and play it out."""
+        in_play = scene.game.phase is TeamPhase.PLAY
+        if scene.holding and in_play:
+            return self._play_out(scene)
+        if in_play and self._is_mine(scene, ball):
+            return Action(Role.KEEPER, CLEAR, self._get(scene, ball), dribble=True)
+        if scene.game.phase is TeamPhase.DROP_BALL:
+            place = (-self.setup.pitch.goal_line + self.setup.robot.radius + 0.1, 0.0)
+            return Action(Role.KEEPER, "guard", self._stand(scene, place, spot))
+        motion = keep_goal(scene.me, ball, self.setup.pitch, self.setup.robot.radius, self.limits)
+        return Action(Role.KEEPER, "guard", motion, dribble=in_play)
+
+    def _is_mine(self, scene: Scene, ball: Ball) -> bool:
+        """A slow ball in the own penalty area that no opponent is nearer to."""
+        pitch = self.setup.pitch
+        if ball.x > pitch.penalty_area_depth - pitch.goal_line or abs(ball.y) > 0.5 * pitch.penalty_area_width:
+            return False
+        away = math.dist(ball[:2], scene.me[:2])
+        return math.hypot(ball.vx, ball.vy) < 1.5 and all(
+            math.dist(ball[:2], opponent) > away for opponent in scene.opponents
+        )
+
+    def _play_out(self, scene: Scene) -> Action:
+        """To a teammate, or far up the side that the ball is on."""
+        mates = self._field_mates(scene)
+        receiver = best_receiver(scene.me[:2], places_of(mates), scene.opponents)
+        up_the_wing = 0.0, math.copysign(0.4 * self.setup.pitch.width, scene.me.y)
+        target = mates[receiver].body[:2] if receiver is not None else up_the_wing
+        motion, kick = pass_to(scene.me, target, self.setup, self.limits)
+        return Action(Role.KEEPER, CLEAR, motion, True, kick, receiver if kick is not None else None)

@@ -1,0 +1,175 @@
+"""What a robot believes of the pitch: its own sight fused with what its teammates say on the radio.
+
+Positions are smoothed over a few ticks; a jump (a kick, a robot that was set down elsewhere, a change of sides) is
+taken at once. All in the team frame.
+"""
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from robot_agent.bodies import Ball, Body
+from robot_agent.contract import Briefing
+from schemas.command import Motion
+from schemas.frames import wrap
+from schemas.game import GameView
+from schemas.sight import BallSight, Heard, Sight
+
+FRESH = 0.2
+"""s; a ball seen longer ago than this by the robot itself may have been seen later by a teammate."""
+STALE = 1.2
+"""s; a teammate's word older than this is not believed any more (NuBot's world model: 1200 ms)."""
+SAME = 0.5
+"""m; an obstacle this close to where a teammate should be is that teammate."""
+_TRUST = 0.4
+"""Share of a new position that is believed at once; the rest stays with what was expected."""
+_TRUST_VELOCITY = 0.5
+_JUMP = 0.25
+"""m; a position farther from the expected one than this is no noise."""
+_JUMP_SPEED = 0.8
+"""m/s; likewise for the ball's velocity."""
+
+
+class Mate(NamedTuple):
+    """A teammate as last heard, moved on to now."""
+
+    body: Body
+    role: str
+    intention: str
+    pass_to: str | None
+
+
+class SeenBall(NamedTuple):
+    """The ball as believed now, and how many s ago it was last seen, by whomever."""
+
+    now: Ball
+    age: float
+
+
+class Scene(NamedTuple):
+    """Everything a robot believes at one tick."""
+
+    tick: int
+    dt: float
+    """Simulated time in s since the sight before; 0 at the first."""
+    me: Body
+    holding: bool
+    ball: SeenBall | None
+    mates: dict[str, Mate]
+    """Teammates heard of lately, in the order of the team."""
+    opponents: list[tuple[float, float]]
+    game: GameView
+
+    @property
+    def others(self) -> list[tuple[float, float]]:
+        """Where everybody else is, of both teams."""
+        return [*self.opponents, *(mate.body[:2] for mate in self.mates.values())]
+
+
+def places_of(mates: Mapping[str, Mate]) -> dict[str, tuple[float, float]]:
+    """Where each teammate is."""
+    return {name: mate.body[:2] for name, mate in mates.items()}
+
+
+class WorldModel:
+    """Takes in one sight after the other."""
+
+    def __init__(self, briefing: Briefing) -> None:
+        self._teammates = briefing.teammates
+        self._deceleration = briefing.setup.ball.rolling_deceleration
+        self._gap = briefing.setup.dribble.gap
+        self._time: float | None = None
+        self._me: Body | None = None
+        self._ball: Ball | None = None
+
+    def take_in(self, sight: Sight) -> Scene:
+        """The scene after one more sight."""
+        dt = sight.time - self._time if self._time is not None else 0.0
+        self._time = sight.time
+        self._me = me = _smooth_body(self._me, sight.self, dt)
+        mates = self._mates(sight.radio)
+        ball = self._believed_ball(sight, me, dt)
+        return Scene(sight.tick, dt, me, sight.holding, ball, mates, _opponents(sight, mates), sight.game)
+
+    def _mates(self, radio: dict[str, Heard]) -> dict[str, Mate]:
+        mates = {}
+        for name in self._teammates:
+            word = radio.get(name)
+            if word is not None and word.self is not None and word.age <= STALE:
+                body = _body(word.self).after(word.age)
+                mates[name] = Mate(body, word.role or "", word.intention or "", word.pass_to)
+        return mates
+
+    def _believed_ball(self, sight: Sight, me: Body, dt: float) -> SeenBall | None:
+        own = sight.ball
+        if sight.holding:
+            c, s = math.cos(me.heading), math.sin(me.heading)
+            self._ball = Ball(me.x + self._gap * c, me.y + self._gap * s, me.vx, me.vy)
+            return SeenBall(self._ball, 0.0)
+        if own is not None and own.visible and own.age <= FRESH:
+            self._ball = self._smooth_ball(own, dt)
+            return SeenBall(self._ball, own.age)
+        self._ball = None
+        return self._freshest(own, sight.radio)
+
+    def _freshest(self, own: BallSight | None, radio: dict[str, Heard]) -> SeenBall | None:
+        """The ball that was seen last, by the robot or a teammate, rolled on to now."""
+        found = (own.age, Ball(own.x, own.y, own.vx, own.vy)) if own is not None else None
+        for name in self._teammates:
+            word = radio.get(name)
+            if word is None or word.ball is None:
+                continue
+            age = word.age + word.ball.age
+            if found is None or age < found[0]:
+                found = age, Ball(word.ball.x, word.ball.y, word.ball.vx, word.ball.vy)
+        if found is None:
+            return None
+        return SeenBall(found[1].after(found[0], self._deceleration), found[0])
+
+    def _smooth_ball(self, seen: BallSight, dt: float) -> Ball:
+        now = Ball(seen.x, seen.y, seen.vx, seen.vy)
+        if seen.age > 0.0:
+            now = now.after(seen.age, self._deceleration)
+        if self._ball is None:
+            return now
+        expected = self._ball.after(dt, self._deceleration)
+        dvx, dvy = now.vx - expected.vx, now.vy - expected.vy
+        dx, dy = now.x - expected.x, now.y - expected.y
+        if math.hypot(dx, dy) > _JUMP or math.hypot(dvx, dvy) > _JUMP_SPEED:
+            return now
+        return Ball(
+            expected.x + _TRUST * dx,
+            expected.y + _TRUST * dy,
+            expected.vx + _TRUST_VELOCITY * dvx,
+            expected.vy + _TRUST_VELOCITY * dvy,
+        )
+
+
+def _body(motion: Motion) -> Body:
+    return Body(motion.x, motion.y, motion.heading, motion.vx, motion.vy, motion.omega)
+
+
+def _smooth_body(before: Body | None, seen: Motion, dt: float) -> Body:
+    now = _body(seen)
+    if before is None:
+        return now
+    x, y = before.x + 0.5 * (before.vx + now.vx) * dt, before.y + 0.5 * (before.vy + now.vy) * dt
+    dx, dy, turned = now.x - x, now.y - y, wrap(now.heading - before.heading - now.omega * dt)
+    if math.hypot(dx, dy) > _JUMP or abs(turned) > _JUMP:
+        return now
+    heading = wrap(now.heading - (1.0 - _TRUST) * turned)
+    return Body(x + _TRUST * dx, y + _TRUST * dy, heading, now.vx, now.vy, now.omega)
+
+
+def _opponents(sight: Sight, mates: dict[str, Mate]) -> list[tuple[float, float]]:
+    """The obstacles that are no teammate: each teammate accounts for the one nearest to it, if near enough."""
+    left = [(obstacle.x, obstacle.y) for obstacle in sight.obstacles]
+    for mate in mates.values():
+        best, least = -1, SAME
+        for index, (x, y) in enumerate(left):
+            away = math.hypot(x - mate.body.x, y - mate.body.y)
+            if away <= least:
+                best, least = index, away
+        if best >= 0:
+            del left[best]
+    return left
