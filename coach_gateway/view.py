@@ -1,0 +1,97 @@
+"""What can be seen of a match from outside: the newest state and health, all events, and how fast it is played."""
+
+from dataclasses import dataclass, field
+
+from schemas.bus.contract import Bus, Received, Subscription
+from schemas.game import GameEvent, GameState, Phase
+from schemas.host import Health
+from schemas.message import BadMessageError
+from schemas.topics import EVENT, HEALTH, STATE
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A point of the match: its tick, its simulated time in s, and the host's wall time in ns since 1970."""
+
+    tick: int
+    time: float
+    wall_ns: int
+
+
+@dataclass
+class MatchView:
+    """The match as the bus brings it; `update` takes in what has come."""
+
+    bus: Bus
+    state: GameState | None = None
+    health: Health | None = None
+    events: list[GameEvent] = field(default_factory=list)
+    unreadable: int = 0
+    """Messages that could not be read; each was left out."""
+    first: Moment | None = None
+    """The first tick seen."""
+    last: Moment | None = None
+    """The newest tick seen."""
+
+    def __post_init__(self) -> None:
+        self._subscriptions: tuple[Subscription, ...] = tuple(
+            self.bus.subscribe(topic) for topic in (EVENT, STATE, HEALTH)
+        )
+
+    def update(self) -> list[GameEvent | GameState | Health]:
+        """Take in what has come since the last call, without waiting; returns it, events first."""
+        fresh: list[GameEvent | GameState | Health] = []
+        for subscription in self._subscriptions:
+            while (received := subscription.receive()) is not None:
+                message = self._read(received)
+                if message is not None:
+                    fresh.append(message)
+        return fresh
+
+    def wait_for_state(self, patience: float) -> GameState | None:
+        """The newest state, waiting up to `patience` s of wall time for the first one."""
+        deadline = self.bus.clock.now() + patience
+        while self.state is None and self.bus.clock.now() < deadline:
+            self.update()
+            self.bus.clock.sleep_until(self.bus.clock.now() + 0.02)
+        return self.state
+
+    @property
+    def finished(self) -> bool:
+        """Whether full time was seen."""
+        return self.state is not None and self.state.phase is Phase.FULL_TIME
+
+    @property
+    def wall_s(self) -> float:
+        """Wall time in s between the first and the newest tick seen."""
+        return (self.last.wall_ns - self.first.wall_ns) / 1e9 if self.first and self.last else 0.0
+
+    @property
+    def real_time_factor(self) -> float:
+        """Simulated seconds per wall second over all that was seen; 0 when that is nothing."""
+        if self.first is None or self.last is None or self.wall_s <= 0.0:
+            return 0.0
+        return (self.last.time - self.first.time) / self.wall_s
+
+    def _read(self, received: Received) -> GameEvent | GameState | Health | None:
+        try:
+            message: GameEvent | GameState | Health = received.message()
+        except BadMessageError:
+            self.unreadable += 1
+            return None
+        match message:
+            case GameEvent():
+                self.events.append(message)
+            case GameState():
+                self.state = message
+            case Health():
+                self.health = message
+        if message.tick > 0 and received.stamp is not None:
+            self._mark(Moment(message.tick, message.time, received.stamp.sent_ns))
+        return message
+
+    def _mark(self, moment: Moment) -> None:
+        if self.first is None or moment.tick < self.first.tick:
+            self.first = moment
+        if self.last is None or moment.tick >= self.last.tick:
+            self.last = moment

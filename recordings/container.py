@@ -1,0 +1,164 @@
+"""An MCAP file from outside: what it holds by its index, or, where it was cut off, by reading it up to the cut."""
+
+import struct
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO
+
+import zstandard
+from mcap.data_stream import ReadDataStream
+from mcap.exceptions import McapError
+from mcap.reader import SeekingReader
+from mcap.records import Attachment, Channel, ChunkIndex, Header, McapRecord, Message, MessageIndex, Metadata
+from mcap.stream_reader import StreamReader
+from mcap.summary import Summary
+from mcap.writer import MCAP0_MAGIC
+
+from schemas.errors import TouchlineError
+
+_BROKEN = (McapError, ValueError, struct.error, zstandard.ZstdError)
+"""What the library raises on bytes that are cut off or damaged."""
+
+
+@dataclass(slots=True)
+class ChannelRecord:
+    """One channel and its extent; times in ns of simulated time."""
+
+    key: str
+    metadata: dict[str, str]
+    messages: int = 0
+    first_ns: int = 0
+    last_ns: int = 0
+
+    def extend(self, log_ns: int) -> None:
+        """One more message."""
+        self.first_ns = min(self.first_ns, log_ns) if self.messages else log_ns
+        self.last_ns = max(self.last_ns, log_ns)
+        self.messages += 1
+
+
+@dataclass(slots=True)
+class Container:
+    """What is in the file."""
+
+    path: Path
+    complete: bool = True
+    """The file was finished by its writer."""
+    library: str = ""
+    metadata: dict[str, dict[str, str]] = field(default_factory=dict)
+    attachments: dict[str, bytes] = field(default_factory=dict)
+    channels: dict[int, ChannelRecord] = field(default_factory=dict)
+
+    def messages(
+        self, keys: set[str], start_ns: int | None = None, end_ns: int | None = None
+    ) -> Iterator[tuple[str, Message]]:
+        """Key and message, in the order of the file, from `start_ns` up to and without `end_ns`.
+
+        Raises:
+            TouchlineError: a finished file is damaged inside.
+        """
+        with self.path.open("rb") as file:
+            if not self.complete:
+                yield from self._streamed(file, keys, start_ns, end_ns)
+                return
+            reader = SeekingReader(file, validate_crcs=True)
+            try:
+                for _, channel, message in reader.iter_messages(
+                    keys, log_time_order=False, starting_at=start_ns, ending_before=end_ns
+                ):
+                    yield channel.topic, message
+            except _BROKEN as error:
+                raise TouchlineError(f"{self.path}: damaged inside ({error}); take another copy of it") from None
+
+    def _streamed(
+        self, file: IO[bytes], keys: set[str], start_ns: int | None, end_ns: int | None
+    ) -> Iterator[tuple[str, Message]]:
+        for record in _records(file, self.path.stat().st_size):
+            if not isinstance(record, Message):
+                continue
+            key = self.channels[record.channel_id].key
+            late_enough = start_ns is None or record.log_time >= start_ns
+            if key in keys and late_enough and (end_ns is None or record.log_time < end_ns):
+                yield key, record
+
+
+def open_container(path: Path) -> Container:
+    """Look into a file.
+
+    Raises:
+        TouchlineError: it cannot be read, or is not MCAP.
+    """
+    try:
+        with path.open("rb") as file:
+            if file.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
+                raise TouchlineError(f"{path}: not a recording; give an *.mcap file")
+            return _by_index(path, file) or _by_reading(path, file)
+    except OSError as error:
+        raise TouchlineError(f"{path}: {error.strerror}; give the path of a recording") from None
+
+
+def _by_index(path: Path, file: IO[bytes]) -> Container | None:
+    """What the summary at the end says; nothing when the file has none, because it was cut off."""
+    size = path.stat().st_size
+    file.seek(max(0, size - len(MCAP0_MAGIC)))
+    if size < 2 * len(MCAP0_MAGIC) or file.read() != MCAP0_MAGIC:
+        return None
+    file.seek(0)
+    try:
+        reader = SeekingReader(file, record_size_limit=size)
+        summary = reader.get_summary()
+        if summary is None or summary.statistics is None:
+            return None
+        container = Container(path, library=reader.get_header().library)
+        container.metadata = {record.name: record.metadata for record in reader.iter_metadata()}
+        container.attachments = {record.name: record.data for record in reader.iter_attachments()}
+        counts = summary.statistics.channel_message_counts
+        for number, channel in summary.channels.items():
+            first, last = _extent(file, summary, number)
+            container.channels[number] = ChannelRecord(
+                channel.topic, channel.metadata, counts.get(number, 0), first, last
+            )
+    except _BROKEN:
+        return None
+    return container
+
+
+def _extent(file: IO[bytes], summary: Summary, channel: int) -> tuple[int, int]:
+    """Times of the first and the last message of a channel, from the indexes beside its first and last chunk."""
+    chunks = [index for index in summary.chunk_indexes if channel in index.message_index_offsets]
+    if not chunks:
+        return 0, 0
+    return min(_times(file, chunks[0], channel)), max(_times(file, chunks[-1], channel))
+
+
+def _times(file: IO[bytes], chunk: ChunkIndex, channel: int) -> list[int]:
+    file.seek(chunk.message_index_offsets[channel] + 9)  # behind opcode and length
+    return [log_ns for log_ns, _ in MessageIndex.read(ReadDataStream(file)).records]
+
+
+def _by_reading(path: Path, file: IO[bytes]) -> Container:
+    """What can be read before the cut."""
+    container = Container(path, complete=False)
+    file.seek(0)
+    for record in _records(file, path.stat().st_size):
+        match record:
+            case Header():
+                container.library = record.library
+            case Metadata():
+                container.metadata[record.name] = record.metadata
+            case Attachment():
+                container.attachments[record.name] = record.data
+            case Channel():
+                container.channels.setdefault(record.id, ChannelRecord(record.topic, record.metadata))
+            case Message():
+                container.channels[record.channel_id].extend(record.log_time)
+    return container
+
+
+def _records(file: IO[bytes], size: int) -> Iterator[McapRecord]:
+    """Every record up to the first that is not whole."""
+    try:
+        yield from StreamReader(file, validate_crcs=True, record_size_limit=size).records
+    except _BROKEN:
+        return

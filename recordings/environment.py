@@ -1,0 +1,39 @@
+"""What a recording says of the machine that made it: versions, and a fingerprint of its mathematics."""
+
+import hashlib
+import math
+import platform
+import struct
+from importlib.metadata import PackageNotFoundError, version
+
+from schemas.message import VERSION
+
+_PACKAGES = ("touchline", "mcap", "numpy", "pydantic", "eclipse-zenoh", "pybullet")
+_ARGUMENTS = tuple(0.1 + 0.37 * step for step in range(200))
+_FUNCTIONS = (math.sin, math.cos, math.tan, math.exp, math.log, math.atan, math.sqrt, math.tanh)
+
+
+def library() -> str:
+    """Who wrote the file, `touchline/0.1.0`."""
+    return f"touchline/{version('touchline')}"
+
+
+def versions() -> dict[str, str]:
+    """What the recording was made with; a package that is not installed is left out."""
+    found = {"contract": VERSION, "python": platform.python_version()}
+    for package in _PACKAGES:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            continue
+    return found | {"platform": platform.platform(), "machine": platform.machine()}
+
+
+def libm_fingerprint() -> str:
+    """A hash over results of the machine's mathematical functions.
+
+    Two machines that differ here may simulate the same match differently in the last bits.
+    """
+    results = [function(argument) for function in _FUNCTIONS for argument in _ARGUMENTS]
+    results += [math.atan2(argument, 1.7) + math.pow(argument, 1.3) for argument in _ARGUMENTS]
+    return hashlib.blake2b(struct.pack(f"<{len(results)}d", *results), digest_size=8).hexdigest()

@@ -1,0 +1,177 @@
+"""The facts of a recording: what was played, how it ended, what was recorded and what was lost."""
+
+import dataclasses
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from recordings.manifest import KeyCount
+from recordings.match_notes import MatchNotes
+from recordings.reader import Recording
+from recordings.sequences import KeyLedger
+from schemas.game import Phase, Score
+from schemas.topics import EVENT
+
+CUT_OFF = "cut_off"
+"""How a recording ended whose recorder did not finish it."""
+
+
+@dataclass(frozen=True, slots=True)
+class KeyFacts:
+    """One key."""
+
+    key: str
+    message: str
+    messages: int
+    rate: float
+    """Messages per simulated second."""
+    bytes: int
+    """Sum of the payloads."""
+    lost: int
+    missed_before_start: int
+
+
+@dataclass(frozen=True, slots=True)
+class RecordingFacts:
+    """A recording in figures."""
+
+    path: str
+    complete: bool
+    """Not cut off."""
+    match: str
+    pace: str | None
+    profile: str | None
+    rules: str | None
+    seed: int | None
+    teams: dict[str, str]
+    """Side → name of its team."""
+    started: str
+    """Wall time, ISO 8601, UTC."""
+    duration: float
+    """Simulated s."""
+    tick: int
+    """The last tick whose inputs were recorded."""
+    phase: str | None
+    score: dict[str, int] | None
+    ended: str
+    events: int
+    messages: int
+    lost: int
+    missed_before_start: int
+    size: int
+    """Bytes of the file."""
+    keys: list[KeyFacts]
+
+    def to_json(self) -> dict[str, Any]:
+        """The facts as plain lists, numbers and texts."""
+        return dataclasses.asdict(self)
+
+
+def facts_of(recording: Recording) -> RecordingFacts:
+    """The facts of a recording; those of a file that was cut off are gathered from its messages."""
+    manifest, setup, config = recording.manifest, recording.manifest.setup, recording.manifest.config
+    ending = _ending(recording)
+    described = setup or config
+    teams = {side.value: team.name for side, team in setup.teams.items()} if setup is not None else {}
+    return RecordingFacts(
+        path=str(recording.path),
+        complete=recording.complete,
+        match=manifest.match,
+        pace=described.pace if described is not None else None,
+        profile=described.profile if described is not None else None,
+        rules=described.rules if described is not None else None,
+        seed=config.seed if config is not None else None,
+        teams=teams,
+        started=manifest.started,
+        duration=ending.time,
+        tick=ending.tick,
+        phase=ending.phase.value if ending.phase is not None else None,
+        score=ending.score.model_dump() if ending.score is not None else None,
+        ended=ending.ended,
+        events=ending.keys.get(EVENT.key, KeyCount()).messages,
+        messages=sum(count.messages for count in ending.keys.values()),
+        lost=sum(count.lost for count in ending.keys.values()),
+        missed_before_start=sum(count.missed_before_start for count in ending.keys.values()),
+        size=recording.path.stat().st_size,
+        keys=list(_key_facts(recording, ending.keys)),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Ending:
+    ended: str
+    phase: Phase | None
+    score: Score | None
+    tick: int
+    time: float
+    keys: dict[str, KeyCount]
+
+
+def _ending(recording: Recording) -> _Ending:
+    result = recording.result
+    if result is not None:
+        return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, result.keys)
+    notes = MatchNotes()
+    ledgers: dict[str, KeyLedger] = {}
+    for recorded in recording.messages():
+        received = recorded.received()
+        ledgers.setdefault(recorded.key, KeyLedger()).enter(received.stamp, len(received.payload))
+        notes.take(received)
+    notes.catch_up()
+    state, applied = notes.state, notes.applied
+    return _Ending(
+        ended=CUT_OFF,
+        phase=state.phase if state is not None else None,
+        score=state.score if state is not None else None,
+        tick=applied.tick if applied is not None else -1,
+        time=applied.time if applied is not None else 0.0,
+        keys={key: ledger.count() for key, ledger in ledgers.items()},
+    )
+
+
+def _key_facts(recording: Recording, counts: dict[str, KeyCount]) -> Iterator[KeyFacts]:
+    for channel in recording.channels:
+        count = counts.get(channel.key, KeyCount())
+        yield KeyFacts(
+            key=channel.key,
+            message=channel.message,
+            messages=channel.messages,
+            rate=channel.rate,
+            bytes=count.bytes,
+            lost=count.lost,
+            missed_before_start=count.missed_before_start,
+        )
+
+
+HEADINGS = ("key", "message", "messages", "per s", "bytes", "lost")
+"""Of the table that `rows` gives."""
+
+
+def rows(facts: RecordingFacts) -> list[tuple[str, ...]]:
+    """The table of keys as texts, below `HEADINGS`."""
+    return [
+        (key.key, key.message, str(key.messages), f"{key.rate:.1f}", str(key.bytes), str(key.lost))
+        for key in facts.keys
+    ]
+
+
+def lines(facts: RecordingFacts) -> list[tuple[str, str]]:
+    """The facts themselves as texts: name and value, what is unknown left out."""
+    score = f"{facts.score['cyan']} : {facts.score['magenta']}" if facts.score is not None else None
+    said: dict[str, str | None] = {
+        "match": facts.match,
+        "teams": " – ".join(facts.teams.values()) or None,
+        "score": score,
+        "phase": facts.phase,
+        "ended": facts.ended,
+        "pace": facts.pace,
+        "profile": facts.profile,
+        "rules": facts.rules,
+        "seed": str(facts.seed) if facts.seed is not None else None,
+        "started": facts.started,
+        "duration": f"{facts.duration:.2f} s simulated, {facts.tick + 1} ticks",
+        "messages": f"{facts.messages}, {facts.lost} lost, {facts.missed_before_start} sent before it began",
+        "events": str(facts.events),
+        "size": f"{facts.size} bytes" + ("" if facts.complete else ", cut off"),
+    }
+    return [(name, value) for name, value in said.items() if value is not None]

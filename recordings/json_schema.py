@@ -1,0 +1,61 @@
+"""The JSON Schema of a message: whole for programs, flattened for the viewers that open recordings.
+
+Lichtblick and its relatives read a small part of JSON Schema: every field has one plain `type`, every object has
+`properties`, an array holds scalars or objects. They drop a topic whose schema says more, so the schema beside a
+channel is written in their words; the whole one, with limits and defaults, is attached to the file.
+"""
+
+from typing import Any
+
+from schemas.message import Message
+
+_KEPT = ("title", "description", "enum", "contentEncoding")
+"""What a viewer may show of a field besides its type."""
+
+
+def whole_schema(model: type[Message]) -> dict[str, Any]:
+    """The full JSON Schema of a message as it is written on the wire."""
+    return model.model_json_schema(by_alias=True, mode="serialization")
+
+
+def flat_schema(model: type[Message]) -> dict[str, Any]:
+    """The schema without `$ref`, `$defs` and unions; a field that may be nothing has the type of what it else is."""
+    schema = whole_schema(model)
+    return _flat(schema, schema.get("$defs", {}))
+
+
+def _flat(schema: dict[str, Any], definitions: dict[str, Any]) -> dict[str, Any]:
+    schema = _one_type(schema, definitions)
+    flat = {key: schema[key] for key in ("type", *_KEPT) if key in schema}
+    if flat["type"] == "object":
+        flat["properties"] = {name: _flat(field, definitions) for name, field in schema.get("properties", {}).items()}
+        flat |= _entries(schema, definitions)
+    elif flat["type"] == "array":
+        flat["items"] = _flat(schema["items"], definitions)
+    return flat
+
+
+def _entries(schema: dict[str, Any], definitions: dict[str, Any]) -> dict[str, Any]:
+    """What stands below the free keys of a mapping, where all of it is of one type."""
+    patterns = list(schema.get("patternProperties", {}).values())
+    value = patterns[0] if patterns else schema.get("additionalProperties")
+    if not isinstance(value, dict) or len(_choices(value, definitions)) > 1:
+        return {}
+    return {"additionalProperties": _flat(value, definitions)}
+
+
+def _one_type(schema: dict[str, Any], definitions: dict[str, Any]) -> dict[str, Any]:
+    """The schema itself, or the one that its reference or its union stands for."""
+    choices = _choices(schema, definitions)
+    if len({choice.get("type") for choice in choices}) != 1 or "type" not in choices[0]:
+        raise ValueError(f"no viewer reads a field of several types: {schema}; give it one type, or one and nothing")
+    return {**choices[0], **{key: schema[key] for key in _KEPT if key in schema}}
+
+
+def _choices(schema: dict[str, Any], definitions: dict[str, Any]) -> list[dict[str, Any]]:
+    """Everything but nothing that a value may be."""
+    if "$ref" in schema:
+        return _choices(definitions[schema["$ref"].removeprefix("#/$defs/")], definitions)
+    if "anyOf" in schema:
+        return [choice for option in schema["anyOf"] for choice in _choices(option, definitions)]
+    return [] if schema.get("type") == "null" else [schema]

@@ -1,0 +1,78 @@
+"""What the recorder itself reads of what it records: how far the match is, its score, its phase."""
+
+from collections import Counter
+from typing import Any
+
+from schemas.bus.contract import Received
+from schemas.game import EventKind, GameEvent, GameState, Phase
+from schemas.host import Applied, Health
+from schemas.message import BadMessageError
+from schemas.topics import APPLIED, EVENT, HEALTH, STATE
+
+
+class MatchNotes:
+    """Follows a match by a few of its messages; one that cannot be read is counted and passed over."""
+
+    def __init__(self) -> None:
+        self.applied: Applied | None = None
+        self.state: GameState | None = None
+        self.goals = 0
+        self.unreadable: Counter[str] = Counter()
+        """Payloads that could not be read, by key."""
+        self._newest_applied: Received | None = None
+        self._joined_at_tick = -1
+        self._notes = {
+            APPLIED.key: self._note_applied,
+            STATE.key: self._note_state,
+            EVENT.key: self._note_event,
+            HEALTH.key: self._note_health,
+        }
+
+    @property
+    def tick(self) -> int:
+        """The newest tick whose inputs were taken in; −1 before the first.
+
+        A recorder that joins late starts from where the host is: it is not behind by all that was before it came.
+        """
+        return self.applied.tick if self.applied is not None else self._joined_at_tick
+
+    @property
+    def finished(self) -> bool:
+        """The match was played to its end."""
+        return self.state is not None and self.state.phase is Phase.FULL_TIME
+
+    def take(self, received: Received) -> None:
+        """Look at a message; most are none of ours."""
+        note = self._notes.get(received.key)
+        if note is not None:
+            note(received)
+
+    def catch_up(self) -> None:
+        """Read the newest inputs that were taken: once for many ticks, for speed."""
+        if self._newest_applied is not None:
+            self.applied = self.read(self._newest_applied) or self.applied
+            self._newest_applied = None
+
+    def read(self, received: Received) -> Any:
+        """The message, or nothing."""
+        try:
+            return received.message()
+        except BadMessageError:
+            self.unreadable[received.key] += 1
+            return None
+
+    def _note_applied(self, received: Received) -> None:
+        self._newest_applied = received
+
+    def _note_state(self, received: Received) -> None:
+        self.state = self.read(received) or self.state
+
+    def _note_event(self, received: Received) -> None:
+        event: GameEvent | None = self.read(received)
+        if event is not None and event.kind is EventKind.GOAL:
+            self.goals += 1
+
+    def _note_health(self, received: Received) -> None:
+        if self.applied is None and self._newest_applied is None and self._joined_at_tick < 0:
+            health: Health | None = self.read(received)
+            self._joined_at_tick = health.tick if health is not None else -1

@@ -1,0 +1,70 @@
+"""One order for the messages of many keys: by simulated time, each key in its own order, and the same in every run.
+
+Messages come through as many mailboxes as there are topics. Written as they are met, twenty ticks of one topic would
+stand before the first tick of the next; so they are held for a moment and released tick by tick.
+"""
+
+from typing import NamedTuple
+
+from schemas.bus.contract import Received
+from schemas.topics import Party
+
+
+class Timed(NamedTuple):
+    """A message and its place; compares by time, topic, key and number on the key."""
+
+    sim_ns: int
+    row: int
+    """Which topic of the table."""
+    key: str
+    number: int
+    received: Received
+
+
+class SimOrder:
+    """Holds messages, and releases them in order."""
+
+    def __init__(self) -> None:
+        self._held: list[Timed] = []
+        self._of_key: dict[str, tuple[int, int]] = {}
+        self._host_ns = 0
+        self._released_ns = 0
+
+    def __len__(self) -> int:
+        return len(self._held)
+
+    @property
+    def host_ns(self) -> int:
+        """The newest simulated time that the host has sent, in ns."""
+        return self._host_ns
+
+    def add(self, row: int, received: Received) -> None:
+        """Take a message in; the order of calls is the order of its key."""
+        last, number = self._of_key.get(received.key, (0, 0))
+        moment = max(self._moment(received), last)
+        self._of_key[received.key] = moment, number + 1
+        self._held.append(Timed(moment, row, received.key, number, received))
+
+    def release(self, before_ns: int | None = None) -> list[tuple[int, Received]]:
+        """Give out what is older than `before_ns`, or everything: log time in ns, never running backward, and message.
+
+        A message that is older than what was released already gets the log time of that.
+        """
+        self._held.sort()
+        count = len(self._held)
+        if before_ns is not None:
+            count = next((i for i, timed in enumerate(self._held) if timed.sim_ns >= before_ns), count)
+        out = []
+        for timed in self._held[:count]:
+            self._released_ns = max(self._released_ns, timed.sim_ns)
+            out.append((self._released_ns, timed.received))
+        del self._held[:count]
+        return out
+
+    def _moment(self, received: Received) -> int:
+        """The sender's simulated time; the host's newest when the sender knows none, or claims to be ahead of it."""
+        said = received.stamp.sim_ns if received.stamp is not None else -1
+        if received.topic.writer is Party.HOST:
+            self._host_ns = max(self._host_ns, said)
+            return said if said >= 0 else self._host_ns
+        return min(said, self._host_ns) if said >= 0 else self._host_ns

@@ -1,0 +1,95 @@
+"""Robots and ball on the pitch, and the trails behind them."""
+
+import math
+import re
+from collections.abc import Sequence
+from itertools import pairwise
+
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import to_rgb
+from matplotlib.patches import Circle, Polygon
+
+from schemas.host import Setup
+from schemas.side import Side
+from schemas.world import World
+
+COLOURS = {Side.CYAN: "#22c3dd", Side.MAGENTA: "#e0389a"}
+_EDGES = {Side.CYAN: "#073b45", Side.MAGENTA: "#4a0730"}
+_BALL = "#ffb000"
+_LARGER = 1.9
+"""Robots are drawn so much larger than they are: a number on one of true size is unreadable."""
+_BALL_LARGER = 1.6
+_JUMP_M = 1.0
+"""A body that is farther away after one tick was set down by hand: no trail leads there."""
+
+Place = tuple[float, float]
+
+
+def draw_bodies(axes: Axes, setup: Setup, worlds: Sequence[World], scale: float) -> None:
+    """Draw the last of `worlds`, with trails through those before; `scale` is inches on paper per metre."""
+    now = worlds[-1]
+    sides = {name: side for side, team in setup.teams.items() for name in team.robots}
+    for name, robot in now.robots.items():
+        if robot.off_field is not None or name not in sides:
+            continue
+        side = sides[name]
+        way = [(world.robots[name].x, world.robots[name].y) for world in worlds if name in world.robots]
+        _trail(axes, way, COLOURS[side], 6.0 * scale)
+        _robot(axes, (robot.x, robot.y), robot.heading, _LARGER * setup.robot.radius, side, _number(name, setup), scale)
+    _trail(axes, [(world.ball.x, world.ball.y) for world in worlds], _BALL, 7.5 * scale)
+    _ball(axes, now, setup.ball.radius, scale)
+
+
+def jumps(before: Place, after: Place) -> bool:
+    """Whether a body cannot have moved so far in one tick by itself."""
+    return math.dist(before, after) > _JUMP_M
+
+
+def _trail(axes: Axes, way: Sequence[Place], colour: str, width: float) -> None:
+    """A line that fades toward the past."""
+    steps = list(pairwise(way))
+    kept = [(number, step) for number, step in enumerate(steps, 1) if not jumps(*step)]
+    if not kept:
+        return
+    ages = [number / len(steps) for number, _ in kept]
+    axes.add_collection(
+        LineCollection(
+            [step for _, step in kept],
+            colors=[(*to_rgb(colour), 0.85 * age**1.3) for age in ages],
+            linewidths=[width * (0.35 + 0.65 * age) for age in ages],
+            capstyle="butt",
+            zorder=2.5,
+        )
+    )
+
+
+def _robot(axes: Axes, place: Place, heading: float, radius: float, side: Side, number: str, scale: float) -> None:
+    """A disc with its number, and a nose in the kicking direction."""
+    x, y = place
+    nose = [
+        (x + reach * radius * math.cos(heading + turn), y + reach * radius * math.sin(heading + turn))
+        for turn, reach in ((-0.5, 0.96), (0.0, 1.5), (0.5, 0.96))
+    ]
+    axes.add_patch(Circle((x + 0.06, y - 0.09), radius * 1.04, color="#00000038", lw=0, zorder=3))
+    axes.add_patch(Polygon(nose, facecolor=_EDGES[side], lw=0, zorder=3.1))
+    axes.add_patch(Circle(place, radius, facecolor=COLOURS[side], edgecolor=_EDGES[side], lw=3.2 * scale, zorder=3.2))
+    text = axes.text(x, y - 0.02, number, color="white", fontsize=25 * scale, fontweight="bold", zorder=3.3)
+    text.set(ha="center", va="center_baseline")
+
+
+def _ball(axes: Axes, world: World, true_radius: float, scale: float) -> None:
+    """The ball, above its shadow: a lobbed ball is drawn larger, and flies away from it."""
+    x, y, lift = world.ball.x, world.ball.y, max(0.0, world.ball.z - true_radius)
+    radius = _BALL_LARGER * true_radius
+    axes.add_patch(Circle((x + 0.05, y - 0.07), radius, color="#00000055", lw=0, zorder=4))
+    shown = radius * (1 + 0.3 * lift)
+    axes.add_patch(Circle((x, y + 0.6 * lift), shown, facecolor=_BALL, edgecolor="#5a3c00", lw=2.2 * scale, zorder=4.1))
+
+
+def _number(name: str, setup: Setup) -> str:
+    """The number at the end of a robot's name, or else its place in the team."""
+    found = re.search(r"\d+$", name)
+    if found:
+        return found[0]
+    return str(next(team.robots.index(name) + 1 for team in setup.teams.values() if name in team.robots))

@@ -1,0 +1,88 @@
+"""The pitch: grass, lines, areas and goals, in m of the field frame."""
+
+from matplotlib.axes import Axes
+from matplotlib.patches import Arc, Rectangle
+
+from schemas.profile import Field
+
+_GRASS = "#2f6f4e"
+_MOWN = "#33775a"
+_SURROUND = "#275c41"
+_LINE = "#eef4ef"
+_NET = "#d7e0da"
+_STRIPES = 11
+
+
+def draw_pitch(axes: Axes, pitch: Field) -> None:
+    """Lay the pitch out below everything else, x to the right, y up, and frame the axes around it."""
+    half_x, half_y = pitch.goal_line, pitch.touch_line
+    _ground(axes, pitch)
+    _box(axes, -half_x, -half_y, pitch.length, pitch.width)
+    axes.plot([0, 0], [-half_y, half_y], color=_LINE, lw=1.3, zorder=1)
+    _arc(axes, 0, 0, pitch.centre_circle_radius, 0, 360)
+    for x, y in pitch.restart_spots:
+        axes.plot([x], [y], "o", color=_LINE, ms=1.8, zorder=1)
+    for sign in (-1, 1):
+        _end(axes, pitch, sign)
+    margin_x = pitch.border + pitch.goal_depth * 0.2
+    axes.set_xlim(-half_x - margin_x, half_x + margin_x)
+    axes.set_ylim(-half_y - pitch.border, half_y + pitch.border)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+
+
+def _ground(axes: Axes, pitch: Field) -> None:
+    wide, high = pitch.length + 4 * pitch.border, pitch.width + 4 * pitch.border
+    axes.add_patch(Rectangle((-wide / 2, -high / 2), wide, high, color=_SURROUND, lw=0, zorder=0))
+    stripe = pitch.length / _STRIPES
+    for number in range(_STRIPES):
+        axes.add_patch(
+            Rectangle(
+                (-pitch.goal_line + number * stripe, -pitch.touch_line),
+                stripe,
+                pitch.width,
+                color=_GRASS if number % 2 else _MOWN,
+                lw=0,
+                zorder=0.1,
+            )
+        )
+
+
+def _end(axes: Axes, pitch: Field, sign: int) -> None:
+    """One end of the pitch: areas, corner arcs, goal."""
+    line = sign * pitch.goal_line
+    for depth, width in (
+        (pitch.penalty_area_depth, pitch.penalty_area_width),
+        (pitch.goal_area_depth, pitch.goal_area_width),
+    ):
+        _box(axes, line, -width / 2, -sign * depth, width)
+    for y in (-pitch.touch_line, pitch.touch_line):
+        quarter = {(1, 1): 180, (1, -1): 90, (-1, 1): 270, (-1, -1): 0}[sign, 1 if y > 0 else -1]
+        _arc(axes, line, y, pitch.corner_arc_radius, quarter, quarter + 90)
+    _goal(axes, pitch, sign)
+
+
+def _goal(axes: Axes, pitch: Field, sign: int) -> None:
+    line, half = sign * pitch.goal_line, pitch.goal_width / 2
+    axes.add_patch(
+        Rectangle(
+            (line, -half),
+            sign * pitch.goal_depth,
+            pitch.goal_width,
+            facecolor="#ffffff22",
+            edgecolor=_NET,
+            hatch="xxxxx",
+            lw=0.4,
+            zorder=1,
+        )
+    )
+    frame_x = [line, line + sign * pitch.goal_depth, line + sign * pitch.goal_depth, line]
+    axes.plot(frame_x, [-half, -half, half, half], color="white", lw=2.0, solid_capstyle="round", zorder=2)
+
+
+def _box(axes: Axes, x: float, y: float, width: float, height: float) -> None:
+    axes.add_patch(Rectangle((x, y), width, height, fill=False, edgecolor=_LINE, lw=1.3, zorder=1))
+
+
+def _arc(axes: Axes, x: float, y: float, radius: float, start: float, end: float) -> None:
+    axes.add_patch(Arc((x, y), 2 * radius, 2 * radius, theta1=start, theta2=end, edgecolor=_LINE, lw=1.3, zorder=1))

@@ -1,0 +1,167 @@
+"""Reads a recording: its manifest and result, its channels, its messages as they came or as the schemas have them."""
+
+from collections import Counter
+from collections.abc import Iterator
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from recordings.container import ChannelRecord, Container, open_container
+from recordings.manifest import MANIFEST, RESULT, Manifest, Result, from_metadata
+from schemas.bus.contract import Received, Stamp
+from schemas.errors import TouchlineError
+from schemas.message import VERSION, BadMessageError
+from schemas.topics import TOPICS, Topic
+
+
+class ChannelFacts(NamedTuple):
+    """One key of a recording; times in s of simulated time."""
+
+    key: str
+    topic: str
+    """Name of its row in the topic table."""
+    message: str
+    messages: int
+    start: float
+    end: float
+
+    @property
+    def rate(self) -> float:
+        """Messages per simulated second between the first and the last."""
+        return (self.messages - 1) / (self.end - self.start) if self.end > self.start else 0.0
+
+
+class Recorded(NamedTuple):
+    """A message of a recording, read only when somebody asks for it."""
+
+    key: str
+    topic: Topic
+    payload: bytes
+    log_ns: int
+    """Simulated time in ns."""
+    sent_ns: int
+    """Wall time at which it was sent, ns since 1970."""
+    sequence: int
+    """Its sender's number on this key, modulo 2³²."""
+
+    @property
+    def time(self) -> float:
+        """Simulated time in s."""
+        return self.log_ns / 1e9
+
+    def received(self) -> Received:
+        """The message as it came over the bus."""
+        return Received(self.topic, self.key, self.payload, Stamp(self.sequence, self.sent_ns, self.log_ns))
+
+    def message(self) -> Any:
+        """The validated message.
+
+        Raises:
+            BadMessageError: the payload is not a message of its topic.
+        """
+        assert self.topic.message is not None
+        return self.topic.message.decode(self.payload)
+
+
+class Recording:
+    """A recording that was opened; holds no file open between two calls."""
+
+    def __init__(self, container: Container, manifest: Manifest, result: Result | None) -> None:
+        self._container = container
+        self.path = container.path
+        self.complete = container.complete
+        """Not cut off."""
+        self.library = container.library
+        """Who wrote the file."""
+        self.manifest = manifest
+        self.result = result
+        """How the match ended; nothing in a file that was cut off."""
+        self.attachments = container.attachments
+        self.unreadable: Counter[str] = Counter()
+        """Payloads that `decoded` passed over because they are no valid message, by key."""
+        self._topics = {channel.key: _topic(channel) for channel in container.channels.values()}
+
+    @property
+    def channels(self) -> list[ChannelFacts]:
+        """The keys of this recording, sorted."""
+        facts = [
+            ChannelFacts(
+                key=channel.key,
+                topic=channel.metadata.get("topic", ""),
+                message=channel.metadata.get("message", ""),
+                messages=channel.messages,
+                start=channel.first_ns / 1e9,
+                end=channel.last_ns / 1e9,
+            )
+            for channel in self._container.channels.values()
+        ]
+        return sorted(facts)
+
+    def messages(self, *keys: str, start: float | None = None, end: float | None = None) -> Iterator[Recorded]:
+        """Messages in the order they were recorded in, from `start` up to and without `end`, s of simulated time.
+
+        `keys` are keys or patterns as `Topic.fill()` gives them, `robot/*/command`; by default every key whose topic
+        this version knows.
+
+        Raises:
+            TouchlineError: the file is damaged inside.
+        """
+        wanted = {key for key, topic in self._topics.items() if topic is not None and _wanted(key, keys)}
+        for key, message in self._container.messages(wanted, _ns(start), _ns(end)):
+            topic = self._topics[key]
+            if topic is not None:
+                yield Recorded(key, topic, message.data, message.log_time, message.publish_time, message.sequence)
+
+    def decoded(
+        self, *keys: str, start: float | None = None, end: float | None = None
+    ) -> Iterator[tuple[Recorded, Any]]:
+        """As `messages`, each with its validated message; what does not validate is counted and passed over."""
+        for recorded in self.messages(*keys, start=start, end=end):
+            try:
+                yield recorded, recorded.message()
+            except BadMessageError:
+                self.unreadable[recorded.key] += 1
+
+
+def open_recording(path: Path, *, whole: bool = False) -> Recording:
+    """Open a recording; one that was cut off can be read up to the cut, unless it has to be `whole`.
+
+    Raises:
+        TouchlineError: no such file, not a recording, cut off before its manifest, or of another major version.
+    """
+    container = open_container(path)
+    if whole and not container.complete:
+        raise TouchlineError(f"{path}: truncated file, its recorder did not finish it; recover it first")
+    if MANIFEST not in container.metadata:
+        if not container.complete:
+            raise TouchlineError(f"{path}: truncated file, cut off before its manifest; nothing in it can be read")
+        raise TouchlineError(f"{path}: an MCAP file without a manifest, not a recording of a match; record one")
+    try:
+        manifest = from_metadata(Manifest, container.metadata[MANIFEST])
+        result = from_metadata(Result, container.metadata[RESULT]) if RESULT in container.metadata else None
+    except TouchlineError as error:
+        _check_version(path, container.metadata[MANIFEST].get("contract", ""))
+        raise TouchlineError(f"{path}: its manifest or result is damaged: {error}") from None
+    _check_version(path, manifest.contract)
+    return Recording(container, manifest, result)
+
+
+def _check_version(path: Path, theirs: str) -> None:
+    if theirs.split(".")[0] != VERSION.split(".")[0]:
+        raise TouchlineError(
+            f"{path}: recorded with messages of version {theirs}, this program speaks {VERSION}; "
+            "open it with the program that recorded it"
+        )
+
+
+def _topic(channel: ChannelRecord) -> Topic | None:
+    topic = TOPICS.get(channel.metadata.get("topic", ""))
+    return topic if topic is not None and topic.message is not None else None
+
+
+def _wanted(key: str, patterns: tuple[str, ...]) -> bool:
+    return not patterns or any(fnmatchcase(key, pattern) for pattern in patterns)
+
+
+def _ns(seconds: float | None) -> int | None:
+    return round(seconds * 1e9) if seconds is not None else None

@@ -1,0 +1,50 @@
+"""Records a match from its endpoint into a file: what `touchline record` and `python -m recordings` do."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from recordings.recorder import Recorder, RecordingSummary
+from recordings.writer import RecordingWriter
+from schemas.bus.zenoh_bus import DEFAULT_ENDPOINT, open_client
+from schemas.clock import WallClock
+from schemas.errors import TouchlineError
+from schemas.match_config import MatchConfig
+
+
+def record(
+    connect: str = DEFAULT_ENDPOINT,
+    match: str = "friendly",
+    out: Path = Path("match.mcap"),
+    *,
+    name: str = "recorder",
+    sights: bool = False,
+    config: MatchConfig | None = None,
+    patience: float = 30.0,
+    told_to_stop: Callable[[], bool] = lambda: False,
+) -> RecordingSummary:
+    """Record until the host leaves or `told_to_stop` says so; `patience` is how long the host may take to appear, in s.
+
+    Raises:
+        TouchlineError: no host, or a file that cannot be written; what was written so far stays as `*.part`.
+    """
+    clock = WallClock()
+    with open_client(match, clock, connect, patience) as bus:
+        writer = RecordingWriter(out, clock, match)
+        try:
+            return Recorder(bus, writer, name=name, sights=sights, config=config).run(told_to_stop)
+        finally:
+            writer.abandon()
+
+
+def read_config(path: Path) -> MatchConfig:
+    """The match file as the one who started the match wrote it down, in JSON.
+
+    Raises:
+        TouchlineError: no such file, or not a match.
+    """
+    try:
+        return MatchConfig.model_validate_json(path.read_bytes())
+    except OSError as error:
+        raise TouchlineError(f"--config {path}: {error.strerror}; give the path of a match in JSON") from None
+    except ValueError as error:
+        raise TouchlineError(f"--config {path}: not a match: {str(error).splitlines()[0]}") from None

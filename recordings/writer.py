@@ -1,0 +1,189 @@
+"""Writes a recording: MCAP in zstd chunks, by a thread of its own, so that compressing and the disk hold nobody up.
+
+The file is `*.mcap.part` until it is finished, and readable up to the last flush at any moment.
+"""
+
+import os
+from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
+from pathlib import Path
+from queue import Empty, Queue
+from threading import Thread
+
+from mcap.writer import CompressionType, Writer
+from mcap.writer import IndexType as Index
+from pydantic_core import to_json
+
+from recordings.environment import library
+from recordings.json_schema import flat_schema
+from recordings.manifest import MANIFEST, RESULT
+from schemas.bus.contract import Received
+from schemas.clock import Clock
+from schemas.errors import TouchlineError
+from schemas.message import VERSION
+from schemas.topics import TOPICS, root
+
+CHUNK_BYTES = 256 * 1024
+"""Uncompressed size of a chunk: as small as compresses well, and stays in the cache."""
+FLUSH_S = 0.5
+"""Wall time after which what was handed over is in the file."""
+_BACKLOG = 64
+"""Batches that may wait for the thread; whoever hands over the next one waits."""
+_SEQUENCES = 0xFFFF_FFFF
+"""MCAP counts in 32 bits."""
+
+Batch = list[tuple[int, Received]]
+"""Log time in ns, and message."""
+
+
+class RecordingWriter:
+    """One file that is being written. Any method may raise `TouchlineError` when the disk refuses."""
+
+    def __init__(self, path: Path, clock: Clock, match: str) -> None:
+        self.path = path
+        self.part = path.with_name(path.name + ".part")
+        self._clock = clock
+        self._root = root(match)
+        self._channels: dict[str, int] = {}
+        self._schemas: dict[str, int] = {}
+        self._jobs: Queue[Callable[[], None] | None] = Queue(_BACKLOG)
+        self._error: Exception | None = None
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            if self.part.exists():
+                self.part.replace(self.part.with_name(self.part.name + ".old"))
+            self._file = self.part.open("wb")
+        except OSError as error:
+            raise TouchlineError(f"{path}: {error.strerror}; give a path that can be written") from None
+        self._mcap = Writer(self._file, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD, index_types=Index.ALL)
+        self._thread = Thread(target=self._run, name="recording writer", daemon=True)
+        self.begun = False
+
+    def begin(self, manifest: dict[str, str], attachments: dict[str, bytes]) -> None:
+        """Write what stands before the first message; `attachments` are named with their suffix, `match.json`."""
+        self.begun = True
+        self._thread.start()
+        self._hand_over(partial(self._write_head, manifest, attachments))
+
+    def write(self, batch: Batch) -> None:
+        """Hand over messages in the order they shall stand in; waits while the thread is far behind."""
+        self._hand_over(partial(self._write_batch, batch))
+
+    def sync(self) -> None:
+        """Have what was handed over on the disk soon, so that it survives a loss of power."""
+        self._hand_over(self._sync)
+
+    def finish(self, result: dict[str, str]) -> int:
+        """Write the result, close the file, give it its name, and return its size in bytes."""
+        self._hand_over(partial(self._write_tail, result))
+        self._end()
+        self._raise_error()
+        self._file.close()
+        self.part.replace(self.path)
+        return self.path.stat().st_size
+
+    def abandon(self) -> None:
+        """Close the file as it is, `*.part`, with all that was handed over. Does nothing after `finish`."""
+        if self._thread.is_alive():
+            self._jobs.put(self._sync)
+            self._end()
+        with suppress(OSError):  # the disk has refused before, and that was raised
+            self._file.close()
+
+    def _hand_over(self, job: Callable[[], None]) -> None:
+        self._jobs.put(job)
+        self._raise_error()
+
+    def _end(self) -> None:
+        self._jobs.put(None)
+        self._thread.join()
+
+    def _raise_error(self) -> None:
+        if isinstance(self._error, OSError):
+            raise TouchlineError(f"{self.part}: {self._error.strerror}; what was written before is readable")
+        if self._error is not None:
+            raise self._error
+
+    def _run(self) -> None:
+        """The thread: jobs in order, a flush each half second; after an error it takes jobs and does nothing."""
+        due = self._clock.now() + FLUSH_S
+        while True:
+            try:
+                job = self._jobs.get(timeout=max(0.01, due - self._clock.now()))
+            except Empty:
+                job = _nothing
+            if job is None:
+                return
+            if self._error is not None:
+                continue
+            try:
+                job()
+                if self._clock.now() >= due:
+                    self._mcap.flush()  # type: ignore[no-untyped-call]
+                    due = self._clock.now() + FLUSH_S
+            except Exception as error:  # raised again in the thread that hands over
+                self._error = error
+
+    def _write_head(self, manifest: dict[str, str], attachments: dict[str, bytes]) -> None:
+        self._mcap.start(profile="", library=library())
+        self._mcap.add_metadata(MANIFEST, manifest)
+        now = self._clock.unix_ns()
+        for name, data in attachments.items():
+            media = _MEDIA_TYPES[Path(name).suffix]
+            self._mcap.add_attachment(now, 0, name, media, data)
+        self._mcap.flush()  # type: ignore[no-untyped-call]
+
+    def _write_batch(self, batch: Batch) -> None:
+        add, channels = self._mcap.add_message, self._channels
+        for log_ns, received in batch:
+            channel = channels.get(received.key) or self._open_channel(received)
+            stamp = received.stamp
+            if stamp is None:
+                add(channel, log_ns, received.payload, self._clock.unix_ns())
+            else:
+                add(channel, log_ns, received.payload, stamp.sent_ns, stamp.sequence & _SEQUENCES)
+
+    def _open_channel(self, received: Received) -> int:
+        topic, key = received.topic, received.key
+        name = next(name for name, row in TOPICS.items() if row.key == topic.key)
+        assert topic.message is not None
+        metadata = {
+            "key": self._root + key,
+            "topic": name,
+            "row": topic.key,
+            "message": topic.message.__name__,
+            "contract": VERSION,
+            **received.chunks,
+        }
+        schema = self._schema(received)
+        channel = self._mcap.register_channel(key, "json", schema, metadata)
+        self._channels[key] = channel
+        return channel
+
+    def _schema(self, received: Received) -> int:
+        model = received.topic.message
+        assert model is not None
+        name = model.__name__
+        if name not in self._schemas:
+            data = to_json(flat_schema(model))
+            self._schemas[name] = self._mcap.register_schema(f"touchline.{name}", "jsonschema", data)
+        return self._schemas[name]
+
+    def _sync(self) -> None:
+        self._mcap.flush()  # type: ignore[no-untyped-call]
+        os.fsync(self._file.fileno())
+
+    def _write_tail(self, result: dict[str, str]) -> None:
+        self._mcap.flush()  # type: ignore[no-untyped-call]
+        self._mcap.add_metadata(RESULT, result)
+        self._mcap.finish()  # type: ignore[no-untyped-call]
+        self._file.flush()
+        os.fsync(self._file.fileno())
+
+
+_MEDIA_TYPES = {".json": "application/json", ".toml": "application/toml"}
+
+
+def _nothing() -> None:
+    """No job came in time."""
