@@ -1,0 +1,33 @@
+"""The `touchline` command line: every command, each in a file of its own under `commands/`."""
+
+import typer
+
+from arena.commands import agent, coach, host, info, match, record, schema, topics
+from arena.front import Front
+
+app = typer.Typer(
+    name="touchline",
+    cls=Front,
+    help="A testbed for teams of robots: play a match, or run its parts on several machines.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+app.command("match")(match.match)
+app.command("host")(host.host)
+app.command("agent")(agent.agent)
+app.add_typer(coach.app, name="coach")
+app.command("record")(record.record)
+app.command("info")(info.info)
+app.command("topics")(topics.topics)
+app.command("schema")(schema.schema)
+
+
+def main() -> None:
+    """Run the command line; exits with its status."""
+    app(prog_name="touchline")
+
+
+if __name__ == "__main__":
+    main()

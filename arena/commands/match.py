@@ -1,0 +1,91 @@
+"""`touchline match`: a whole match on this machine, from its file to its result."""
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from arena import options
+
+if TYPE_CHECKING:
+    from arena.processes import Plan
+    from arena.result import MatchResult
+    from schemas.clock import Clock
+
+
+def match(
+    file: options.MatchFile = None,
+    seed: options.Seed = None,
+    pace: options.Pace = None,
+    duration: options.Duration = None,
+    profile: options.Profile = None,
+    rules: options.Rules = None,
+    name: options.MatchName = None,
+    listen: options.Listen = options.DEFAULT_ENDPOINT,
+    insecure: options.Insecure = False,
+    record: Annotated[
+        Path | None, typer.Option(help="Where the recording goes; by default into the run's folder.")
+    ] = None,
+    no_record: Annotated[bool, typer.Option("--no-record", help="Leave no recording.")] = False,
+    sights: options.Sights = False,
+    json: options.Json = False,
+) -> None:
+    """Play a match: launch host, recorder and robots, show it, and leave a recording and a result.
+
+    Logs and recording go to ./runs/. Ctrl-C ends everything; the recording stays readable.
+
+    Example: touchline match --seed 7 --duration 60 --pace realtime
+    """
+    from arena.brains import check_teams
+    from arena.runs import prepare
+    from schemas.clock import WallClock
+
+    config = options.read_match(
+        file,
+        seed=seed,
+        pace=pace,
+        duration=duration,
+        profile=profile,
+        rules=rules,
+        name=name,
+        record__sights=sights or None,
+        record__wait=not no_record,
+    )
+    check_teams(config)
+    endpoint = options.listening(listen, insecure=insecure)
+    clock = WallClock()
+    plan = prepare(config, endpoint, record, clock, recorded=not no_record)
+    result = _play(plan, clock, quiet=json)
+    if json:
+        typer.echo(result.json())
+    else:
+        from rich.console import Console
+
+        Console(highlight=False).print(result.picture())
+
+
+def _play(plan: "Plan", clock: "Clock", *, quiet: bool) -> "MatchResult":
+    """Play it on the screen that suits: stdout is kept for the result when that is for programs."""
+    from arena.match_run import InterruptedMatchError, MatchRun
+    from arena.screen import screen_on
+
+    try:
+        with screen_on(sys.stderr if quiet else sys.stdout, clock) as screen:
+            return MatchRun(plan, screen, clock, _losses).play()
+    except InterruptedMatchError as stopped:
+        left = plan.recording is not None and plan.recording.exists()
+        typer.echo(
+            f"touchline: match ended by hand; {plan.recording if left else plan.folder} is what it left", err=True
+        )
+        raise typer.Exit(128 + stopped.number) from None
+
+
+def _losses(plan: "Plan") -> dict[str, int]:
+    """Key → messages that the recording lacks; those without loss are left out."""
+    if plan.recording is None:
+        return {}
+    from recordings.info import facts_of
+    from recordings.reader import open_recording
+
+    return {key.key: key.lost for key in facts_of(open_recording(plan.recording)).keys if key.lost}

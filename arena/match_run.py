@@ -1,0 +1,155 @@
+"""A whole match: its processes launched, watched and ended, and what came of it."""
+
+import signal
+from collections.abc import Callable
+from types import FrameType, TracebackType
+from typing import Self
+
+from arena.child import Child
+from arena.processes import Plan, processes_of
+from arena.result import NOTABLE, MatchResult
+from arena.screen import Screen
+from arena.status import status_line
+from arena.supervisor import AFTER_THE_MATCH, AT_ONCE, Supervisor
+from coach_gateway.lines import event_line
+from coach_gateway.view import MatchView
+from schemas.bus.contract import Bus, BusError
+from schemas.bus.zenoh_bus import open_client
+from schemas.clock import Clock
+from schemas.errors import MatchFailedError, TouchlineError
+from schemas.game import GameEvent
+from schemas.side import Side
+
+_POLL = 0.05
+"""s of wall time between looks at processes and bus."""
+_FAREWELL = 0.5
+"""s of wall time for the host's last messages to arrive after its process has ended."""
+_WRONG_INPUT = 2
+
+
+class InterruptedMatchError(Exception):
+    """Somebody ended the match with a signal, whose number this carries."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+class StopSignals:
+    """While entered, SIGINT and SIGTERM are noted instead of raised."""
+
+    def __init__(self) -> None:
+        self.received: int | None = None
+        self._before: dict[int, object] = {}
+
+    def __enter__(self) -> Self:
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self._before[number] = signal.signal(number, self._note)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        for number, handler in self._before.items():
+            signal.signal(number, handler)  # type: ignore[arg-type]
+
+    def _note(self, number: int, frame: FrameType | None) -> None:
+        del frame
+        self.received = self.received or number
+
+
+class MatchRun:
+    """One match from launch to result."""
+
+    def __init__(self, plan: Plan, screen: Screen, clock: Clock, losses: Callable[[Plan], dict[str, int]]) -> None:
+        self._plan = plan
+        self._screen = screen
+        self._clock = clock
+        self._losses = losses
+        self._robots = sum(len(plan.config.robots(side)) for side in Side)
+        self._supervisor = Supervisor(
+            processes_of(plan), lambda process: Child(process, plan.folder / f"{process.name}.log"), clock
+        )
+
+    def play(self) -> MatchResult:
+        """Play it.
+
+        Raises:
+            InterruptedMatchError: SIGINT or SIGTERM came; everything is ended and the recording finished.
+            MatchFailedError: the host ended before full time, or the recording was lost.
+            TouchlineError: the host could not begin, and says why.
+        """
+        with StopSignals() as stop:
+            try:
+                self._supervisor.start()
+                view = self._follow(stop)
+            except BaseException:
+                self._supervisor.end(AT_ONCE)
+                raise
+            if view is not None:  # of a host that was never met there is nothing to record
+                self._supervisor.end(AFTER_THE_MATCH, hurried=lambda: stop.received is not None)
+            self._supervisor.end(AT_ONCE)  # whoever is left when somebody is in a hurry
+        if stop.received is not None:
+            raise InterruptedMatchError(stop.received)
+        return self._judge(view)
+
+    def _follow(self, stop: StopSignals) -> MatchView | None:
+        """Watch until the host has ended or a signal came; nothing when the host was never met."""
+        bus = self._meet(stop)
+        if bus is None:
+            return None
+        with bus:
+            view = MatchView(bus)
+            while self._going(stop):
+                self._show(view)
+                self._clock.sleep_until(self._clock.now() + _POLL)
+            deadline = self._clock.now() + _FAREWELL
+            while stop.received is None and bus.connected() and self._clock.now() < deadline:
+                self._clock.sleep_until(self._clock.now() + _POLL / 10)
+            self._show(view)
+        return view
+
+    def _meet(self, stop: StopSignals) -> Bus | None:
+        while self._going(stop):
+            self._screen.status("waiting for the host")
+            try:
+                return open_client(self._plan.config.name, self._clock, self._plan.connect, patience=0.0)
+            except BusError:
+                self._clock.sleep_until(self._clock.now() + _POLL)
+        return None
+
+    def _going(self, stop: StopSignals) -> bool:
+        for notice in self._supervisor.check():
+            self._screen.warn(notice.sentence)
+            for line in notice.log:
+                self._screen.warn(f"  {notice.name}: {line}")
+        return self._supervisor.host_status is None and stop.received is None
+
+    def _show(self, view: MatchView) -> None:
+        for message in view.update():
+            if isinstance(message, GameEvent):
+                self._screen.event(event_line(message), notable=message.kind in NOTABLE)
+        self._screen.status(status_line(view, self._robots))
+
+    def _judge(self, view: MatchView | None) -> MatchResult:
+        """The result, or the reason why there is none."""
+        status = self._supervisor.host_status
+        if status == 0 and view is not None and view.finished:
+            return self._result(view)
+        log = self._supervisor.last_lines("host")
+        if status == _WRONG_INPUT and log:
+            raise TouchlineError(log[-1].removeprefix("touchline: "))
+        for line in log:
+            self._screen.warn(f"  host: {line}")
+        how = "was ended before full time" if status == 0 else f"ended with status {status}"
+        raise MatchFailedError(f"match abandoned: the host {how}; its log is {self._plan.folder / 'host.log'}")
+
+    def _result(self, view: MatchView) -> MatchResult:
+        recording = self._plan.recording
+        if recording is not None and (self._supervisor.ended.get("recorder") != 0 or not recording.exists()):
+            log = self._supervisor.last_lines("recorder")
+            raise MatchFailedError(
+                f"the match was played but its recording was lost: {log[-1] if log else 'the recorder says nothing'}; "
+                f"its log is {self._plan.folder / 'recorder.log'}"
+            )
+        return MatchResult.of(view, recording, self._losses(self._plan))

@@ -1,0 +1,103 @@
+"""The words that several commands share: what each option is called, means, and does to the match."""
+
+import importlib.util
+import re
+import socket
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from schemas.bus.contract import BusError
+from schemas.bus.endpoint import is_loopback, parse_endpoint, with_port
+from schemas.errors import TouchlineError
+from schemas.match_config import MatchConfig, load_match
+from schemas.profile import load_profile
+from schemas.rule_book import load_rule_book
+
+# The same value as zenoh_bus.DEFAULT_ENDPOINT, which cannot be read without loading Zenoh; a test compares them.
+DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
+DEFAULT_MATCH = "friendly"
+
+MatchFile = Annotated[
+    Path | None, typer.Argument(metavar="[MATCH.toml]", help="The match file; without one, a five-a-side friendly.")
+]
+Seed = Annotated[int | None, typer.Option(help="Whole number that all randomness comes from.")]
+Pace = Annotated[str | None, typer.Option(help="lockstep, realtime, or x4 for four times real time.")]
+Duration = Annotated[float | None, typer.Option(help="Playing time of all halves in s.")]
+Profile = Annotated[str | None, typer.Option(help="Field, bodies and limits: msl, paper, or the path of a file.")]
+Rules = Annotated[str | None, typer.Option(help="Rule book: friendly, msl or paper.")]
+MatchName = Annotated[str | None, typer.Option("--match", "--name", help="Name of the match on the bus.")]
+Listen = Annotated[str, typer.Option(help="Endpoint of the host; port 0 picks a free one.")]
+Insecure = Annotated[bool, typer.Option("--insecure", help="Let other machines in, without any password.")]
+Sights = Annotated[bool, typer.Option("--sights", help="Record what every robot perceives, too.")]
+Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")]
+
+NO_PYBULLET = "the simulation needs PyBullet, which is not installed; pip install 'touchline[sim]'"
+
+
+def _endpoint(connect: str) -> str:
+    parse_endpoint(connect)
+    return connect
+
+
+def _match_name(name: str) -> str:
+    if re.fullmatch(r"[a-z][a-z0-9_]{0,31}", name) is None:
+        raise TouchlineError(f'--match is "{name}"; a match name is a key chunk: small letters, digits and _')
+    return name
+
+
+Connect = Annotated[str, typer.Option(envvar="TOUCHLINE_CONNECT", callback=_endpoint, help="Endpoint of the host.")]
+Match = Annotated[
+    str, typer.Option("--match", envvar="TOUCHLINE_MATCH", callback=_match_name, help="Name of the match.")
+]
+
+
+def read_match(file: Path | None, **flags: Any) -> MatchConfig:
+    """The match of a file with the given flags laid over it (`record__sights` is the key `record.sights`).
+
+    Everything that a simulation on this machine needs is checked here, before anything is launched.
+
+    Raises:
+        TouchlineError: one line on what is wrong or missing.
+    """
+    given = {key.replace("__", "."): value for key, value in flags.items() if value is not None}
+    config = load_match(file, given)
+    load_profile(config.profile)
+    load_rule_book(config.rules)
+    if importlib.util.find_spec("pybullet") is None:
+        raise TouchlineError(NO_PYBULLET)
+    return config
+
+
+def listening(listen: str, *, insecure: bool) -> str:
+    """The endpoint to listen on, with a real port, after making sure that it may be and can be used.
+
+    Raises:
+        TouchlineError: open to other machines without `--insecure`, or in use.
+    """
+    if not insecure and not is_loopback(listen):
+        raise TouchlineError(
+            f"--listen {listen} is open to other machines and asks nobody for a password; "
+            "add --insecure if that is meant, or listen on tcp/127.0.0.1:7447"
+        )
+    try:
+        endpoint = with_port(listen)
+        _probe(endpoint)
+    except OSError as error:
+        raise BusError(
+            f"--listen {listen} cannot be listened on ({error.strerror}); "
+            "choose another port, or tcp/127.0.0.1:0 for a free one"
+        ) from None
+    return endpoint
+
+
+def _probe(endpoint: str) -> None:
+    """Bind the address for a moment: two hosts on one port would share their robots."""
+    protocol, host, port = parse_endpoint(endpoint)
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    kind = socket.SOCK_DGRAM if protocol in ("udp", "quic") else socket.SOCK_STREAM
+    with socket.socket(family, kind) as probe:
+        if kind == socket.SOCK_STREAM:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # an old connection's remains do not count
+        probe.bind((host, port))

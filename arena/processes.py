@@ -1,0 +1,130 @@
+"""The processes of a match: one table, and how a match file turns it into programs to launch."""
+
+import sys
+from dataclasses import dataclass, field
+from enum import StrEnum
+from pathlib import Path
+
+from schemas.bus.endpoint import is_loopback, parse_endpoint
+from schemas.match_config import MatchConfig
+from schemas.side import Side
+
+
+class Kind(StrEnum):
+    """What a process is for."""
+
+    HOST = "host"
+    RECORDER = "recorder"
+    AGENT = "agent"
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One kind of process; words in braces are filled in for each match or robot."""
+
+    command: tuple[str, ...]
+    environment: dict[str, str] = field(default_factory=dict)
+    restarts: int = 0
+    """How often a crashed one is started again."""
+
+
+_PYTHON_MODULE = ("{python}", "-m")
+_MEETING = ("--connect", "{connect}", "--match", "{match}")
+
+PROCESSES: dict[Kind, Row] = {
+    Kind.HOST: Row((*_PYTHON_MODULE, "sim_host", "--listen", "{listen}", "--config", "{config}")),
+    Kind.RECORDER: Row((*_PYTHON_MODULE, "recordings", *_MEETING, "--out", "{recording}", "--config", "{config}")),
+    Kind.AGENT: Row(
+        (*_PYTHON_MODULE, "robot_agent", *_MEETING, "--robot", "{robot}", "--brain", "{brain}"),
+        environment={
+            "TOUCHLINE_CONNECT": "{connect}",
+            "TOUCHLINE_MATCH": "{match}",
+            "TOUCHLINE_ROBOT": "{robot}",
+            "TOUCHLINE_SIDE": "{side}",
+            # A brain that goes through a set of words does so in the same order in every run.
+            "PYTHONHASHSEED": "0",
+        },
+        restarts=3,
+    ),
+}
+"""Kind → its row, in the order they are launched."""
+
+EVERYWHERE = {
+    "PYTHONUNBUFFERED": "1",
+    # A dozen processes share the machine; none of them multiplies matrices worth a thread of their own.
+    "OPENBLAS_NUM_THREADS": "1",
+    "OMP_NUM_THREADS": "1",
+}
+"""What every process of a match finds in its environment."""
+
+
+@dataclass(frozen=True, slots=True)
+class Process:
+    """One program to launch."""
+
+    name: str
+    """Of its log file, and in what is said of it: `host`, `recorder`, or the robot's name."""
+    kind: Kind
+    command: tuple[str, ...]
+    environment: dict[str, str]
+    """Laid over the supervisor's own."""
+    restarts: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """A match that is ready to be launched."""
+
+    config: MatchConfig
+    listen: str
+    folder: Path
+    """Holds `config.json` and the logs."""
+    recording: Path | None
+    """Where the recording goes, or nothing when none was wanted."""
+
+    @property
+    def connect(self) -> str:
+        """Where the processes of this machine reach the host: loopback where it listens on every address."""
+        protocol, host, port = parse_endpoint(self.listen)
+        near = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
+        return f"{protocol}/{near}:{port}"
+
+    @property
+    def config_file(self) -> Path:
+        """The match as its processes read it."""
+        return self.folder / "config.json"
+
+
+def processes_of(plan: Plan) -> list[Process]:
+    """All programs of a match, in the order they are launched."""
+    words = {
+        "python": sys.executable,
+        "listen": plan.listen,
+        "connect": plan.connect,
+        "match": plan.config.name,
+        "config": str(plan.config_file),
+    }
+    open_to_others = () if is_loopback(plan.listen) else ("--insecure",)  # whoever made the plan was told so
+    processes = [_process("host", Kind.HOST, words, more=open_to_others)]
+    if plan.recording is not None:
+        sights = ("--sights",) if plan.config.record.sights else ()
+        processes.append(_process("recorder", Kind.RECORDER, {**words, "recording": str(plan.recording)}, more=sights))
+    for side in Side:
+        team = plan.config.team(side)
+        for robot in plan.config.robots(side):
+            own = {**words, "robot": robot, "side": side.value, "brain": team.brain or ""}
+            processes.append(_process(robot, Kind.AGENT, own, instead=tuple(team.command or ())))
+    return processes
+
+
+def _process(
+    name: str, kind: Kind, words: dict[str, str], *, instead: tuple[str, ...] = (), more: tuple[str, ...] = ()
+) -> Process:
+    row = PROCESSES[kind]
+    return Process(
+        name=name,
+        kind=kind,
+        command=instead or (*(part.format_map(words) for part in row.command), *more),
+        environment={**EVERYWHERE, **{key: value.format_map(words) for key, value in row.environment.items()}},
+        restarts=row.restarts,
+    )

@@ -1,0 +1,85 @@
+"""What a match came to: as one JSON object for programs, as score and table for people."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from coach_gateway.lines import clock_words
+from coach_gateway.view import MatchView
+from schemas.game import EventKind, GameEvent, Score
+
+NOTABLE = frozenset(
+    {EventKind.GOAL, EventKind.HALF_TIME, EventKind.FULL_TIME, EventKind.ACTION, EventKind.AGENT, EventKind.STALL}
+)
+"""Events that people read about afterwards; stops and restarts are in the recording."""
+
+
+@dataclass(frozen=True, slots=True)
+class MatchResult:
+    """The outcome of one match."""
+
+    score: Score
+    duration_s: float
+    """Simulated time in s."""
+    ticks: int
+    events: tuple[GameEvent, ...]
+    real_time_factor: float
+    """Simulated seconds per wall second of play."""
+    wall_s: float
+    """Wall time of play in s."""
+    recording: Path | None
+    losses: dict[str, int]
+    """Key → messages that the recorder missed; empty when it missed none."""
+
+    @classmethod
+    def of(cls, view: MatchView, recording: Path | None, losses: dict[str, int]) -> "MatchResult":
+        """The outcome of what was seen."""
+        return cls(
+            score=view.state.score if view.state is not None else Score(),
+            duration_s=view.last.time if view.last is not None else 0.0,
+            ticks=view.last.tick if view.last is not None else 0,
+            events=tuple(view.events),
+            real_time_factor=view.real_time_factor,
+            wall_s=view.wall_s,
+            recording=recording,
+            losses=losses,
+        )
+
+    def json(self) -> str:
+        """One JSON object."""
+        content = {
+            "score": self.score.model_dump(),
+            "duration_s": round(self.duration_s, 6),
+            "ticks": self.ticks,
+            "events": [event.model_dump(mode="json", exclude={"version"}) for event in self.events],
+            "real_time_factor": round(self.real_time_factor, 3),
+            "wall_s": round(self.wall_s, 3),
+            "recording": str(self.recording) if self.recording is not None else None,
+            "losses": self.losses,
+        }
+        return json.dumps(content, ensure_ascii=False)
+
+    def picture(self) -> RenderableType:
+        """Score, events and recording, for a console."""
+        headline = Text(f"\ncyan {self.score.cyan} : {self.score.magenta} magenta", style="bold")
+        headline.append(
+            f"   {self.duration_s:.1f} s played in {self.wall_s:.1f} s (×{self.real_time_factor:.1f})", style="not bold"
+        )
+        parts: list[RenderableType] = [headline, self._table()]
+        if self.recording is not None:
+            parts.append(Text(f"recording  {self.recording}", no_wrap=True, overflow="ignore"))
+        if self.losses:
+            parts.append(Text(f"recording misses {sum(self.losses.values())} messages: {self.losses}", style="yellow"))
+        return Group(*parts)
+
+    def _table(self) -> Table:
+        table = Table("clock", "event", "robot", "what", box=None, pad_edge=False)
+        for event in self.events:
+            if event.kind in NOTABLE:
+                kind = event.kind.value.replace("_", " ")
+                table.add_row(clock_words(event.clock), kind, event.robot or "", event.text)
+        return table

@@ -1,0 +1,47 @@
+"""Where a match leaves its files: a folder of its own under `runs/`, named after match, moment and seed."""
+
+from datetime import UTC, datetime
+from pathlib import Path
+
+from arena.processes import Plan
+from schemas.clock import Clock
+from schemas.errors import TouchlineError
+from schemas.match_config import MatchConfig
+
+RUNS = Path("runs")
+RECORDING = "match.mcap"
+
+
+def prepare(config: MatchConfig, listen: str, recording: Path | None, clock: Clock, *, recorded: bool = True) -> Plan:
+    """Make the folder of a run and write the match into it.
+
+    `recording` is where the recording goes, by default into the folder; `recorded` false leaves it out.
+
+    Raises:
+        TouchlineError: a folder cannot be made or written.
+    """
+    moment = datetime.fromtimestamp(clock.unix_ns() / 1e9, UTC)
+    stem = f"{config.name}-{moment:%Y%m%dT%H%M%SZ}-seed{config.seed}"
+    try:
+        folder = _new_folder(stem)
+        out = (recording or folder / RECORDING) if recorded else None
+        if out is not None:
+            out.parent.mkdir(parents=True, exist_ok=True)
+        plan = Plan(config, listen, folder, out)
+        plan.config_file.write_text(config.model_dump_json(indent=2), "utf-8")
+    except OSError as error:
+        raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its logs under ./{RUNS}") from None
+    return plan
+
+
+def _new_folder(stem: str) -> Path:
+    """A folder that was not there: two matches of one second get different ones."""
+    number = 1
+    while True:
+        folder = RUNS / (stem if number == 1 else f"{stem}-{number}")
+        try:
+            folder.mkdir(parents=True)
+        except FileExistsError:
+            number += 1
+        else:
+            return folder

@@ -1,0 +1,29 @@
+"""A first brain: get the ball, carry it toward the goal, shoot beside the keeper."""
+
+import math
+
+from robot_agent.bodies import Body, Limits
+from robot_agent.contract import Briefing
+from robot_agent.skills.dribble_to import dribble_to
+from robot_agent.skills.go_to import go_to
+from robot_agent.skills.kick_at import kick_at
+from robot_agent.skills.shoot import best_place
+from schemas.command import Command, Drive
+from schemas.sight import Sight
+
+
+class FirstBrain:
+    def __init__(self, briefing: Briefing) -> None:
+        self.pitch, self.limits = briefing.setup.pitch, Limits.of(briefing.setup)
+
+    def act(self, sight: Sight) -> Command:
+        me, ball, goal = Body(**dict(sight.self)), sight.ball, self.pitch.goal_line
+        drive, kick = Drive(), None
+        if sight.holding and me.x > goal - 5.0:
+            aim, _ = best_place(me[:2], [(other.x, other.y) for other in sight.obstacles], self.pitch)
+            drive, kick = kick_at(me, (goal, aim), 8.0, 0.2, self.limits)
+        elif sight.holding:
+            drive = dribble_to(me, goal, 0.0, 0.0, [], self.limits)
+        elif ball and sight.game.running and not sight.game.phase.theirs:
+            drive = go_to(me, ball.x, ball.y, math.atan2(ball.y - me.y, ball.x - me.x), self.limits)
+        return Command(answers_tick=sight.tick, drive=drive, dribble=True, kick=kick)

@@ -1,0 +1,77 @@
+"""A robot that knows nothing of Touchline but its protocol: Zenoh, JSON, and what docs/protocol.md says.
+
+It goes for the ball and kicks it toward the goal; a program in any other language does the same step by step.
+"""
+
+import json
+import math
+import os
+import struct
+import time
+from typing import Any
+
+import zenoh
+
+ROOT = f"touchline/{os.environ['TOUCHLINE_MATCH']}"
+ROBOT = os.environ["TOUCHLINE_ROBOT"]
+SETTINGS = {
+    "mode": "client",
+    "connect/endpoints": [os.environ["TOUCHLINE_CONNECT"]],
+    "connect/timeout_ms": 10_000,
+    "connect/retry": {"period_init_ms": 100, "period_max_ms": 500, "period_increase_factor": 1.5},
+    "scouting/multicast/enabled": False,
+    "scouting/gossip/enabled": False,
+    "transport/shared_memory/enabled": False,
+}
+STAMP = struct.Struct("<QQq")
+TOP_SPEED = 2.0
+"""m/s."""
+
+
+def answer(sight: dict[str, Any], goal_x: float) -> dict[str, Any]:
+    """The command for a sight: to the ball, and with the ball turn to the goal and kick; `goal_x` in m."""
+    me, ball, holding = sight["self"], sight["ball"], sight["holding"]
+    command = {"version": "1.0", "answers_tick": sight["tick"], "dribble": True}
+    if ball is None or not sight["game"]["running"] or sight["game"]["phase"].startswith("their_"):
+        return command
+    x, y = (goal_x, 0.0) if holding else (ball["x"], ball["y"])
+    bearing = math.remainder(math.atan2(y - me["y"], x - me["x"]) - me["heading"], math.tau)
+    speed = 0.0 if holding else min(TOP_SPEED, 0.3 + math.dist((x, y), (me["x"], me["y"])))
+    command["drive"] = {"vx": speed * math.cos(bearing), "vy": speed * math.sin(bearing), "omega": 3.0 * bearing}
+    if holding and abs(bearing) < 0.05:
+        command["kick"] = {"mode": "ground", "speed": 8.0}
+    return command
+
+
+def ask_setup(session: zenoh.Session) -> dict[str, Any]:
+    """How the match is set up; asks until the host answers."""
+    while True:
+        for reply in session.get(f"{ROOT}/host/setup", payload='{"version": "1.0"}', timeout=1.0):
+            if reply.ok is not None:
+                setup: dict[str, Any] = json.loads(reply.ok.payload.to_bytes())
+                return setup
+        time.sleep(0.1)
+
+
+def main() -> None:
+    """Join the match, and answer every sight."""
+    config = zenoh.Config()
+    for key, value in SETTINGS.items():
+        config.insert_json5(key, json.dumps(value))
+    with zenoh.open(config) as session:
+        goal_x = ask_setup(session)["pitch"]["length"] / 2
+        sights = session.declare_subscriber(f"{ROOT}/robot/{ROBOT}/sight", zenoh.handlers.RingChannel(1))
+        commands = session.declare_publisher(
+            f"{ROOT}/robot/{ROBOT}/command",
+            encoding=zenoh.Encoding.APPLICATION_JSON,
+            congestion_control=zenoh.CongestionControl.DROP,
+        )
+        with session.liveliness().declare_token(f"{ROOT}/alive/agent/{ROBOT}"):
+            for sequence, sample in enumerate(sights):
+                sight = json.loads(sample.payload.to_bytes())
+                stamp = STAMP.pack(sequence, time.time_ns(), round(sight["time"] * 1e9))
+                commands.put(json.dumps(answer(sight, goal_x)), attachment=stamp)
+
+
+if __name__ == "__main__":
+    main()
