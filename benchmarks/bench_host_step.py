@@ -1,0 +1,88 @@
+"""One physics step of the host, everything included, against the same PyBullet world stepped raw.
+
+Host: ten robots that drive, dribble and talk; actuation, contacts, sensing with noise, radio, referee, hash chain, and
+every message encoded. Raw: the same bodies in the same engine, in the loop that any PyBullet program has: set ten
+velocities, step, read eleven bodies back. Both in one process, in turns.
+"""
+
+import math
+import statistics
+import time
+from collections.abc import Callable
+
+from pydantic_core import to_json
+
+from schemas.command import BallBelief, Command, Drive, Motion, Radio
+from schemas.match_config import load_match
+from sim_host.simulation import Simulation
+from sim_host.world.engine import Engine
+
+ROUNDS = 15
+TICKS = 100
+
+
+def timed(body: Callable[[], None]) -> float:
+    """Seconds that a call takes."""
+    began = time.perf_counter()
+    body()
+    return time.perf_counter() - began
+
+
+def commands(simulation: Simulation) -> dict[str, Command]:
+    """What ten lively robots say: each drives its own way, and speaks every fifth tick."""
+    tick = simulation.now.tick
+    word = Radio(self=Motion(x=1, y=2, heading=0.1), ball=BallBelief(x=1, y=2), role="striker", intention="shoot")
+    return {
+        name: Command.model_construct(
+            answers_tick=tick,
+            drive=Drive(vx=math.cos(place), vy=math.sin(place), omega=0.3),
+            dribble=True,
+            radio=word if (tick + place) % 5 == 0 else None,
+        )
+        for place, name in enumerate(simulation.roster.names)
+    }
+
+
+def main() -> None:
+    """Print the median cost of both, and their ratio."""
+    simulation = Simulation(load_match(None, {"duration": 86_400}))
+    steps = simulation.profile.time.steps_per_tick
+    told = [commands(simulation)]
+
+    def host() -> None:
+        for _ in range(TICKS):
+            tick = simulation.step(told[0])
+            to_json(tick.world)
+            to_json(tick.applied)
+
+    raw = Engine(simulation.profile, simulation.roster.names)
+    drives = [(math.cos(place), math.sin(place), 0.3) for place in range(len(raw.robots))]
+
+    def loop() -> None:
+        for _ in range(TICKS * steps):
+            raw.drive(drives)
+            raw.step()
+            raw.read()
+
+    def engine_alone() -> None:
+        for _ in range(TICKS * steps):
+            raw.step()
+
+    def ready() -> None:
+        told[0] = commands(simulation)
+        raw.rebuild(simulation.world.snapshot().robots, simulation.world.snapshot().ball)
+
+    rows = []
+    for _ in range(ROUNDS):
+        ready()
+        rows.append([timed(body) / TICKS / steps * 1e6 for body in (host, loop, engine_alone)])
+    host_us, raw_us, alone_us = (statistics.median(column) for column in zip(*rows, strict=True))
+    ratio = statistics.median(row[0] / row[1] for row in rows)
+    print(
+        f"host step: {host_us:.0f} us per physics step with everything, {raw_us:.0f} us raw (set, step, read), "
+        f"ratio {ratio:.2f} (at most 2.5); stepSimulation alone {alone_us:.0f} us"
+    )
+
+
+if __name__ == "__main__":
+    main()

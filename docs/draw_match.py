@@ -1,0 +1,20 @@
+"""Draws a recorded match: `python docs/draw_match.py RECORDING PICTURE [SECOND …]`, one panel for each second.
+
+Without a second, its last moment of play. Seconds are simulated time. `docs/images/match.png` was drawn this way
+from a recording of `touchline match --seed 7 --duration 120`.
+"""
+
+import sys
+from pathlib import Path
+
+from recordings.picture import draw
+from schemas.errors import TouchlineError
+
+if __name__ == "__main__":
+    try:
+        recording, picture, *seconds = sys.argv[1:]
+        draw(Path(recording), Path(picture), [float(second) for second in seconds] or None)
+    except TouchlineError as error:
+        sys.exit(str(error))
+    except ValueError:
+        sys.exit(str(__doc__))

@@ -1,0 +1,167 @@
+"""Matches whose host, recorder and robots are small programs of this file, over a real bus on loopback."""
+
+import io
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+
+from arena import match_run
+from arena.match_run import InterruptedMatchError, MatchRun
+from arena.processes import Kind, Plan, Process
+from arena.result import MatchResult
+from arena.screen import PlainScreen
+from schemas.bus.endpoint import with_port
+from schemas.clock import WallClock
+from schemas.errors import MatchFailedError, TouchlineError
+from schemas.match_config import load_match
+
+pytestmark = pytest.mark.processes
+
+HOST = """
+import os, pathlib, signal, sys
+from schemas.bus.zenoh_bus import open_host
+from schemas.clock import WallClock
+from schemas.game import EventKind, GameEvent, GameState, Phase, Score
+from schemas.topics import EVENT, STATE
+
+def play(listen, seen, phase):
+    clock = WallClock()
+    with open_host("friendly", clock, listen) as bus:
+        states, events = bus.publisher(STATE), bus.publisher(EVENT)
+        while not pathlib.Path(seen).exists():
+            states.put(GameState(tick=1, time=0.02, phase=Phase.PLAY, clock=0.02))
+            clock.sleep_until(clock.now() + 0.02)
+        events.put(GameEvent(tick=20, time=0.4, clock=0.4, kind=EventKind.GOAL, rule="goal", text="goal by cyan3"))
+        states.put(GameState(tick=21, time=0.42, phase=phase, clock=0.4, score=Score(cyan=1)))
+        yield
+"""
+FULL_TIME = HOST + "\nfor _ in play(*sys.argv[1:], Phase.FULL_TIME): pass\n"
+CUT_SHORT = HOST + "\nfor _ in play(*sys.argv[1:], Phase.PLAY): pass\n"
+DIES = HOST + "\nfor _ in play(*sys.argv[1:], Phase.PLAY): sys.exit('the roof came down')\n"
+INTERRUPTED = (
+    HOST + "\nfor _ in play(*sys.argv[1:], Phase.PLAY):\n    os.kill(os.getppid(), signal.SIGINT)\n    signal.pause()\n"
+)
+WRONG = "import sys; sys.stderr.write('pybullet says hello\\ntouchline: profile is odd; mend it\\n'); sys.exit(2)"
+RESTS = "import signal; signal.pause()"
+CRASHES = "import sys; sys.exit('brain raised')"
+RECORDS = "import pathlib, sys; pathlib.Path(sys.argv[1]).write_bytes(b'recorded')"
+LOSES = "import sys; sys.exit('disk full')"
+
+
+class WatchedScreen(PlainScreen):
+    """Leaves a file for the host when play is seen and `awaited` was said, so that its next words come in time."""
+
+    def __init__(self, words: io.StringIO, clock: WallClock, seen: Path, awaited: str) -> None:
+        super().__init__(words, clock)
+        self._words = words
+        self._seen = seen
+        self._awaited = awaited
+
+    def status(self, line: str) -> None:
+        super().status(line)
+        if "  play" in line and self._awaited in self._words.getvalue():
+            self._seen.touch()
+
+
+class Stage:
+    """One match on a screen that can be read afterwards."""
+
+    def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch, host: str, agent: str, recorder: str) -> None:
+        recording = folder / "match.mcap" if recorder else None
+        self.plan = Plan(load_match(None), with_port("tcp/127.0.0.1:0"), folder, recording)
+        self.words = io.StringIO()
+        programs = {
+            "host": (Kind.HOST, host, (self.plan.listen, str(folder / "seen"))),
+            "cyan1": (Kind.AGENT, agent, ()),
+            "recorder": (Kind.RECORDER, recorder, (str(recording),)),
+        }
+        processes = [
+            Process(name, kind, (sys.executable, "-c", code, *words), {}, restarts=3 if kind is Kind.AGENT else 0)
+            for name, (kind, code, words) in programs.items()
+            if code
+        ]
+        monkeypatch.setattr(match_run, "processes_of", lambda plan: processes)
+
+    def play(self, awaited: str = "") -> MatchResult:
+        clock = WallClock()
+        screen = WatchedScreen(self.words, clock, self.plan.folder / "seen", awaited)
+        return MatchRun(self.plan, screen, clock, lambda plan: {"world": 2}).play()
+
+
+def stage(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, host: str, agent: str = RESTS, recorder: str = RECORDS
+) -> Stage:
+    return Stage(folder, monkeypatch, host, agent, recorder)
+
+
+def test_a_match_that_reaches_full_time_has_score_events_and_recording(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    match = stage(tmp_path, monkeypatch, FULL_TIME)
+    result = match.play()
+    assert (result.score.cyan, result.score.magenta) == (1, 0)
+    assert (result.ticks, result.duration_s) == (21, 0.42)
+    assert [event.text for event in result.events] == ["goal by cyan3"]
+    assert result.recording == match.plan.recording
+    assert result.losses == {"world": 2}
+    assert " 0:00.4  goal: goal by cyan3" in match.words.getvalue()
+
+
+def test_a_crashing_agent_is_shown_with_its_log_and_does_not_end_the_match(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    match = stage(tmp_path, monkeypatch, FULL_TIME, agent=CRASHES, recorder="")
+    assert match.play(awaited="not started again").recording is None
+    words = [line for line in match.words.getvalue().splitlines() if "cyan1" in line]
+    outcomes = [f"started again ({count} of 3)" for count in (1, 2, 3)] + ["not started again"]
+    assert words == [
+        line for how in outcomes for line in (f"cyan1 ended with status 1; {how}", "  cyan1: brain raised")
+    ]
+
+
+def test_a_host_with_wrong_input_is_heard_in_its_own_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(TouchlineError, match=r"^profile is odd; mend it$"):
+        stage(tmp_path, monkeypatch, WRONG).play()
+
+
+def test_a_recorder_that_waits_for_a_host_who_could_not_begin_is_sent_away(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    match = stage(tmp_path, monkeypatch, WRONG, recorder=RESTS)
+    began = WallClock().now()
+    with pytest.raises(TouchlineError):
+        match.play()
+    assert WallClock().now() - began < 20.0  # not the half minute that a recorder has after a match
+
+
+def test_a_host_that_dies_ends_the_match_with_its_last_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    match = stage(tmp_path, monkeypatch, DIES)
+    with pytest.raises(
+        MatchFailedError, match=r"match abandoned: the host ended with status 1; its log is .*host\.log"
+    ):
+        match.play()
+    assert "  host: the roof came down" in match.words.getvalue()
+
+
+def test_a_host_that_was_ended_before_full_time_leaves_no_result(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with pytest.raises(MatchFailedError, match="the host was ended before full time"):
+        stage(tmp_path, monkeypatch, CUT_SHORT).play()
+
+
+def test_a_lost_recording_fails_the_match_that_was_to_be_recorded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with pytest.raises(MatchFailedError, match="its recording was lost: disk full"):
+        stage(tmp_path, monkeypatch, FULL_TIME, recorder=LOSES).play()
+
+
+def test_ctrl_c_ends_everybody_and_hands_the_signal_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(InterruptedMatchError) as stopped:
+        stage(tmp_path, monkeypatch, INTERRUPTED).play()
+    assert stopped.value.number == signal.SIGINT
+    assert signal.getsignal(signal.SIGINT) is before

@@ -1,0 +1,94 @@
+from pathlib import Path
+
+import pytest
+
+from arena.processes import PROCESSES, Kind, Plan, Process, processes_of
+from arena.runs import prepare
+from schemas.clock import SteppedClock
+from schemas.match_config import MatchConfig, load_match
+
+
+def plan(recording: Path | None = Path("match.mcap"), listen: str = "tcp/127.0.0.1:7447", **overrides: object) -> Plan:
+    return Plan(load_match(None, overrides), listen, Path("runs/one"), recording)
+
+
+def by_name(plan: Plan) -> dict[str, Process]:
+    return {process.name: process for process in processes_of(plan)}
+
+
+def test_a_friendly_has_a_host_a_recorder_and_ten_agents() -> None:
+    names = [process.name for process in processes_of(plan())]
+    assert names == ["host", "recorder", *(f"{side}{n}" for side in ("cyan", "magenta") for n in range(1, 6))]
+
+
+def test_every_word_in_braces_is_filled_in() -> None:
+    for process in processes_of(plan()):
+        assert not any("{" in word for word in (*process.command, *process.environment.values()))
+
+
+def test_an_agent_is_told_match_robot_brain_and_side() -> None:
+    agent = by_name(plan())["magenta2"]
+    assert agent.command[1:] == (
+        *("-m", "robot_agent", "--connect", "tcp/127.0.0.1:7447", "--match", "friendly"),
+        *("--robot", "magenta2", "--brain", "robot_agent.teams.nubot:NuBot"),
+    )
+    assert agent.environment["TOUCHLINE_SIDE"] == "magenta"
+    assert agent.restarts == PROCESSES[Kind.AGENT].restarts == 3
+
+
+def test_a_team_with_a_command_is_told_who_it_is_by_its_environment() -> None:
+    agent = by_name(plan(**{"teams.cyan.command": ["./robot", "--fast"], "teams.cyan.size": 1}))["cyan1"]
+    assert agent.command == ("./robot", "--fast")
+    assert {key: agent.environment[f"TOUCHLINE_{key}"] for key in ("CONNECT", "MATCH", "ROBOT", "SIDE")} == {
+        "CONNECT": "tcp/127.0.0.1:7447",
+        "MATCH": "friendly",
+        "ROBOT": "cyan1",
+        "SIDE": "cyan",
+    }
+
+
+def test_no_recorder_is_launched_when_no_recording_is_wanted() -> None:
+    assert "recorder" not in by_name(plan(recording=None))
+
+
+def test_the_recorder_is_told_to_keep_sights_when_the_match_file_says_so() -> None:
+    assert "--sights" in by_name(plan(**{"record.sights": True}))["recorder"].command
+    assert "--sights" not in by_name(plan())["recorder"].command
+
+
+@pytest.mark.parametrize(
+    ("listen", "connect"),
+    [
+        ("tcp/0.0.0.0:7447", "tcp/127.0.0.1:7447"),
+        ("tcp/[::]:7447", "tcp/[::1]:7447"),
+        ("tcp/[fe80::1]:7447", "tcp/[fe80::1]:7447"),
+        ("tls/10.0.0.5:7000", "tls/10.0.0.5:7000"),
+    ],
+)
+def test_a_host_on_every_address_is_reached_by_loopback(listen: str, connect: str) -> None:
+    assert plan(listen=listen).connect == connect
+
+
+def test_two_runs_of_one_second_get_different_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    clock = SteppedClock()
+    config = load_match(None, {"seed": 7})
+    first, second = (prepare(config, "tcp/127.0.0.1:7447", None, clock) for _ in range(2))
+    assert [str(run.folder) for run in (first, second)] == [
+        "runs/friendly-19700101T000000Z-seed7",
+        "runs/friendly-19700101T000000Z-seed7-2",
+    ]
+    assert first.recording == first.folder / "match.mcap"
+    assert MatchConfig.model_validate_json(first.config_file.read_text()) == config
+
+
+def test_a_recording_elsewhere_gets_its_folder_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    run = prepare(load_match(None), "tcp/127.0.0.1:7447", Path("finals/a.mcap"), SteppedClock())
+    assert run.recording == Path("finals/a.mcap")
+    assert Path("finals").is_dir()
+
+
+def test_a_run_without_recording_has_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert prepare(load_match(None), "tcp/127.0.0.1:7447", None, SteppedClock(), recorded=False).recording is None

@@ -1,0 +1,68 @@
+import io
+import json
+from pathlib import Path
+
+from rich.console import Console
+
+from arena.result import MatchResult
+from schemas.game import EventKind, GameEvent, Score
+from schemas.side import Side
+
+
+def event(kind: EventKind, text: str) -> GameEvent:
+    return GameEvent(
+        tick=500, time=10.0, clock=9.5, kind=kind, rule=kind.value, side=Side.CYAN, robot="cyan3", text=text
+    )
+
+
+def result(recording: Path | None = Path("runs/a/match.mcap"), losses: dict[str, int] | None = None) -> MatchResult:
+    return MatchResult(
+        score=Score(cyan=2, magenta=1),
+        duration_s=120.0,
+        ticks=6000,
+        events=(event(EventKind.GOAL, "goal by cyan3"), event(EventKind.STOP, "STOP; kick-off follows")),
+        real_time_factor=6.0,
+        wall_s=20.0,
+        recording=recording,
+        losses=losses or {},
+    )
+
+
+def picture(shown: MatchResult) -> str:
+    out = io.StringIO()
+    Console(file=out, width=100).print(shown.picture())
+    return out.getvalue()
+
+
+def test_the_json_holds_everything_a_program_asks_for() -> None:
+    content = json.loads(result().json())
+    assert content.pop("events")[0] == {
+        **{"tick": 500, "time": 10.0, "clock": 9.5, "kind": "goal", "rule": "goal", "side": "cyan"},
+        **{"robot": "cyan3", "place": None, "score": None, "text": "goal by cyan3"},
+    }
+    assert content == {
+        "score": {"cyan": 2, "magenta": 1},
+        "duration_s": 120.0,
+        "ticks": 6000,
+        "real_time_factor": 6.0,
+        "wall_s": 20.0,
+        "recording": "runs/a/match.mcap",
+        "losses": {},
+    }
+
+
+def test_a_match_without_recording_says_null() -> None:
+    assert json.loads(result(recording=None).json())["recording"] is None
+
+
+def test_the_picture_shows_score_goals_and_recording_and_leaves_stops_out() -> None:
+    shown = picture(result())
+    assert "cyan 2 : 1 magenta" in shown
+    assert "goal by cyan3" in shown
+    assert "kick-off follows" not in shown
+    assert "recording  runs/a/match.mcap" in shown
+    assert "misses" not in shown
+
+
+def test_losses_are_shown_when_there_are_any() -> None:
+    assert "misses 3 messages" in picture(result(losses={"world": 2, "game/event": 1}))

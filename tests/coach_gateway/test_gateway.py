@@ -1,0 +1,121 @@
+import threading
+
+import pytest
+
+from coach_gateway.gateway import Gateway
+from schemas.bus.contract import Bus
+from schemas.bus.in_process import Medium
+from schemas.clock import SteppedClock
+from schemas.coach import CoachMode, CoachOrder
+from schemas.errors import TouchlineError
+from schemas.game import ActionName, ActionReply, RefereeAction
+from schemas.host import Setup, TeamSetup
+from schemas.profile import load_profile
+from schemas.rule_book import load_rule_book
+from schemas.side import Side
+from schemas.topics import ACTION, ORDER, SETUP
+
+
+@pytest.fixture
+def medium() -> Medium:
+    return Medium()
+
+
+def seat(medium: Medium) -> Bus:
+    return medium.seat("friendly", SteppedClock())
+
+
+def setup_of_a_match() -> Setup:
+    profile, rules = load_profile("msl"), load_rule_book("friendly")
+    teams = {side: TeamSetup(name="", robots=[f"{side.value}{n}" for n in (1, 2)]) for side in Side}
+    return Setup(
+        match="friendly",
+        pace="lockstep",
+        profile="msl",
+        rules="friendly",
+        time=profile.time,
+        pitch=profile.field,
+        robot=profile.robot,
+        ball=profile.ball,
+        drive=profile.drive,
+        dribble=profile.dribble,
+        kicker=profile.kicker,
+        periods=rules.periods,
+        restarts=rules.restarts,
+        teams=teams,
+    )
+
+
+@pytest.fixture
+def host(medium: Medium):
+    """Answers how the match is set up, and refuses every action but `stop`; gives the actions it was asked for."""
+    bus = seat(medium)
+    setups, actions = bus.serve(SETUP), bus.serve(ACTION)
+    asked: list[RefereeAction] = []
+
+    def answer_setups() -> None:
+        while (question := setups.receive(None)) is not None:
+            question.answer(setup_of_a_match())
+
+    def answer_actions() -> None:
+        while (question := actions.receive(None)) is not None:
+            action = question.message()
+            asked.append(action)
+            accepted = action.action is ActionName.STOP
+            question.answer(ActionReply(accepted=accepted, reason="" if accepted else "play is running"))
+
+    threads = [threading.Thread(target=answer) for answer in (answer_setups, answer_actions)]
+    for thread in threads:
+        thread.start()
+    yield asked
+    bus.close()
+    for thread in threads:
+        thread.join()
+
+
+def test_an_action_reaches_the_referee_and_its_answer_comes_back(medium: Medium, host: list[RefereeAction]) -> None:
+    gateway = Gateway(seat(medium))
+    assert gateway.act(RefereeAction(action=ActionName.STOP)).accepted
+    refused = gateway.act(RefereeAction(action=ActionName.CORNER, side=Side.MAGENTA))
+    assert (refused.accepted, refused.reason) == (False, "play is running")
+    assert [(action.action, action.side) for action in host] == [
+        (ActionName.STOP, None),
+        (ActionName.CORNER, Side.MAGENTA),
+    ]
+
+
+def test_an_action_without_a_host_names_the_match_and_what_to_do(medium: Medium) -> None:
+    with pytest.raises(TouchlineError, match=r'match "friendly": nobody answers game/action; name the match'):
+        Gateway(seat(medium)).act(RefereeAction(action=ActionName.STOP))
+
+
+def test_orders_go_to_their_side_alone_and_each_has_a_higher_number(medium: Medium, host: list[RefereeAction]) -> None:
+    listener = seat(medium)
+    cyan, magenta = listener.subscribe(ORDER, side="cyan"), listener.subscribe(ORDER, side="magenta")
+    gateway = Gateway(seat(medium))
+    first = gateway.order(Side.CYAN, mode=CoachMode.HOLD, max_speed=1.5)
+    second = gateway.order(Side.CYAN)
+    received = [cyan.receive(), cyan.receive()]
+    orders: list[CoachOrder] = [one.message() for one in received if one is not None]
+    assert orders == [first, second]
+    assert (first.mode, first.max_speed) == (CoachMode.HOLD, 1.5)
+    assert second.sequence > first.sequence >= 1
+    assert magenta.receive() is None
+
+
+def test_an_order_of_a_later_process_counts_more_than_one_of_an_earlier_process(
+    medium: Medium, host: list[RefereeAction]
+) -> None:
+    sequences = []
+    for moment in (1000.0, 1000.5):
+        clock = SteppedClock()
+        clock.sleep_until(moment)
+        sequences.append(Gateway(medium.seat("friendly", clock)).order(Side.CYAN).sequence)
+    assert sequences[0] < sequences[1]
+
+
+def test_an_order_about_a_robot_of_the_other_side_is_refused_with_a_hint(
+    medium: Medium, host: list[RefereeAction]
+) -> None:
+    with pytest.raises(TouchlineError, match='robot_a is "cyan7", no robot of cyan; did you mean "cyan'):
+        Gateway(seat(medium)).order(Side.CYAN, robot_a="cyan7")

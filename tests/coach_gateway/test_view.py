@@ -1,0 +1,76 @@
+from coach_gateway.view import MatchView
+from schemas.bus.contract import Bus
+from schemas.bus.in_process import Medium
+from schemas.clock import SteppedClock
+from schemas.game import EventKind, GameEvent, GameState, Phase, Score
+from schemas.host import Health
+from schemas.topics import EVENT, HEALTH, STATE
+
+
+def seats() -> tuple[Bus, MatchView]:
+    medium = Medium()
+    return medium.seat("friendly", SteppedClock()), MatchView(medium.seat("friendly", SteppedClock()))
+
+
+def state(tick: int, phase: Phase = Phase.PLAY) -> GameState:
+    return GameState(tick=tick, time=tick * 0.02, phase=phase, score=Score(cyan=1))
+
+
+def goal(tick: int) -> GameEvent:
+    return GameEvent(tick=tick, time=tick * 0.02, clock=tick * 0.02, kind=EventKind.GOAL, rule="goal", text="goal")
+
+
+def test_the_newest_state_and_health_and_every_event_are_kept() -> None:
+    host, view = seats()
+    states, events, healths = host.publisher(STATE), host.publisher(EVENT), host.publisher(HEALTH)
+    for tick in (1, 2):
+        states.put(state(tick))
+        events.put(goal(tick))
+        healths.put(Health(tick=tick, time=tick * 0.02, pace="lockstep", real_time_factor=5.0))
+    assert len(view.update()) == 6
+    assert view.state == state(2)
+    assert view.health is not None and view.health.tick == 2
+    assert view.events == [goal(1), goal(2)]
+    assert view.update() == []
+
+
+def test_a_match_is_finished_when_full_time_was_seen() -> None:
+    host, view = seats()
+    states = host.publisher(STATE)
+    states.put(state(1))
+    view.update()
+    assert not view.finished
+    states.put(state(2, Phase.FULL_TIME))
+    view.update()
+    assert view.finished
+
+
+def test_the_real_time_factor_is_simulated_over_wall_time_of_what_was_played() -> None:
+    host, view = seats()
+    states = host.publisher(STATE)
+    states.put(state(0, Phase.PRE_GAME))
+    host.clock.sleep_until(100.0)  # waiting for the robots is no play
+    states.put(state(50))
+    host.clock.sleep_until(102.0)
+    states.put(state(550))
+    view.update()
+    assert view.wall_s == 2.0
+    assert view.real_time_factor == 5.0
+
+
+def test_nothing_seen_has_no_speed() -> None:
+    _, view = seats()
+    assert (view.wall_s, view.real_time_factor) == (0.0, 0.0)
+
+
+def test_what_cannot_be_read_is_counted_and_left_out() -> None:
+    host, view = seats()
+    host.publisher(STATE).put_payload(b"{")
+    assert view.update() == []
+    assert view.unreadable == 1
+
+
+def test_waiting_for_a_state_ends_after_its_patience() -> None:
+    _, view = seats()
+    assert view.wait_for_state(3.0) is None
+    assert 3.0 <= view.bus.clock.now() < 3.1

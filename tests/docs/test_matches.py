@@ -1,0 +1,92 @@
+"""The match files that ship, and the first brain in its match."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from arena.brains import check_teams
+from arena.in_process import play
+from schemas.game import EventKind
+from schemas.match_config import MatchConfig, load_match
+from schemas.profile import load_profile
+from schemas.rule_book import load_rule_book
+from schemas.side import Side
+from sim_host.simulation import Tick
+
+HERE = Path(__file__).parents[2]
+FILES = sorted([*HERE.glob("matches/*.toml"), *HERE.glob("examples/*.toml")])
+
+
+@pytest.fixture(autouse=True)
+def at_home(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Brains are looked for in the current directory."""
+    monkeypatch.chdir(root)
+    monkeypatch.syspath_prepend(root)
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_every_match_file_loads_with_all_it_names(file: Path) -> None:
+    config = load_match(file)
+    load_profile(config.profile)
+    load_rule_book(config.rules)
+    if config.teams.cyan.command is None:
+        check_teams(config)
+    assert config.name == file.stem
+
+
+def test_the_friendly_is_the_match_that_is_played_without_a_file(root: Path) -> None:
+    assert load_match(root / "matches" / "friendly.toml") == MatchConfig()
+
+
+def test_the_friendly_shows_every_word_of_a_match_file(root: Path) -> None:
+    text = (root / "matches" / "friendly.toml").read_text("utf-8")
+    shown = re.findall(r"^(?:# )?(\w+) = |^\[(?:teams\.)?(\w+)\]", text, re.MULTILINE)
+    words = {key or table for key, table in shown}
+    schema = MatchConfig.model_json_schema()
+    asked = set(schema["properties"]) - {"teams"}
+    for part in schema["$defs"].values():
+        asked |= set(part.get("properties", {}))
+    assert words == asked
+
+
+def test_every_line_of_the_friendly_that_is_left_out_may_be_put_in(root: Path, tmp_path: Path) -> None:
+    lines = (root / "matches" / "friendly.toml").read_text("utf-8").splitlines()
+    optional = [number for number, line in enumerate(lines) if re.match(r"# \w+ = ", line)]
+    assert len(optional) >= 6
+    for number in optional:
+        put_in = lines[number].removeprefix("# ")
+        kept = [line for line in lines if not (put_in.startswith("command") and line.startswith("brain"))]
+        kept[kept.index(lines[number])] = put_in
+        file = tmp_path / "friendly.toml"
+        file.write_text("\n".join(kept))
+        load_match(file)
+        assert tomllib.loads(file.read_text()) != tomllib.loads("\n".join(lines)), put_in
+
+
+def test_the_papers_match_is_three_a_side_on_its_own_pitch(root: Path) -> None:
+    config = load_match(root / "matches" / "paper.toml")
+    assert [len(config.robots(side)) for side in Side] == [3, 3]
+    assert load_profile(config.profile).field.length == 18.0
+    played = play(config, until=12.0)
+    assert [event.kind for event in played.events][:3] == [EventKind.RESTART, EventKind.START, EventKind.IN_PLAY]
+
+
+def test_the_first_brain_gets_the_ball_carries_it_and_shoots(root: Path) -> None:
+    config = load_match(root / "examples" / "first_brain.toml")
+    held: list[float] = []
+    kicks: list[float] = []
+
+    def watch(tick: Tick) -> None:
+        robot = tick.world["robots"]["cyan1"]
+        if tick.world["possession"] == "cyan1":
+            held.append(robot["x"])
+        if tick.applied["inputs"]["cyan1"].kick is not None and tick.refused.get("cyan1", 0) == 0:
+            kicks.append(robot["x"])
+
+    played = play(config, watch=watch, until=20.0)
+    in_play = next(event for event in played.events if event.kind is EventKind.IN_PLAY)
+    assert in_play.robot == "cyan1"
+    assert max(held) - min(held) > 3.0
+    assert kicks and kicks[0] > load_profile(config.profile).field.goal_line - 5.5

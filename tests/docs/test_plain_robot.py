@@ -1,0 +1,32 @@
+"""The protocol page is enough: a robot written from it alone plays with real processes over real Zenoh."""
+
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from recordings.reader import open_recording
+from schemas.topics import COMMAND, HEALTH
+
+
+@pytest.mark.processes
+def test_a_robot_of_zenoh_and_json_alone_answers_every_sight(root: Path, tmp_path: Path) -> None:
+    team = tomllib.loads((root / "examples" / "plain_robot.toml").read_text("utf-8"))["teams"]["cyan"]
+    program = [sys.executable, str(root / team["command"][-1])]
+    (tmp_path / "plain.toml").write_text(f"[teams.cyan]\nsize = 1\ncommand = {program}\n[teams.magenta]\nsize = 1\n")
+    words = ["match", "plain.toml", "--duration=2", "--listen=tcp/127.0.0.1:0", "--record=plain.mcap", "--json"]
+    subprocess.run([sys.executable, "-m", "arena", *words], cwd=tmp_path, check=True, capture_output=True, timeout=60)
+    recording = open_recording(tmp_path / "plain.mcap")
+    assert recording.result is not None
+    count = recording.result.keys[COMMAND.fill(robot="cyan1")]
+    health = [message for _, message in recording.decoded(HEALTH.key)][-1].robots["cyan1"]
+    assert count.messages == recording.result.tick + 1
+    assert (count.lost, count.unstamped, health.invalid, health.missed) == (0, 0, 0, 0)
+
+
+def test_the_plain_robot_imports_nothing_of_this_project(root: Path) -> None:
+    source = (root / "examples" / "plain_robot.py").read_text("utf-8")
+    imported = {line.split()[1].split(".")[0] for line in source.splitlines() if line.startswith(("import ", "from "))}
+    assert imported - set(sys.stdlib_module_names) == {"zenoh"}

@@ -1,0 +1,97 @@
+"""The protocol page: as fresh as the code, and what its text says of the code is so."""
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from arena.processes import PROCESSES, Kind
+from arena.supervisor import AFTER_THE_MATCH
+from schemas.bus import zenoh_bus
+from schemas.command import Command
+from schemas.message import BadMessageError, Message
+from schemas.profile import load_profile
+from schemas.protocol.examples import examples
+from schemas.protocol.fields import in_words, is_part, parts_of, rows
+from schemas.protocol.page import page
+from schemas.topics import TOPICS
+from sim_host import inbox, pace
+
+MESSAGES = list(dict.fromkeys(kind for row in TOPICS.values() for kind in (row.message, row.reply) if kind is not None))
+
+
+@pytest.fixture(scope="module")
+def text(root: Path) -> str:
+    return (root / "docs" / "protocol.md").read_text("utf-8")
+
+
+def test_the_page_is_fresh(text: str) -> None:
+    assert text == page(), "run: .venv/bin/python -m schemas.protocol > docs/protocol.md"
+
+
+def test_every_topic_stands_in_its_table(text: str) -> None:
+    for topic in TOPICS.values():
+        (row,) = [line for line in text.splitlines() if line.startswith(f"| `{topic.key}` |")]
+        assert topic.says in row
+
+
+@pytest.mark.parametrize("kind", MESSAGES, ids=lambda kind: kind.__name__)
+def test_the_example_of_every_message_is_one(
+    kind: type[Message], text: str, fenced: Callable[[str, str], list[str]]
+) -> None:
+    section = text.split(f"\n### {kind.__name__}\n")[1].split("\n### ")[0]
+    (example,) = fenced(section, "json")
+    assert kind.decode(example.encode()) == examples()[kind]
+    with pytest.raises(BadMessageError):
+        kind.decode(json.dumps(json.loads(example) | {"surplus": 1}).encode())
+
+
+@pytest.mark.parametrize("kind", MESSAGES, ids=lambda kind: kind.__name__)
+def test_every_number_of_a_message_has_a_unit_or_a_meaning(kind: type[Message]) -> None:
+    waiting, met = [kind], set()
+    while waiting:
+        part: type = waiting.pop()
+        if part in met or not is_part(part):
+            continue
+        met.add(part)
+        waiting.extend(parts_of(part))
+        assert [row.name for row in rows(part, str) if row.type.startswith("number") and not row.meaning] == []
+
+
+def test_limits_and_choices_are_said_in_words() -> None:
+    said = {row.name: row.type for row in rows(Command, lambda kind: kind.__name__)}
+    assert said["answers_tick"] == "whole number (at least 0)"
+    assert said["kick"] == "Kick or null"
+    assert in_words(dict[str, list[int]], str) == "text → list of whole number"
+
+
+def test_the_environment_is_the_one_that_a_robot_is_launched_with(text: str) -> None:
+    row = PROCESSES[Kind.AGENT]
+    said = set(re.findall(r"^\| `(TOUCHLINE_\w+)` \|", text, re.MULTILINE))
+    assert said == {name for name in row.environment if name.startswith("TOUCHLINE_")}
+    assert row.restarts == 3 and "three times at most" in text
+
+
+def test_the_attachment_is_the_one_that_is_sent(text: str) -> None:
+    assert (zenoh_bus._STAMP.format, zenoh_bus._STAMP.size) == ("<QQq", 24)
+    assert "carries 24 bytes" in text and "| 16–23 | signed |" in text
+
+
+def test_the_settings_are_those_of_a_client(text: str, fenced: Callable[[str, str], list[str]]) -> None:
+    (settings,) = fenced(text, "json5")
+    for name, value in zenoh_bus._RETRY.items():
+        assert f"{name}: {value}" in settings
+    assert f"lease: {zenoh_bus._LEASE_MS}" in settings
+
+
+def test_the_times_that_it_names_are_those_of_the_host(text: str) -> None:
+    said = " ".join(text.split())
+    watchdog = {load_profile(name).safety.watchdog for name in ("msl", "paper")}
+    (kill,) = [step.after for step in AFTER_THE_MATCH if step.kinds == {Kind.AGENT} and step.number.name == "SIGKILL"]
+    assert watchdog == {0.2} and "(0.2 s of simulated time)" in said
+    assert f"SIGKILL {kill:g} s later" in said
+    assert f"anew every {pace._RESEND_S * 1000:g} ms" in said
+    assert f"after {inbox.SILENT_TICKS} silent ticks in a row" in said
+    assert f"longer than {Command.max_bytes} bytes" in said

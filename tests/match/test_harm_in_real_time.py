@@ -1,0 +1,209 @@
+"""One match in real time: robots that fail, a coach at the command line, a recorder that is killed."""
+
+import json
+import os
+import signal
+
+import pytest
+
+from recordings.reader import open_recording
+from schemas.command import Drive
+
+pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
+
+WATCHDOG_TICKS = 10
+"""0.2 s of simulated time."""
+MIND = """
+from schemas.command import Command, Drive
+
+class Circles:
+    def __init__(self, briefing):
+        pass
+
+    def act(self, sight):
+        return Command(answers_tick=sight.tick, drive=Drive(vx=1.0, omega=1.0))
+"""
+MATCH = """
+name = "live"
+duration = 80000
+
+[teams.cyan]
+robots = ["cyan1", "cyan2"]
+brain = "mind:Circles"
+
+[teams.magenta]
+robots = ["magenta1"]
+brain = "mind:Circles"
+"""
+ASKED = {
+    "stop": ("stop",),
+    "stop again": ("stop",),
+    "a corner for nobody": ("corner",),
+    "a free kick": ("freekick", "magenta"),
+    "a place off the field": ("place-ball", "50", "2"),
+    "start": ("start",),
+    "an order": ("order", "cyan", "--mode", "hold"),
+    "state": ("state", "--json"),
+}
+"""What the coach asks for, in this order."""
+
+
+class Story:
+    """What is done to the match, and what was heard of it."""
+
+    def __init__(self, program, listener, start, endpoint):
+        self.program, self.heard, self._start, self._endpoint = program, listener, start, endpoint
+        listener.until_tick(50)
+        self.stopped()
+        self.killed()
+        self.coach = {case: self.ask(case, *words) for case, words in ASKED.items()}
+        self.recorder_killed()
+        self.ended = self.ask("end", "end-game")
+        self.exit_status = program.status()
+        listener.update()
+
+    def stopped(self):
+        pid = self.program.child("--robot", "cyan2")
+        self.before_stop = self.heard.worlds[-1]
+        os.kill(pid, signal.SIGSTOP)
+        self.heard.until(lambda heard: not heard.robot("cyan2").answering, "cyan2 falling silent")
+        self.program.says("(silent: cyan2)")
+        self.heard.for_ticks(150)
+        self.during_stop = self.heard.tick
+        os.kill(pid, signal.SIGCONT)
+        self.heard.until(lambda heard: heard.robot("cyan2").answering, "answers of cyan2")
+        self.heard.for_ticks(30)
+        self.after_stop = self.heard.worlds[-1]
+
+    def killed(self):
+        before = self.heard.robot("magenta1").answers
+        os.kill(self.program.child("--robot", "magenta1"), signal.SIGKILL)
+        self.heard.until(lambda heard: not heard.robot("magenta1").alive, "magenta1 leaving")
+        self.program.says("magenta1 was ended by SIGKILL; started again (1 of 3)")
+        self.heard.until(lambda heard: heard.robot("magenta1").answers > before + 20, "answers of the new magenta1")
+
+    def recorder_killed(self):
+        os.kill(self.program.child("recordings"), signal.SIGKILL)
+        self.heard.update()
+        self.killed_recorder_at = self.heard.tick
+        self.heard.for_ticks(60)
+        self.after_recorder = self.heard.tick
+
+    def ask(self, case, *words):
+        name = case.replace(" ", "_")
+        place = ("--connect", self._endpoint, "--match", "live")
+        asked = self._start("arena", "coach", *words, *place, folder=self.program.folder, name=name)
+        return asked.status(), asked.out, asked.err
+
+
+@pytest.fixture(scope="module")
+def story(start, listen, folder, endpoint):
+    (folder / "mind.py").write_text(MIND)
+    (folder / "match.toml").write_text(MATCH)
+    words = ("match.toml", "--seed", "7", "--pace", "realtime", "--record", "m.mcap", "--json", "--listen", endpoint)
+    return Story(start("arena", "match", *words, folder=folder), listen("live", endpoint), start, endpoint)
+
+
+@pytest.fixture(scope="module")
+def inputs(story):
+    """Tick → robot → what it was told."""
+    return {applied.tick: applied.inputs for applied in story.heard.applied if applied.tick > 0}
+
+
+def test_every_tick_is_played_whatever_happens(story):
+    ticks = [world.tick for world in story.heard.worlds]
+    assert ticks == list(range(ticks[0], ticks[-1] + 1))
+    assert ticks[-1] > story.after_recorder
+
+
+def test_the_watchdog_brakes_a_stopped_robot_and_it_drives_on_when_it_is_back(inputs, story):
+    assert story.before_stop.robots["cyan2"].omega > 0.1
+    quiet = [tick for tick in inputs if tick <= story.during_stop and inputs[tick]["cyan2"].answers_tick is not None]
+    rest = range(quiet[-1] + WATCHDOG_TICKS + 1, story.during_stop)
+    assert len(rest) > 50
+    assert all(inputs[tick]["cyan2"].drive == Drive() for tick in rest)
+    standing = next(world for world in story.heard.worlds if world.tick == story.during_stop).robots["cyan2"]
+    assert abs(standing.vx) + abs(standing.vy) + abs(standing.omega) < 0.01
+    assert story.after_stop.robots["cyan2"].omega > 0.1
+
+
+def test_health_and_status_line_name_a_stopped_robot(story):
+    silent = [health for health in story.heard.healths if not health.robots["cyan2"].answering and health.tick > 60]
+    assert silent
+    assert any("robots 2/3 (silent: cyan2)" in line for line in story.program.err.splitlines())
+    assert "agent: cyan2 does not answer, its robot rests" in story.program.err
+    assert "agent: cyan2 answers" in story.program.err
+
+
+def test_the_others_play_on_meanwhile(inputs, story):
+    stopped = [tick for tick in inputs if story.before_stop.tick < tick <= story.during_stop]
+    assert all(inputs[tick]["cyan1"].drive == Drive(vx=1.0, omega=1.0) for tick in stopped)
+
+
+def test_a_killed_agent_is_started_again_and_its_robot_rests_meanwhile(inputs, story):
+    assert "magenta1 was ended by SIGKILL; started again (1 of 3)" in story.program.err
+    assert "agent: magenta1 does not answer, its robot rests" in story.program.err
+    rested = [tick for tick in inputs if tick > 50 and inputs[tick]["magenta1"].drive == Drive()]
+    assert rested == list(range(rested[0], rested[-1] + 1))
+    assert story.heard.robot("magenta1").alive
+
+
+def test_late_ticks_are_told(story):
+    assert story.heard.healths[-1].pace == "realtime"
+    late = [health.late_ticks for health in story.heard.healths]
+    assert late == sorted(late)
+
+
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [
+        ("stop", "stop accepted"),
+        ("a free kick", "free_kick accepted"),
+        ("start", "start accepted"),
+        ("an order", "to cyan: hold"),
+        ("state", '"phase":"free_kick"'),
+    ],
+)
+def test_the_coach_at_the_command_line_is_heard(story, case, words):
+    status, out, err = story.coach[case]
+    assert (status, err) == (0, "")
+    assert words in out
+    assert len(out.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("case", "status", "words"),
+    [
+        ("stop again", 1, "touchline: refused: stop: the game is stopped already"),
+        ("a corner for nobody", 2, "touchline: Missing argument 'side'"),
+        ("a place off the field", 1, "is outside the field"),
+    ],
+)
+def test_the_coach_at_the_command_line_is_refused_in_one_line(story, case, status, words):
+    exit_status, out, err = story.coach[case]
+    assert (exit_status, out) == (status, "")
+    assert words in err
+    assert len(err.splitlines()) == 1
+
+
+def test_the_end_of_the_game_ends_the_match(story):
+    assert story.ended[0] == 0
+    assert story.heard.said["game/state"][-1].phase == "full_time"
+
+
+def test_a_killed_recorder_does_not_stop_the_match_and_its_loss_is_the_match_s_failure(story):
+    assert "recorder was ended by SIGKILL; not started again" in story.program.err
+    assert story.exit_status == 1
+    assert story.program.out == ""
+    assert "the match was played but its recording was lost" in story.program.err.splitlines()[-1]
+
+
+def test_what_a_killed_recorder_had_written_is_readable(story, folder):
+    recording = open_recording(folder / "m.mcap.part")
+    ticks = [world.tick for _, world in recording.decoded("world")]
+    assert ticks == list(range(len(ticks)))
+    assert ticks[-1] > story.killed_recorder_at - 250
+
+
+def test_the_state_as_json_is_one_object(story):
+    assert json.loads(story.coach["state"][1])["side"] == "magenta"

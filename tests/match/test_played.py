@@ -1,0 +1,113 @@
+"""The same match twice by ten processes, and once in this one."""
+
+import json
+
+import pytest
+from mcap.reader import make_reader
+
+from arena.in_process import play
+from recordings.reader import open_recording
+from schemas.host import Applied
+from schemas.match_config import load_match
+
+pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
+
+MATCH = """
+seed = 7
+duration = 8
+
+[patience]
+answer = 60
+"""
+"""A machine that is busy with other things must not make a robot miss a tick."""
+
+
+@pytest.fixture(scope="module")
+def match_file(folder):
+    path = folder / "match.toml"
+    path.write_text(MATCH)
+    return path
+
+
+@pytest.fixture(scope="module")
+def run(start, folder, match_file):
+    def run(name):
+        words = ("--seed", "7", "--pace", "lockstep", "--record", f"{name}.mcap", "--json")
+        program = start(
+            "arena", "match", match_file.name, *words, "--listen", "tcp/127.0.0.1:0", folder=folder, name=name
+        )
+        assert program.status() == 0, program.err
+        return program
+
+    return run
+
+
+@pytest.fixture(scope="module")
+def first(run):
+    return run("first")
+
+
+@pytest.fixture(scope="module")
+def result(first):
+    return json.loads(first.out)
+
+
+@pytest.fixture(scope="module")
+def alone(match_file):
+    """The same match without processes: tick → chain."""
+    chains = []
+    play(load_match(match_file), watch=lambda tick: chains.append(tick.applied["chain"]))
+    return chains
+
+
+def payloads(folder, name, key):
+    return [message.payload for message in open_recording(folder / f"{name}.mcap", whole=True).messages(key)]
+
+
+def chains(folder, name):
+    return [Applied.decode(payload).chain for payload in payloads(folder, name, "host/applied")]
+
+
+def test_the_result_is_one_json_object(first, result):
+    assert len(first.out.splitlines()) == 1
+    assert {"score", "duration_s", "ticks", "events", "real_time_factor", "recording", "losses"} <= set(result)
+    assert result["losses"] == {}
+    assert result["recording"] == "first.mcap"
+    assert result["real_time_factor"] > 0
+    assert result["duration_s"] == pytest.approx(result["ticks"] * 0.02)
+    assert result["events"][-1]["kind"] == "full_time"
+    goals = [event["side"] for event in result["events"] if event["kind"] == "goal"]
+    assert result["score"] == {side: goals.count(side) for side in ("cyan", "magenta")}
+
+
+def test_the_recording_opens_with_the_stock_reader_and_holds_every_tick_once(folder, result):
+    with (folder / "first.mcap").open("rb") as file:
+        messages = make_reader(file).iter_messages(topics=["world"], log_time_order=False)
+        ticks = [json.loads(message.data)["tick"] for _, _, message in messages]
+    assert ticks == list(range(result["ticks"] + 1))
+
+
+def test_nobody_missed_a_tick(folder, first):
+    last = list(open_recording(folder / "first.mcap").decoded("host/health"))[-1][1]
+    assert len(last.robots) == 10
+    assert {robot.missed for robot in last.robots.values()} == {0}
+    assert last.late_ticks == 0
+
+
+def test_ten_processes_play_the_same_match_again_bit_for_bit(folder, run, first):
+    run("again")
+    worlds = payloads(folder, "first", "world")
+    assert len(worlds) > 400
+    assert payloads(folder, "again", "world") == worlds
+    assert chains(folder, "again") == chains(folder, "first")
+
+
+def test_one_process_plays_the_same_match_as_ten(folder, first, alone):
+    assert alone == chains(folder, "first")[1:]
+
+
+def test_another_seed_is_another_match(match_file, alone):
+    others = []
+    play(load_match(match_file, {"seed": 8}), watch=lambda tick: others.append(tick.applied["chain"]), until=1.0)
+    assert len(others) == 50
+    assert others[-1] != alone[len(others) - 1]

@@ -1,0 +1,134 @@
+"""Host, agents and recorder started one by one, as on several machines: the host is killed, and another one comes."""
+
+import os
+import signal
+
+import pytest
+
+from recordings.manifest import Ended
+from recordings.reader import open_recording
+from schemas.match_config import MatchConfig
+
+pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
+
+TEAMS = {"cyan": {"robots": ["cyan1"]}, "magenta": {"robots": ["magenta1"]}}
+MIND = """
+from schemas.command import Command, Drive
+
+class Marked:
+    made = 0
+
+    def __init__(self, briefing):
+        Marked.made += 1
+        print(f"brain {Marked.made}", flush=True)
+        self.first = True
+
+    def act(self, sight):
+        if self.first:
+            print(f"first sight {sight.tick}", flush=True)
+            self.first = False
+        return Command(answers_tick=sight.tick, drive=Drive(vx=1.0, omega=1.0))
+"""
+WITHOUT = """
+import arena.__main__, coach_gateway.__main__, recordings.__main__, robot_agent.__main__, sim_host.__main__
+try:
+    import pybullet
+except ModuleNotFoundError:
+    print("all without")
+"""
+
+
+class Story:
+    """Two agents on machines without PyBullet, a recorder, and two hosts, one after the other."""
+
+    def __init__(self, start, listen, folder, endpoint, without_pybullet):
+        self._start, self._folder, self._endpoint = start, folder, endpoint
+        first_host = self.host("first", 80_000)
+        meeting = ("--connect", endpoint, "--match", "apart")
+        self.agents = [
+            start(
+                *("robot_agent", *meeting, "--robot", robot, "--brain", "mind:Marked", "--patience", "20"),
+                folder=folder,
+                name=robot,
+                **without_pybullet,
+            )
+            for robot in ("cyan1", "magenta1")
+        ]
+        recorder = start("recordings", *meeting, "--out", "m.mcap", folder=folder, name="recorder")
+        heard = listen("apart", endpoint)
+        heard.until_tick(300)
+        os.kill(first_host.popen.pid, signal.SIGKILL)
+        self.recorder_status = recorder.status()
+        heard.update()
+        self.last_tick = heard.tick
+        heard.bus.close()
+
+        second_host = self.host("second", 2)
+        again = listen("apart", endpoint)
+        again.until(lambda one: one.said["game/state"] and one.said["game/state"][-1].phase == "full_time", "full time")
+        self.second_healths, self.second_worlds = again.healths, again.worlds
+        again.bus.close()
+        self.second_status = second_host.status()
+        for agent in self.agents:
+            agent.popen.send_signal(signal.SIGTERM)
+        self.agent_statuses = [agent.status() for agent in self.agents]
+
+    def host(self, name, duration):
+        config = self._folder / f"{name}.json"
+        match = MatchConfig.model_validate({"name": "apart", "seed": 7, "duration": duration, "teams": TEAMS})
+        config.write_text(match.model_dump_json())
+        words = ("sim_host", "--listen", self._endpoint, "--config", str(config))
+        return self._start(*words, folder=self._folder, name=name)
+
+
+@pytest.fixture(scope="module")
+def story(start, listen, folder, endpoint, without_pybullet):
+    (folder / "mind.py").write_text(MIND)
+    return Story(start, listen, folder, endpoint, without_pybullet)
+
+
+def test_a_recorder_whose_host_was_killed_ends_by_itself_and_finishes_its_file(story, folder):
+    assert story.recorder_status == 0
+    recording = open_recording(folder / "m.mcap", whole=True)
+    assert recording.result.ended is Ended.HOST_GONE
+
+
+def test_the_recording_of_a_killed_host_is_readable_to_its_last_half_second(story, folder):
+    ticks = [world.tick for _, world in open_recording(folder / "m.mcap").decoded("world")]
+    assert ticks == list(range(ticks[0], ticks[-1] + 1))
+    assert ticks[-1] >= story.last_tick - 500  # ten times as many as lockstep plays in half a second
+
+
+def test_agents_meet_the_next_host_with_a_new_brain_from_its_first_sight_on(story):
+    for agent in story.agents:
+        brains = [line for line in agent.out.splitlines() if line.startswith("brain")]
+        assert brains == ["brain 1", "brain 2"]
+        assert agent.out.splitlines()[-1] == "first sight 0"
+
+
+def test_the_match_of_the_next_host_is_played_to_its_end_by_the_same_agents(story):
+    assert story.second_status == 0
+    last = story.second_healths[-1]
+    assert {name: robot.alive for name, robot in last.robots.items()} == {"cyan1": True, "magenta1": True}
+    assert all(robot.answers >= last.tick - 5 for robot in last.robots.values())
+    assert story.second_worlds[-1].tick > 100
+
+
+def test_an_agent_plays_where_pybullet_is_not_installed_and_leaves_politely(story):
+    assert story.agent_statuses == [0, 0]
+    assert [agent.err for agent in story.agents] == ["", ""]
+
+
+def test_an_agent_whose_host_does_not_come_back_ends_by_itself(start, folder, without_pybullet):
+    words = ("--connect", "tcp/127.0.0.1:9", "--match", "apart", "--robot", "cyan1", "--brain", "mind:Marked")
+    agent = start("robot_agent", *words, "--patience", "0.1", folder=folder, name="lonely", **without_pybullet)
+    assert agent.status() == 2
+    assert "no host answers there" in agent.err
+    assert len(agent.err.splitlines()) == 1
+
+
+def test_every_process_but_the_simulation_imports_without_pybullet(start, folder, without_pybullet):
+    (folder / "without.py").write_text(WITHOUT)
+    program = start("without", folder=folder, name="without", **without_pybullet)
+    assert program.status() == 0, program.err
+    assert program.out.split("\n")[0] == "all without"

@@ -1,0 +1,68 @@
+"""What cannot be played is refused by the real command line: status 2, one line, and nothing left behind."""
+
+import os
+import socket
+
+import pytest
+
+pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
+
+WRONG = {
+    "an unknown key": ("sede = 7", "sede is not known; did you mean"),
+    "an unknown key of a team": ("[teams.cyan]\nbrian = 'a:B'", "teams.cyan.brian is not known; did you mean"),
+    "a wrong type": ("seed = 'seven'", "seed is 'seven'; a whole number"),
+    "a sixth robot": ("[teams.cyan]\nsize = 6", "teams.cyan.size is 6; a side has 1 to 5 robots"),
+    "a sixth name": (
+        "[teams.cyan]\nrobots = ['a', 'b', 'c', 'd', 'e', 'f']",
+        "1 to 5 different names",
+    ),
+    "a brain that does not exist": (
+        "[teams.magenta]\nbrain = 'no_such_team:Brain'",
+        'teams.magenta.brain is "no_such_team:Brain"; there is no module no_such_team',
+    ),
+    "no TOML": ("seed = = 7", "not TOML"),
+}
+BROKEN = "raise ModuleNotFoundError(\"No module named 'pybullet'\", name='pybullet')\n"
+
+
+def refused(program, words):
+    assert program.status() == 2, program.err
+    assert program.out == ""
+    (line,) = program.err.splitlines()
+    assert line.startswith("touchline: ")
+    assert words in line
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_a_wrong_match_file_is_refused_in_one_line(start, tmp_path, case):
+    text, words = WRONG[case]
+    (tmp_path / "match.toml").write_text(text)
+    refused(start("arena", "match", "match.toml", "--listen", "tcp/127.0.0.1:0", folder=tmp_path), words)
+    assert not (tmp_path / "runs").exists()
+
+
+def test_a_port_in_use_is_refused_in_one_line(start, tmp_path):
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        endpoint = f"tcp/127.0.0.1:{other.getsockname()[1]}"
+        refused(start("arena", "match", "--listen", endpoint, folder=tmp_path), f"{endpoint} cannot be listened on")
+    assert not (tmp_path / "runs").exists()
+
+
+def test_without_pybullet_the_pip_line_that_brings_it_is_named(start, tmp_path, without_pybullet):
+    program = start("arena", "match", "--listen", "tcp/127.0.0.1:0", folder=tmp_path, **without_pybullet)
+    refused(program, "pip install 'touchline[sim]'")
+    assert not (tmp_path / "runs").exists()
+
+
+def test_a_pybullet_that_is_there_and_cannot_be_imported_is_named_by_the_host(start, tmp_path):
+    (tmp_path / "broken").mkdir()
+    (tmp_path / "broken" / "pybullet.py").write_text(BROKEN)
+    others = os.environ.get("PYTHONPATH")
+    path = os.pathsep.join([str(tmp_path / "broken"), *([others] if others else [])])
+    program = start("arena", "match", "--json", "--listen", "tcp/127.0.0.1:0", folder=tmp_path, PYTHONPATH=path)
+    assert program.status() == 2
+    assert program.out == ""
+    assert "pip install 'touchline[sim]'" in program.err.splitlines()[-1]
+    assert "Traceback" not in program.err

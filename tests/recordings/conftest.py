@@ -1,0 +1,192 @@
+"""A match made by hand on the in-process bus, for the recorder to record: every message is built here."""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pytest
+
+from recordings.reader import Recording, open_recording
+from recordings.recorder import Recorder, RecordingSummary
+from recordings.writer import RecordingWriter
+from schemas.bus.contract import Bus, Publisher
+from schemas.bus.in_process import Medium
+from schemas.clock import SteppedClock
+from schemas.command import Command, Drive
+from schemas.game import EventKind, GameEvent, GameState, Phase, Score
+from schemas.host import Applied, AppliedInput, Setup, TeamSetup
+from schemas.match_config import MatchConfig
+from schemas.profile import load_profile
+from schemas.rule_book import load_rule_book
+from schemas.side import Side
+from schemas.topics import APPLIED, COMMAND, EVENT, SETUP, STATE, WORLD
+from schemas.world import BallTruth, RobotTruth, World
+
+ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
+TICK = 0.02
+
+
+def make_setup(match: str = "friendly") -> Setup:
+    profile, rules = load_profile("msl"), load_rule_book("friendly")
+    return Setup(
+        match=match,
+        pace="lockstep",
+        profile="msl",
+        rules="friendly",
+        time=profile.time,
+        pitch=profile.field,
+        robot=profile.robot,
+        ball=profile.ball,
+        drive=profile.drive,
+        dribble=profile.dribble,
+        kicker=profile.kicker,
+        periods=rules.periods,
+        restarts=rules.restarts,
+        teams={
+            side: TeamSetup(name=f"Team {side.value}", robots=[name for name in ROBOTS if name.startswith(side.value)])
+            for side in Side
+        },
+    )
+
+
+def make_world(tick: int) -> World:
+    time = tick * TICK
+    robots = {
+        name: RobotTruth(
+            x=(-1) ** number * (2.0 + number) + math.sin(time + number),
+            y=1.5 * number - 2.0,
+            z=0.4,
+            heading=time % 3.0,
+            vx=0.0,
+            vy=0.0,
+            omega=0.0,
+            holding=False,
+        )
+        for number, name in enumerate(ROBOTS)
+    }
+    ball = BallTruth(x=6 * math.sin(time), y=3 * math.cos(time), z=0.11, vx=0.0, vy=0.0, vz=0.0)
+    return World(tick=tick, time=time, robots=robots, ball=ball, clock=time)
+
+
+@dataclass
+class HandMadeHost:
+    """Speaks as host and robots do, tick by tick; simulated time is the host's."""
+
+    bus: Bus
+    robots: Bus
+    setup: Setup
+    writers: dict[str, Publisher] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.server = self.bus.serve(SETUP)
+        self.bus.declare_alive("host", "host")
+        for topic in (WORLD, APPLIED, STATE, EVENT):
+            self.writers[topic.key] = self.bus.publisher(topic)
+        for name in ROBOTS:
+            self.writers[COMMAND.fill(robot=name)] = self.robots.publisher(COMMAND, robot=name)
+
+    def answer(self) -> None:
+        while (question := self.server.receive()) is not None:
+            question.answer(self.setup)
+
+    def play(self, tick: int) -> None:
+        """One tick: truth, the inputs that led to it, the robots' answers to it."""
+        self.bus.clock.sim_ns = self.robots.clock.sim_ns = round(tick * TICK * 1e9)
+        self.writers["world"].put(make_world(tick))
+        inputs = {name: AppliedInput(drive=Drive(vx=1.0), dribble=False, answers_tick=tick) for name in ROBOTS}
+        self.writers["host/applied"].put(Applied(tick=tick, time=tick * TICK, inputs=inputs, chain=f"{tick:016x}"))
+        for name in ROBOTS:
+            self.writers[f"robot/{name}/command"].put(Command(answers_tick=tick, drive=Drive(vx=1.0)))
+
+    def referee(self, tick: int, phase: Phase, score: Score, side: Side | None = None) -> None:
+        self.writers["game/state"].put(
+            GameState(tick=tick, time=tick * TICK, phase=phase, side=side, clock=tick * TICK, score=score)
+        )
+
+    def goal(self, tick: int) -> None:
+        self.writers["game/event"].put(
+            GameEvent(
+                tick=tick, time=tick * TICK, clock=tick * TICK, kind=EventKind.GOAL, rule="goal", text="goal by cyan2"
+            )
+        )
+
+
+@dataclass
+class Stage:
+    """A host, a recorder, and the file between them."""
+
+    host: HandMadeHost
+    recorder: Recorder
+    recorder_bus: Bus
+    writer: RecordingWriter
+    path: Path
+
+    def begin(self) -> None:
+        self.recorder.pump()
+        self.host.answer()
+        self.recorder.pump()
+
+    def play(self, ticks: range, pump_every: int = 3) -> None:
+        for tick in ticks:
+            self.host.play(tick)
+            if tick % pump_every == 0:
+                self.recorder.pump()
+
+    def leave(self) -> RecordingSummary:
+        """The host leaves; the recorder takes in the rest."""
+        self.host.bus.close()
+        return self.recorder.run(lambda: False)
+
+    def read(self) -> Recording:
+        return open_recording(self.path)
+
+
+StageMaker = Callable[..., Stage]
+
+
+@pytest.fixture
+def make_stage(tmp_path: Path) -> Iterator[StageMaker]:
+    stages: list[Stage] = []
+
+    def make(sights: bool = False, config: MatchConfig | None = None, path: Path | None = None) -> Stage:
+        medium = Medium()
+        wall = SteppedClock()
+        host_bus, robot_bus = medium.seat("friendly", SteppedClock()), medium.seat("friendly", SteppedClock())
+        bus = medium.seat("friendly", wall)
+        path = path or tmp_path / "match.mcap"
+        writer = RecordingWriter(path, wall, "friendly")
+        host = HandMadeHost(host_bus, robot_bus, make_setup())
+        recorder = Recorder(bus, writer, name="recorder", sights=sights, config=config)
+        stages.append(Stage(host, recorder, bus, writer, path))
+        return stages[-1]
+
+    yield make
+    for stage in stages:
+        stage.writer.abandon()
+
+
+@pytest.fixture
+def stage(make_stage: StageMaker) -> Stage:
+    """A recorder that knows the host's setup and has begun."""
+    stage = make_stage(config=MatchConfig(seed=7))
+    stage.begin()
+    return stage
+
+
+@pytest.fixture
+def recorded(stage: Stage) -> Recording:
+    """A finished recording of 200 ticks with one goal."""
+    stage.host.referee(0, Phase.PLAY, Score())
+    stage.play(range(100))
+    stage.host.goal(100)
+    stage.play(range(100, 200))
+    stage.host.referee(199, Phase.FULL_TIME, Score(cyan=1))
+    stage.leave()
+    return stage.read()
+
+
+@pytest.fixture
+def hand_made_host() -> Callable[[Bus, Bus], HandMadeHost]:
+    """Seats a hand-made host on a bus of the test's own."""
+    return lambda bus, robots: HandMadeHost(bus, robots, make_setup())

@@ -1,0 +1,211 @@
+"""The real thing: a recorder process at a real Zenoh host on loopback."""
+
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from recordings.manifest import Ended
+from recordings.reader import open_recording
+from recordings.record import read_config
+from schemas.bus.contract import Bus
+from schemas.bus.endpoint import with_port
+from schemas.bus.zenoh_bus import open_client, open_host
+from schemas.clock import WallClock
+from schemas.errors import TouchlineError
+from schemas.game import Phase, Score
+from schemas.match_config import MatchConfig
+from schemas.topics import PROGRESS
+from schemas.world import World
+
+LIMIT = 30.0
+"""Seconds after which something that should have happened will not; nothing depends on how soon it does."""
+
+DYING_HOST = """
+import os, sys
+sys.path.insert(0, sys.argv[2])
+from conftest import HandMadeHost, make_setup
+from schemas.bus.zenoh_bus import open_client, open_host
+from schemas.clock import WallClock
+bus = open_host("friendly", WallClock(), sys.argv[1])
+robots = open_client("friendly", WallClock(), sys.argv[1])
+host = HandMadeHost(bus, robots, make_setup())
+watch = bus.watch_alive()
+while (presence := watch.receive(0.01)) is None or presence.kind != "recorder":
+    host.answer()
+for tick in range(100):
+    host.play(tick)
+sys.stdin.read(1)
+os.kill(os.getpid(), 9)
+"""
+
+
+@pytest.fixture
+def start() -> Iterator[Callable[..., subprocess.Popen[str]]]:
+    """Starts Python programs, and ends those that are left."""
+    running: list[subprocess.Popen[str]] = []
+
+    def start(*arguments: str) -> subprocess.Popen[str]:
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+        running.append(subprocess.Popen([sys.executable, *arguments], text=True, **pipes))
+        return running[-1]
+
+    yield start
+    for process in running:
+        if process.returncode is None:
+            process.kill()
+            process.communicate()
+
+
+@pytest.fixture
+def start_recorder(start, endpoint, tmp_path) -> Callable[..., subprocess.Popen[str]]:
+    """Starts a recorder process that writes `match.mcap`."""
+    meeting = ("--connect", endpoint, "--match", "friendly")
+    return lambda *more: start("-m", "recordings", *meeting, "--out", str(tmp_path / "match.mcap"), *more)
+
+
+@pytest.fixture
+def endpoint() -> str:
+    return with_port("tcp/127.0.0.1:0")
+
+
+def wait_for_recorder(bus: Bus, host=None) -> None:
+    watch, deadline = bus.watch_alive(), time.monotonic() + LIMIT
+    while time.monotonic() < deadline:
+        if host is not None:
+            host.answer()
+        presence = watch.receive(0.01)
+        if presence is not None and (presence.kind, presence.alive) == ("recorder", True):
+            return
+    raise AssertionError("the recorder never came")
+
+
+def worlds_in(part: Path) -> int:
+    """How many ticks a file that is being written holds; none before its manifest is there."""
+    try:
+        return len(list(open_recording(part).messages("world")))
+    except TouchlineError:
+        return 0
+
+
+@pytest.mark.processes
+def test_a_recorder_process_loses_nothing_of_a_match_over_zenoh(hand_made_host, start_recorder, endpoint, tmp_path):
+    config = tmp_path / "match.json"
+    config.write_text(MatchConfig(seed=11).model_dump_json())
+    recorder = start_recorder("--config", str(config))
+    with (
+        open_host("friendly", WallClock(), endpoint) as bus,
+        open_client("friendly", WallClock(), endpoint) as robots,
+    ):
+        host = hand_made_host(bus, robots)
+        progress = bus.subscribe(PROGRESS)
+        wait_for_recorder(bus, host)
+        newest = -1
+        for tick in range(1000):
+            host.play(tick)
+            while newest < tick - 250:
+                report = progress.receive(LIMIT)
+                assert report is not None
+                newest = report.message().tick
+        host.referee(999, Phase.FULL_TIME, Score(magenta=2))
+        while progress.receive(LIMIT).message().messages < 6001:
+            pass
+    out, error = recorder.communicate(timeout=LIMIT)
+    assert (recorder.returncode, error) == (0, "")
+    assert "6001 messages, 1000 ticks, 0 lost" in out
+    recording = open_recording(tmp_path / "match.mcap", whole=True)
+    assert [World.decode(world.payload).tick for world in recording.messages("world")] == list(range(1000))
+    assert recording.result.ended is Ended.FULL_TIME
+    assert recording.manifest.config.seed == 11
+    assert recording.manifest.setup == host.setup
+    times = [message.log_ns for message in recording.messages()]
+    assert times == sorted(times)
+
+
+@pytest.mark.processes
+def test_a_recorder_process_that_is_told_to_stop_finishes_its_file(hand_made_host, start_recorder, endpoint, tmp_path):
+    recorder = start_recorder()
+    with (
+        open_host("friendly", WallClock(), endpoint) as bus,
+        open_client("friendly", WallClock(), endpoint) as robots,
+    ):
+        host = hand_made_host(bus, robots)
+        progress = bus.subscribe(PROGRESS)
+        wait_for_recorder(bus, host)
+        for tick in range(100):
+            host.play(tick)
+        while progress.receive(LIMIT).message().tick < 99:
+            pass
+        recorder.send_signal(signal.SIGTERM)
+        recorder.communicate(timeout=LIMIT)
+    assert recorder.returncode == 0
+    recording = open_recording(tmp_path / "match.mcap", whole=True)
+    assert recording.result.ended is Ended.STOPPED
+    assert len(list(recording.messages("world"))) == 100
+
+
+@pytest.mark.processes
+def test_a_recorder_process_finishes_its_file_when_the_host_is_killed(start, start_recorder, endpoint, tmp_path):
+    host = start("-c", DYING_HOST, endpoint, str(Path(__file__).parent))
+    recorder = start_recorder()
+    with open_client("friendly", WallClock(), endpoint) as watcher:
+        progress = watcher.subscribe(PROGRESS)
+        while progress.receive(LIMIT).message().messages < 600:
+            pass
+    host.communicate("x", timeout=LIMIT)
+    _, error = recorder.communicate(timeout=LIMIT)
+    assert (recorder.returncode, error) == (0, "")
+    recording = open_recording(tmp_path / "match.mcap", whole=True)
+    assert recording.result.ended is Ended.HOST_GONE
+    assert recording.result.keys["world"].messages == 100
+
+
+@pytest.mark.processes
+def test_what_a_killed_recorder_has_written_can_be_read(hand_made_host, start_recorder, endpoint, tmp_path):
+    recorder = start_recorder()
+    part = tmp_path / "match.mcap.part"
+    with (
+        open_host("friendly", WallClock(), endpoint) as bus,
+        open_client("friendly", WallClock(), endpoint) as robots,
+    ):
+        host = hand_made_host(bus, robots)
+        wait_for_recorder(bus, host)
+        tick, deadline = 0, time.monotonic() + LIMIT
+        while worlds_in(part) < 100 and time.monotonic() < deadline:
+            for _ in range(10):
+                host.play(tick)
+                tick += 1
+            time.sleep(0.02)
+        recorder.kill()
+        recorder.communicate()
+    recording = open_recording(part)
+    ticks = [world.tick for _, world in recording.decoded("world")]
+    assert not recording.complete
+    assert recording.manifest.setup == host.setup
+    assert len(ticks) >= 100
+    assert ticks == list(range(len(ticks)))
+
+
+@pytest.mark.processes
+def test_without_a_host_the_recorder_says_what_to_do_and_leaves_no_file(start_recorder, tmp_path):
+    recorder = start_recorder("--patience", "0")
+    _, error = recorder.communicate(timeout=LIMIT)
+    assert recorder.returncode == 2
+    assert error.count("\n") == 1
+    assert "no host answers there" in error
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("content", "word"), [(None, "No such file"), ("{", "not a match"), ('{"seed": -1}', "not a match")]
+)
+def test_a_match_file_that_cannot_be_read_is_named(tmp_path, content, word):
+    path = tmp_path / "match.json"
+    if content is not None:
+        path.write_text(content)
+    with pytest.raises(TouchlineError, match=rf"match\.json: {word}"):
+        read_config(path)

@@ -1,0 +1,149 @@
+"""Skills that have to do with the ball, alone or on an ideal drive."""
+
+import math
+
+import pytest
+
+from robot_agent.bodies import Ball, Body
+from robot_agent.skills.dribble_to import SPEED, TURN_RATE, dribble_to
+from robot_agent.skills.intercept import meet, way_of
+from robot_agent.skills.keep_goal import guard_place, keep_goal, shot_place
+from robot_agent.skills.kick_at import kick_at
+from robot_agent.skills.line_up import behind, line_up
+from robot_agent.skills.pass_to import ARRIVING, best_receiver, pass_speed
+from robot_agent.skills.shoot import best_place, lane_width
+from robot_agent.skills.take_ball import front_of_holder, take_ball
+
+GAP = 0.35
+
+
+def test_a_ball_at_rest_is_met_where_it_lies(limits):
+    meeting = meet(Body(0.0, 0.0, 0.0), way_of(Ball(2.0 + GAP, 0.0), 0.5), GAP, limits)
+    assert meeting[:2] == pytest.approx((2.0 + GAP, 0.0))
+    assert meeting.time == pytest.approx(math.sqrt(2.0 * 2.0 / limits.acceleration), abs=0.15)
+
+
+def test_a_ball_that_rolls_by_is_met_ahead_of_where_it_is(limits):
+    ball = Ball(3.0, -2.0, 0.0, 2.0)
+    meeting = meet(Body(0.0, 0.0, 0.0), way_of(ball, 0.5), GAP, limits)
+    there = ball.after(meeting.time, 0.5)
+    assert (meeting.x, meeting.y) == pytest.approx((there.x, there.y), abs=0.05)
+    assert -1.5 < meeting.y < 2.0
+
+
+def test_a_ball_nobody_reaches_on_its_way_is_met_where_it_ends(limits):
+    ball = Ball(4.0, 0.0, 9.0, 0.0)
+    meeting = meet(Body(-9.0, 0.0, 0.0), way_of(ball, 0.5), GAP, limits)
+    assert meeting.x == pytest.approx(way_of(ball, 0.5)[-1].x)
+
+
+@pytest.mark.parametrize("start", [(-2.0, 0.5, 2.0), (1.0, 2.0, 0.0), (3.0, -1.0, -1.0)])
+def test_a_robot_comes_to_hold_a_ball_at_rest(plant, limits, setup, start):
+    robot, ball = plant(*start), Ball(0.0, 0.0)
+    for _ in range(250):
+        me = robot.body
+        away, bearing = math.hypot(me.x, me.y), math.atan2(-me.y, -me.x) - me.heading
+        if away <= setup.dribble.distance and abs(math.remainder(bearing, math.tau)) <= setup.dribble.cone / 2:
+            break
+        robot.step(take_ball(me, ball, meet(me, way_of(ball, 0.5), GAP, limits), GAP, [], 0.55, limits))
+    else:
+        pytest.fail(f"never held; ended at {me}")
+    assert away > setup.robot.radius + setup.ball.radius - 0.02  # it did not run the ball over
+
+
+def test_the_ball_of_an_opponent_is_taken_from_its_front():
+    opponent, ball = (0.0, 0.0), Ball(0.35, 0.0)
+    place = front_of_holder(Body(-1.0, 0.2, 0.0), ball, [opponent], GAP)
+    assert place == pytest.approx((0.35 + GAP, 0.0))
+    assert front_of_holder(Body(1.2, 0.1, math.pi), ball, [opponent], GAP) is None
+    assert front_of_holder(Body(-1.0, 0.2, 0.0), Ball(1.0, 0.0), [opponent], GAP) is None
+
+
+def test_behind_the_ball_faces_ball_and_target():
+    x, y, heading = behind((1.0, 1.0), (1.0, 5.0), 0.6)
+    assert (x, y, heading) == pytest.approx((1.0, 0.4, math.pi / 2))
+
+
+def test_lining_up_from_the_wrong_side_never_touches_the_ball(plant, limits, setup):
+    robot, ball = plant(1.5, 0.05, math.pi), (0.0, 0.0)
+    touching = setup.robot.radius + setup.ball.radius
+    nearest = math.inf
+    for _ in range(300):
+        me = robot.step(line_up(robot.body, ball, (5.0, 0.0), 0.6, [], limits))
+        nearest = min(nearest, math.hypot(me.x, me.y))
+    assert nearest > touching
+    assert (me.x, me.y, me.heading) == pytest.approx((-0.6, 0.0, 0.0), abs=0.06)
+
+
+def test_with_the_ball_a_robot_goes_gently(limits):
+    demand = dribble_to(Body(0.0, 0.0, 0.0), 9.0, 0.0, 2.0, [], limits)
+    assert math.hypot(demand.vx, demand.vy) <= SPEED + 1e-9
+    assert abs(demand.omega) <= TURN_RATE + 1e-9
+
+
+def test_a_kick_waits_until_the_axis_points_at_the_target(plant, limits):
+    robot = plant(0.0, 0.0, 2.0)
+    for _ in range(150):
+        motion, kick = kick_at(robot.body, (6.0, 1.0), 8.0, 0.15, limits)
+        if kick is not None:
+            break
+        robot.step(motion)
+    passes = math.tan(robot.body.heading + robot.body.omega * limits.tick) * 6.0
+    assert passes == pytest.approx(1.0, abs=0.17)
+    assert kick.speed == 8.0
+
+
+def test_a_pass_arrives_with_the_speed_it_is_meant_to(setup):
+    start = Ball(0.0, 0.0, pass_speed(5.0, setup), 0.0)
+    time = 0.0
+    while start.after(time, setup.ball.rolling_deceleration).x < 5.0:
+        time += 0.001
+    assert start.after(time, setup.ball.rolling_deceleration).vx == pytest.approx(ARRIVING, abs=0.01)
+    assert pass_speed(1000.0, setup) == setup.kicker.max_ground_speed
+
+
+def test_a_pass_goes_to_the_one_farthest_ahead_whose_lane_is_free():
+    mates = {"a": (4.0, 3.0), "b": (5.0, -3.0), "c": (0.5, 0.5)}
+    assert best_receiver((0.0, 0.0), mates, []) == "b"
+    assert best_receiver((0.0, 0.0), mates, [(2.5, -1.5)]) == "a"
+    assert best_receiver((0.0, 0.0), mates, [(2.5, -1.5), (2.0, 1.5)]) is None
+
+
+def test_a_lane_is_as_wide_as_the_nearest_opponent_beside_it_allows():
+    assert lane_width((0.0, 0.0), (5.0, 0.0), [(2.0, 1.0)], 0.0) == pytest.approx(1.0)
+    assert lane_width((0.0, 0.0), (5.0, 0.0), [(2.0, 1.0)], 0.1) == pytest.approx(0.8)
+    assert lane_width((0.0, 0.0), (5.0, 0.0), [(-1.0, 0.0), (6.0, 0.0)]) == math.inf
+
+
+def test_a_shot_goes_past_the_keeper_not_at_him(setup):
+    low, _ = best_place((6.0, 0.0), [(10.6, 0.5)], setup.pitch)
+    high, _ = best_place((6.0, 0.0), [(10.6, -0.5)], setup.pitch)
+    assert low < 0.0 < high
+    assert max(abs(low), abs(high)) < setup.pitch.goal_width / 2 - setup.ball.radius
+
+
+def test_a_keeper_stands_between_the_posts_on_the_ball_side(setup):
+    pitch, radius = setup.pitch, setup.robot.radius
+    for y in (-6.0, -1.0, 0.0, 1.0, 6.0):
+        gx, gy = guard_place(Ball(-5.0, y), pitch, radius)
+        assert gx - radius > -pitch.goal_line
+        assert abs(gy) <= pitch.goal_width / 2
+        assert gy == pytest.approx(-guard_place(Ball(-5.0, -y), pitch, radius)[1])
+        assert gy * y >= 0.0
+
+
+def test_a_shot_is_awaited_where_it_crosses_the_keepers_line(setup):
+    pitch, radius = setup.pitch, setup.robot.radius
+    line = -pitch.goal_line + 0.4
+    assert shot_place(Ball(-5.0, 1.0, -8.0, 0.0), line, pitch, radius) == pytest.approx(1.0)
+    assert shot_place(Ball(-5.0, 0.0, -8.0, 8.0), line, pitch, radius) is None  # wide
+    assert shot_place(Ball(-5.0, 0.0, 3.0, 0.0), line, pitch, radius) is None  # away
+    assert shot_place(Ball(9.0, 0.0, -2.0, 0.0), line, pitch, radius) is None  # can wait
+
+
+def test_a_keeper_runs_to_a_shot(plant, limits, setup):
+    robot = plant(-10.6, 0.0, 0.0)
+    for tick in range(40):
+        ball = Ball(-4.0 - 8.0 * tick * limits.tick, 0.6, -8.0, 0.0)
+        robot.step(keep_goal(robot.body, ball, setup.pitch, setup.robot.radius, limits))
+    assert robot.body.y == pytest.approx(0.6, abs=setup.robot.radius)

@@ -1,0 +1,220 @@
+import pytest
+
+from robot_agent.runner import BrainError, Runner, ask_setup, serve
+from schemas.bus.in_process import Medium
+from schemas.clock import SteppedClock
+from schemas.command import Command, Drive
+from schemas.errors import TouchlineError
+from schemas.topics import COMMAND, SETUP, SIGHT
+
+
+class Counting:
+    """Answers differently every time it is asked."""
+
+    def __init__(self):
+        self.seen = []
+
+    def act(self, sight):
+        self.seen.append(sight.tick)
+        return Command(answers_tick=sight.tick, drive=Drive(vx=0.1 * len(self.seen)))
+
+
+class Raising:
+    def act(self, sight):
+        raise ZeroDivisionError("no ball, no plan")
+
+
+@pytest.fixture
+def seats():
+    medium = Medium()
+    return medium.seat("friendly", SteppedClock()), medium.seat("friendly", SteppedClock())
+
+
+@pytest.fixture
+def played(seats):
+    """Host side of one robot: what it sends sights with and reads commands from, and the robot's runner."""
+    host, robot = seats
+    commands = host.subscribe(COMMAND)
+    runner = Runner(robot, Counting(), "cyan2")
+    return host.publisher(SIGHT, robot="cyan2"), commands, runner
+
+
+def test_a_sight_is_answered_with_the_brains_command(played, sight_of):
+    sights, commands, runner = played
+    sights.put(sight_of(4))
+    assert runner.answer_next(0.0)
+    received = commands.receive()
+    assert received.key == "robot/cyan2/command"
+    assert received.message() == Command(answers_tick=4, drive=Drive(vx=0.1))
+
+
+def test_a_command_is_stamped_with_the_simulated_time_of_its_sight(played, sight_of):
+    sights, commands, runner = played
+    sights.put(sight_of(50))
+    runner.answer_next(0.0)
+    assert commands.receive().stamp.sim_ns == 1_000_000_000
+
+
+def test_a_sight_that_comes_again_gets_the_same_bytes_and_the_brain_is_not_asked(played, sight_of):
+    sights, commands, runner = played
+    for _ in range(3):
+        sights.put(sight_of(4))
+        assert runner.answer_next(0.0)
+    answers = [commands.receive().payload for _ in range(3)]
+    assert answers[0] == answers[1] == answers[2]
+    assert runner.brain.seen == [4]
+    assert (runner.answered, runner.repeated) == (1, 2)
+
+
+def test_of_sights_that_wait_only_the_newest_is_answered(played, sight_of):
+    sights, _, runner = played
+    for tick in (1, 2, 3):
+        sights.put(sight_of(tick))
+    assert runner.answer_next(0.0)
+    assert not runner.answer_next(0.0)
+    assert runner.brain.seen == [3]
+
+
+def test_the_sights_of_another_robot_are_not_answered(seats, played, sight_of):
+    _, _, runner = played
+    seats[0].publisher(SIGHT, robot="cyan3").put(sight_of(1, "cyan3"))
+    assert not runner.answer_next(0.0)
+
+
+def test_a_payload_that_is_no_sight_is_counted_and_skipped(played, sight_of, capsys):
+    sights, commands, runner = played
+    for payload in (b"{", b'{"tick":1}', b"\xff"):
+        sights.put_payload(payload)
+        assert not runner.answer_next(0.0)
+    assert runner.invalid == 3
+    assert commands.receive() is None
+    assert capsys.readouterr().err.count("\n") == 1
+    sights.put(sight_of(5))
+    assert runner.answer_next(0.0)
+
+
+@pytest.mark.parametrize("brain", [Raising(), type("Silent", (), {"act": lambda self, sight: None})()])
+def test_a_brain_that_raises_or_says_nothing_is_a_brain_error(seats, sight_of, brain):
+    host, robot = seats
+    sights = host.publisher(SIGHT, robot="cyan2")
+    runner = Runner(robot, brain, "cyan2")
+    sights.put(sight_of(4))
+    with pytest.raises(BrainError, match="tick 4"):
+        runner.answer_next(0.0)
+
+
+def test_after_forgetting_an_equal_tick_is_a_new_sight(played, sight_of):
+    sights, _, runner = played
+    sights.put(sight_of(0))
+    runner.answer_next(0.0)
+    fresh = Counting()
+    runner.forget(fresh)
+    sights.put(sight_of(0))
+    assert runner.answer_next(0.0)
+    assert (fresh.seen, runner.repeated) == ([0], 0)
+
+
+def test_without_a_host_the_setup_is_asked_for_until_patience_ends(seats):
+    _, robot = seats
+    with pytest.raises(TouchlineError, match=r"no host told the setup for 3 s .*--match"):
+        ask_setup(robot, 3.0)
+    assert robot.clock.now() >= 3.0
+
+
+class Impatient(SteppedClock):
+    """Half a second passes whenever somebody looks."""
+
+    def now(self):
+        self.sleep_until(super().now() + 0.5)
+        return super().now()
+
+
+@pytest.fixture
+def stage(setup, monkeypatch):
+    """A host that answers every question for the setup at once, and a robot that never sleeps."""
+    medium = Medium()
+    host, robot = medium.seat("friendly", SteppedClock()), medium.seat("friendly", Impatient())
+    host.declare_alive("host", "host")
+    server = host.serve(SETUP)
+
+    def ask(topic, question, timeout=2.0):
+        answer = type(robot).ask(robot, topic, question, timeout)
+        server.receive().answer(setup)
+        return answer
+
+    monkeypatch.setattr(robot, "ask", ask)
+    monkeypatch.setattr("robot_agent.runner._IDLE", 0.0)
+    return host, robot
+
+
+def test_a_brain_that_raises_ends_the_process_with_status_1_and_its_traceback(stage, sight_of, capsys, monkeypatch):
+    host, robot = stage
+    sights = host.publisher(SIGHT, robot="cyan2")
+    monkeypatch.setattr(robot, "declare_alive", lambda kind, name: sights.put(sight_of(9)))
+    assert serve(robot, lambda setup: Raising(), "cyan2", 1.0) == 1
+    said = capsys.readouterr().err
+    assert "no ball, no plan" in said and "act raised at tick 9" in said
+    assert said.splitlines()[-1] == "act raised at tick 9: ZeroDivisionError: no ball, no plan"
+    assert "in _think" not in said  # the last lines of a log belong to the brain's own code
+
+
+def test_a_brain_that_says_nothing_is_reported_in_one_line(seats, sight_of):
+    _, robot = seats
+    runner = Runner(robot, type("Silent", (), {"act": lambda self, sight: None})(), "cyan2")
+    with pytest.raises(BrainError) as raised:
+        runner.answer(sight_of(4))
+    assert raised.value.report() == "act returned None at tick 4; return a Command\n"
+
+
+def test_a_sight_of_the_next_match_is_not_shown_to_the_brain_of_the_last(stage, sight_of, monkeypatch):
+    host, robot = stage
+    sights = host.publisher(SIGHT, robot="cyan2")
+    built = []
+
+    def host_is_replaced(kind, name):
+        host.medium.change_alive("friendly", ("friendly/host", "host"), -1)
+        host.medium.change_alive("friendly", ("friendly/host", "host"), +1)
+        sights.put(sight_of(0))
+
+    def build(setup):
+        built.append(Counting())
+        if len(built) == 2:
+            sights.put(sight_of(1))
+            monkeypatch.setattr(robot, "connected", lambda: False)
+        return built[-1]
+
+    monkeypatch.setattr(robot, "declare_alive", host_is_replaced)
+    assert serve(robot, build, "cyan2", 3.0) == 0
+    assert [brain.seen for brain in built] == [[], [1]]
+
+
+def test_a_host_that_is_gone_for_longer_than_patience_ends_the_process_with_status_0(stage, capsys, monkeypatch):
+    host, robot = stage
+    monkeypatch.setattr(robot, "declare_alive", lambda kind, name: host.close())
+    assert serve(robot, lambda setup: Counting(), "cyan2", 3.0) == 0
+    assert "the host has been gone for 3 s" in capsys.readouterr().err
+
+
+def test_when_the_host_comes_back_the_brain_is_built_anew_and_answers(stage, sight_of, monkeypatch):
+    host, robot = stage
+    sights = host.publisher(SIGHT, robot="cyan2")
+    there = iter([False, False, True])
+    built = []
+
+    def build(setup):
+        built.append(Counting())
+        if len(built) == 2:
+            sights.put(sight_of(0))
+        return built[-1]
+
+    monkeypatch.setattr(robot, "connected", lambda: next(there, False))
+    assert serve(robot, build, "cyan2", 3.0) == 0
+    assert [brain.seen for brain in built] == [[], [0]]
+
+
+def test_an_agent_is_seen_to_be_alive_under_its_robots_name(stage, monkeypatch):
+    host, robot = stage
+    watch = host.watch_alive()
+    monkeypatch.setattr(robot, "connected", lambda: False)
+    serve(robot, lambda setup: Counting(), "cyan2", 1.0)
+    assert ("agent", "cyan2", True) in [(one.kind, one.name, one.alive) for one in iter(watch.receive, None)]

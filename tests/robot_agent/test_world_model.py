@@ -1,0 +1,93 @@
+import math
+import random
+
+import pytest
+
+from robot_agent.world_model import STALE, WorldModel
+from schemas.command import BallBelief
+from schemas.sight import BallSight, Heard, Motion
+
+
+@pytest.fixture
+def world(briefing):
+    return WorldModel(briefing)
+
+
+def word(x, y, age=0.0, ball=None, vx=0.0, **more):
+    return Heard(age=age, self=Motion(x=x, y=y, heading=0.0, vx=vx), ball=ball, **more)
+
+
+def test_a_first_sight_is_believed_as_it_is(world, sight_of):
+    scene = world.take_in(sight_of(at=(1.0, 2.0, 0.5), ball=(3.0, 4.0, 1.0, 0.0)))
+    assert scene.me[:3] == (1.0, 2.0, 0.5)
+    assert scene.ball.now == (3.0, 4.0, 1.0, 0.0)
+    assert scene.dt == 0.0
+
+
+def test_time_between_sights_is_measured_not_assumed(world, sight_of):
+    world.take_in(sight_of(10))
+    assert world.take_in(sight_of(13)).dt == pytest.approx(0.06)
+
+
+def test_noise_is_smoothed_to_less_than_its_size(world, sight_of):
+    noise = random.Random(1)
+    errors = []
+    for tick in range(200):
+        ball = (3.0 + noise.gauss(0, 0.03), noise.gauss(0, 0.03), noise.gauss(0, 0.1), noise.gauss(0, 0.1))
+        scene = world.take_in(sight_of(tick, at=(noise.gauss(0, 0.02), 0.0, 0.0), ball=ball))
+        errors.append((abs(scene.ball.now.x - 3.0), abs(scene.me.x)))
+    ball_error, own_error = (sum(column) / 200 for column in zip(*errors, strict=True))
+    assert ball_error < 0.7 * 0.03 * math.sqrt(2 / math.pi)
+    assert own_error < 0.7 * 0.02 * math.sqrt(2 / math.pi)
+
+
+def test_a_kick_and_a_robot_set_down_elsewhere_are_believed_at_once(world, sight_of):
+    world.take_in(sight_of(0, ball=(3.0, 0.0)))
+    scene = world.take_in(sight_of(1, at=(-5.0, 0.0, 3.0), ball=(3.2, 0.0, 10.0, 0.0)))
+    assert scene.ball.now.vx == 10.0
+    assert (scene.me.x, scene.me.heading) == (-5.0, 3.0)
+
+
+def test_a_held_ball_is_before_the_robot(world, sight_of, setup):
+    ball = world.take_in(sight_of(at=(1.0, 1.0, math.pi / 2), ball=(9.0, 9.0), holding=True)).ball
+    assert ball.now[:2] == pytest.approx((1.0, 1.0 + setup.dribble.gap))
+    assert ball.age == 0.0
+
+
+def test_a_ball_out_of_sight_is_where_the_teammate_saw_it_last_rolled_on(world, sight_of):
+    own = BallSight(x=5.0, y=5.0, vx=0.0, vy=0.0, age=3.0, visible=False)
+    radio = {
+        "cyan3": word(0.0, 0.0, 0.1, BallBelief(x=1.0, y=0.0, vx=2.0, vy=0.0, age=0.4)),
+        "cyan4": word(0.0, 0.0, 0.1, BallBelief(x=-7.0, y=0.0, age=1.5)),
+    }
+    ball = world.take_in(sight_of(ball=own, radio=radio)).ball
+    assert ball.age == pytest.approx(0.5)
+    assert ball.now.x == pytest.approx(1.0 + 2.0 * 0.5 - 0.25 * 0.25)
+
+
+def test_an_own_ball_in_sight_is_believed_before_any_teammates(world, sight_of):
+    radio = {"cyan3": word(0.0, 0.0, 0.0, BallBelief(x=-7.0, y=0.0))}
+    assert world.take_in(sight_of(ball=(3.0, 0.0), radio=radio)).ball.now.x == 3.0
+
+
+def test_a_ball_nobody_has_seen_is_nowhere(world, sight_of):
+    assert world.take_in(sight_of(ball=None)).ball is None
+
+
+def test_teammates_are_moved_on_by_the_age_of_their_word_and_forgotten_when_it_is_stale(world, sight_of):
+    radio = {"cyan3": word(1.0, 0.0, 0.1, vx=2.0, role="striker"), "cyan4": word(0.0, 0.0, STALE + 0.01)}
+    mates = world.take_in(sight_of(radio=radio)).mates
+    assert list(mates) == ["cyan3"]
+    assert mates["cyan3"].body.x == pytest.approx(1.2)
+    assert mates["cyan3"].role == "striker"
+
+
+def test_opponents_are_the_obstacles_that_no_teammate_accounts_for(world, sight_of):
+    radio = {"cyan3": word(1.0, 0.0, 0.1, vx=2.0), "cyan4": word(-3.0, 0.0)}
+    obstacles = ((1.25, 0.1), (-3.0, 0.6), (4.0, 4.0))
+    assert world.take_in(sight_of(obstacles=obstacles, radio=radio)).opponents == [(-3.0, 0.6), (4.0, 4.0)]
+
+
+def test_an_opponent_beside_a_teammate_stays_an_opponent(world, sight_of):
+    obstacles = ((1.45, 0.0), (1.0, 0.02))
+    assert world.take_in(sight_of(obstacles=obstacles, radio={"cyan3": word(1.0, 0.0)})).opponents == [(1.45, 0.0)]

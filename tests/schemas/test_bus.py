@@ -1,0 +1,262 @@
+"""One conformance suite over both buses: what holds on Zenoh holds within a process, and the other way round."""
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import pytest
+
+from schemas.bus.contract import Bus, BusError, NoAnswerError, Subscription
+from schemas.bus.endpoint import with_port
+from schemas.bus.in_process import Medium
+from schemas.bus.zenoh_bus import open_client, open_host
+from schemas.clock import WallClock
+from schemas.coach import CoachOrder
+from schemas.command import Command
+from schemas.game import ActionName, ActionReply, GameState, Phase, RefereeAction
+from schemas.message import BadMessageError
+from schemas.topics import ACTION, COMMAND, ORDER, SETUP, SIGHT, STATE, WORLD_BALL, WORLD_ROBOT
+
+SOON = 5.0
+"""s; more than anything on loopback takes, so that only what never comes fails a test."""
+MOMENT = 0.3
+"""s; what has not come by then was not sent: only the tests that assert an absence wait this long."""
+
+
+@dataclass
+class Seats:
+    """A host's seat, and a way to take further ones."""
+
+    host: Bus
+    join: Callable[..., Bus]
+
+
+@pytest.fixture(params=["in_process", "zenoh"])
+def seats(request: pytest.FixtureRequest) -> Iterator[Seats]:
+    taken: list[Bus] = []
+    if request.param == "in_process":
+        medium = Medium()
+        host: Bus = medium.seat("test", WallClock())
+
+        def join(match: str = "test") -> Bus:
+            taken.append(medium.seat(match, WallClock()))
+            return taken[-1]
+    else:
+        endpoint = with_port("tcp/127.0.0.1:0")
+        host = open_host("test", WallClock(), endpoint)
+
+        def join(match: str = "test") -> Bus:
+            taken.append(open_client(match, WallClock(), endpoint))
+            return taken[-1]
+
+    yield Seats(host, join)
+    for bus in [*taken, host]:
+        bus.close()
+
+
+def put_until_heard(put: Callable[[], None], subscription: Subscription) -> Any:
+    """A subscription spreads in its own time: put until the first message arrives, then empty the mailbox."""
+    deadline = time.monotonic() + SOON
+    while time.monotonic() < deadline:
+        put()
+        received = subscription.receive(0.1)
+        if received is not None:
+            while subscription.receive(0.1) is not None:
+                pass
+            return received
+    raise AssertionError("nothing was heard")
+
+
+def state(tick: int) -> GameState:
+    return GameState(tick=tick, time=tick * 0.02, phase=Phase.PLAY)
+
+
+def test_a_message_arrives_as_it_was_sent(seats: Seats) -> None:
+    commands = seats.host.subscribe(COMMAND)
+    agent = seats.join()
+    agent.clock.sim_ns = 840_000_000
+    writer = agent.publisher(COMMAND, robot="cyan1")
+    received = put_until_heard(lambda: writer.put(Command(answers_tick=42)), commands)
+    assert received.message() == Command(answers_tick=42)
+    assert received.key == "robot/cyan1/command"
+    assert received.chunks == {"robot": "cyan1"}
+    assert received.stamp.sim_ns == 840_000_000
+
+
+def test_each_writer_numbers_its_messages_without_gaps(seats: Seats) -> None:
+    commands = seats.host.subscribe(COMMAND)
+    writer = seats.join().publisher(COMMAND, robot="cyan1")
+    first = put_until_heard(lambda: writer.put(Command(answers_tick=0)), commands)
+    assert first.stamp.sequence >= 0
+    for tick in range(50):
+        writer.put(Command(answers_tick=tick))
+    numbers = [commands.receive(SOON).stamp.sequence for _ in range(50)]  # type: ignore[union-attr]
+    assert numbers == list(range(numbers[0], numbers[0] + 50))
+
+
+def test_a_topic_of_every_message_keeps_all_of_them_in_order(seats: Seats) -> None:
+    reader = seats.join().subscribe(STATE)
+    writer = seats.host.publisher(STATE)
+    put_until_heard(lambda: writer.put(state(0)), reader)
+    for tick in range(1, 201):
+        writer.put(state(tick))
+    assert [reader.receive(SOON).message().tick for _ in range(200)] == list(range(1, 201))  # type: ignore[union-attr]
+
+
+def test_a_topic_of_the_newest_message_gives_a_late_reader_the_newest_alone(seats: Seats) -> None:
+    reader = seats.join().subscribe(SIGHT, robot="cyan1")
+    writer = seats.host.publisher(SIGHT, robot="cyan1")
+    put_until_heard(lambda: writer.put_payload(b"0"), reader)
+    for number in range(1, 6):
+        writer.put_payload(str(number).encode())
+    time.sleep(MOMENT)
+    assert reader.receive(SOON).payload == b"5"  # type: ignore[union-attr]
+    assert reader.receive() is None
+
+
+def test_the_newest_is_kept_for_each_key_apart(seats: Seats) -> None:
+    reader = seats.join().subscribe(SIGHT)
+    writers = {name: seats.host.publisher(SIGHT, robot=name) for name in ("cyan1", "cyan2")}
+    for name, writer in writers.items():
+        put_until_heard(lambda w=writer, n=name: w.put_payload(n.encode()), reader)  # type: ignore[misc]
+    for round_ in range(3):
+        for name, writer in writers.items():
+            writer.put_payload(f"{name} {round_}".encode())
+    time.sleep(MOMENT)
+    assert sorted(reader.receive(SOON).payload for _ in range(2)) == [b"cyan1 2", b"cyan2 2"]  # type: ignore[union-attr]
+    assert reader.receive() is None
+
+
+def test_a_reader_of_one_robot_hears_nothing_of_another(seats: Seats) -> None:
+    reader = seats.host.subscribe(COMMAND, robot="cyan1")
+    agent = seats.join()
+    mine, other = agent.publisher(COMMAND, robot="cyan1"), agent.publisher(COMMAND, robot="cyan2")
+    put_until_heard(lambda: mine.put(Command(answers_tick=1)), reader)
+    other.put(Command(answers_tick=2))
+    mine.put(Command(answers_tick=3))
+    assert reader.receive(SOON).message().answers_tick == 3  # type: ignore[union-attr]
+
+
+def test_readers_of_single_robots_do_not_hear_the_ball(seats: Seats) -> None:
+    reader = seats.join().subscribe(WORLD_ROBOT)
+    robot, ball = seats.host.publisher(WORLD_ROBOT, robot="cyan1"), seats.host.publisher(WORLD_BALL)
+    put_until_heard(lambda: robot.put_payload(b"robot"), reader)
+    ball.put_payload(b"ball")
+    robot.put_payload(b"again")
+    assert reader.receive(SOON).payload == b"again"  # type: ignore[union-attr]
+
+
+def test_matches_on_one_medium_do_not_hear_each_other(seats: Seats) -> None:
+    reader = seats.host.subscribe(COMMAND)
+    here, elsewhere = seats.join(), seats.join("another")
+    mine, other = here.publisher(COMMAND, robot="cyan1"), elsewhere.publisher(COMMAND, robot="cyan1")
+    put_until_heard(lambda: mine.put(Command(answers_tick=1)), reader)
+    other.put(Command(answers_tick=2))
+    mine.put(Command(answers_tick=3))
+    assert reader.receive(SOON).message().answers_tick == 3  # type: ignore[union-attr]
+
+
+def test_a_wait_ends_when_its_time_is_up(seats: Seats) -> None:
+    began = time.monotonic()
+    assert seats.host.subscribe(COMMAND).receive(MOMENT) is None
+    assert time.monotonic() - began >= MOMENT * 0.9
+
+
+def test_a_waiting_reader_is_woken_when_its_bus_is_closed(seats: Seats) -> None:
+    bus = seats.join()
+    reader = bus.subscribe(STATE)
+    done = threading.Event()
+    waiter = threading.Thread(target=lambda: (reader.receive(None), done.set()))
+    waiter.start()
+    bus.close()
+    waiter.join(SOON)
+    assert done.is_set()
+
+
+def test_a_question_is_answered(seats: Seats) -> None:
+    server = seats.host.serve(ACTION)
+    answer = seats.join().ask(ACTION, RefereeAction(action=ActionName.STOP))
+    question = server.receive(SOON)
+    assert question is not None
+    assert question.message().action is ActionName.STOP
+    question.answer(ActionReply(accepted=False, reason="the match is over"))
+    assert answer.result(SOON).reason == "the match is over"
+
+
+def test_a_question_that_fails_says_why(seats: Seats) -> None:
+    server = seats.host.serve(ACTION)
+    answer = seats.join().ask(ACTION, RefereeAction(action=ActionName.STOP))
+    question = server.receive(SOON)
+    assert question is not None
+    question.fail("no referee here")
+    with pytest.raises(NoAnswerError, match="no referee here"):
+        answer.result(SOON)
+
+
+def test_a_question_that_nobody_answers_is_no_silence(seats: Seats) -> None:
+    with pytest.raises(NoAnswerError, match="nobody answers host/setup"):
+        seats.join().ask(SETUP, RefereeAction(action=ActionName.STOP)).result(SOON)
+
+
+def test_a_process_is_seen_to_come_and_go(seats: Seats) -> None:
+    watch = seats.host.watch_alive()
+    bus = seats.join()
+    bus.declare_alive("agent", "cyan1")
+    came = watch.receive(SOON)
+    assert came is not None and (came.kind, came.name, came.alive) == ("agent", "cyan1", True)
+    bus.close()
+    went = watch.receive(SOON)
+    assert went is not None and (went.name, went.alive) == ("cyan1", False)
+
+
+def test_a_watch_begins_with_those_who_are_there(seats: Seats) -> None:
+    bus = seats.join()
+    bus.declare_alive("recorder", "main")
+    first = seats.host.watch_alive().receive(SOON)
+    assert first is not None and (first.kind, first.name, first.alive) == ("recorder", "main", True)
+
+
+def test_rubbish_arrives_as_it_is_and_fails_only_when_read(seats: Seats) -> None:
+    commands = seats.host.subscribe(COMMAND)
+    writer = seats.join().publisher(COMMAND, robot="cyan1")
+    received = put_until_heard(lambda: writer.put_payload(b"\xff" * 10_000), commands)
+    with pytest.raises(BadMessageError, match="10000 bytes, at most 4096"):
+        received.message()
+
+
+def test_a_closed_bus_refuses_to_write_and_may_be_closed_again(seats: Seats) -> None:
+    bus = seats.join()
+    writer = bus.publisher(STATE)
+    bus.close()
+    bus.close()
+    with pytest.raises(BusError, match="closed"):
+        writer.put(state(1))
+    with pytest.raises(BusError, match="closed"):
+        bus.subscribe(STATE)
+
+
+def test_a_writer_knows_whether_anybody_listens(seats: Seats) -> None:
+    writer = seats.host.publisher(WORLD_BALL)
+    assert not writer.wanted()
+    reader = seats.join().subscribe(WORLD_BALL)
+    put_until_heard(lambda: writer.put_payload(b"0"), reader)
+    assert writer.wanted()
+
+
+def test_questions_and_tokens_are_not_published(seats: Seats) -> None:
+    with pytest.raises(BusError, match="game/action is not published"):
+        seats.host.publisher(ACTION)
+
+
+def test_a_key_with_a_chunk_left_open_cannot_be_written(seats: Seats) -> None:
+    with pytest.raises(BusError, match="needs side"):
+        seats.host.publisher(ORDER)
+
+
+def test_fields_arrive_as_the_message_they_are_laid_out_as(seats: Seats) -> None:
+    orders = seats.host.subscribe(ORDER)
+    writer = seats.join().publisher(ORDER, side="cyan")
+    received = put_until_heard(lambda: writer.put_fields({"sequence": 3, "tactic": "press"}), orders)  # type: ignore[arg-type,return-value]
+    assert received.message() == CoachOrder(sequence=3, tactic="press")

@@ -1,0 +1,136 @@
+"""What robots, coaches and strangers may send without stopping the host."""
+
+import pytest
+
+from schemas.bus.in_process import Medium
+from schemas.clock import SteppedClock
+from schemas.coach import CoachMode, CoachOrder
+from schemas.command import Command
+from schemas.match_config import MatchConfig
+from schemas.side import Side
+from schemas.topics import COMMAND, INVALID, ORDER, WORLD
+from sim_host import inbox
+from sim_host.complaints import Complaints
+from sim_host.snapshot import Roster
+
+RUBBISH = {
+    "a number that is none": (b'{"answers_tick":1,"drive":{"vx":NaN}}', "drive.vx is nan"),
+    "an absurd speed": (b'{"version":"1.0","answers_tick":1,"drive":{"vx":1e9}}', "drive.vx is 1000000000.0"),
+    "a truncated payload": (Command(answers_tick=1).encode()[:-7], "payload is "),
+    "words": (b"drive ahead!", "payload is b'drive ahead!'"),
+    "ten thousand bytes": (b"x" * 10_000, "10000 bytes, at most 4096"),
+    "nothing": (b"", "payload is b''"),
+    "bytes that are no text": (b"\xff\xfe\x00", "payload is "),
+    "an answer to a tick to come": (Command(answers_tick=500).encode(), "answers_tick is 500, the newest sight is 5"),
+    "an answer to a tick before the first": (b'{"answers_tick":-1}', "answers_tick is -1"),
+    "another major version": (b'{"version":"2.0","answers_tick":1}', "version 2.0 is not spoken here"),
+    "an unknown field": (b'{"version":"1.0","answers_tick":1,"jump":true}', "jump is True"),
+}
+
+
+@pytest.mark.parametrize("case", RUBBISH)
+@pytest.mark.parametrize("pace", ["lockstep", "realtime"])
+def test_a_bad_command_is_counted_told_with_its_reason_and_ignored(pitch_of, pace, case):
+    payload, reason = RUBBISH[case]
+    pitch = pitch_of(pace=pace)
+    pitch.join_all()
+    told, worlds = pitch.hear(INVALID), pitch.hear(WORLD)
+    pitch.begin()
+    pitch.ticks(5)
+    pitch.outside.publisher(COMMAND, robot="cyan2").put_payload(payload)
+    pitch.ticks(5)
+    (invalid,) = told.all()
+    assert (invalid.key, invalid.size) == ("robot/cyan2/command", len(payload))
+    assert reason in invalid.reason
+    health = pitch.health()
+    assert {name: robot.invalid for name, robot in health.robots.items()} == {"cyan1": 0, "cyan2": 1, "magenta1": 0}
+    assert all(robot.answering and robot.missed == 0 for robot in health.robots.values())
+    assert [world.tick for world in worlds.all()] == list(range(12))
+
+
+def test_a_command_to_a_robot_that_does_not_play_is_counted_as_a_strangers(pitch):
+    told = pitch.hear(INVALID)
+    for robot in ("cyan9", "cyan9", "ball"):
+        pitch.outside.publisher(COMMAND, robot=robot).put(Command(answers_tick=0))
+    pitch.ticks(4)
+    assert pitch.health().strangers == {"robot/cyan9/command": 2, "robot/ball/command": 1}
+    first = told.all()[0]
+    assert (first.key, first.reason) == ("robot/cyan9/command", "no robot of this match has that name")
+
+
+def test_invented_names_do_not_fill_the_memory(pitch):
+    for number in range(250):
+        pitch.outside.publisher(COMMAND, robot=f"ghost{number}").put(Command(answers_tick=0))
+    pitch.ticks(1)
+    strangers = pitch.health().strangers
+    assert len(strangers) == 101
+    assert sum(strangers.values()) == 250
+
+
+def test_of_many_bad_messages_one_in_a_tick_is_told(pitch):
+    told = pitch.hear(INVALID)
+    writer = pitch.outside.publisher(COMMAND, robot="cyan1")
+    for _ in range(50):
+        writer.put_payload(b"?")
+    pitch.ticks(10)
+    assert [invalid.tick for invalid in told.all()] == list(range(1, 11))
+
+
+def test_of_more_complaints_than_can_be_told_the_newest_are_kept():
+    complaints = Complaints()
+    for number in range(1000):
+        complaints.note(f"key{number}", "odd", b"")
+    kept = [complaint.key for complaint in iter(lambda: complaints.take(1, 0.02), None)]
+    assert kept == [f"key{number}" for number in range(900, 1000)]
+
+
+class Endless:
+    """A subscription that never runs dry, of one useless message after another."""
+
+    def __init__(self, seat):
+        commands = seat.subscribe(COMMAND)
+        seat.publisher(COMMAND, robot="cyan1").put_payload(b"?")
+        self._received = commands.receive()
+        self.taken = 0
+
+    def receive(self, timeout=0.0):
+        self.taken += 1
+        return self._received
+
+
+def test_a_flood_does_not_hold_the_host(monkeypatch):
+    seat = Medium().seat("friendly", SteppedClock())
+    box = inbox.Inbox(seat, Roster.of(MatchConfig()), Complaints())
+    flood = Endless(seat)
+    monkeypatch.setattr(box, "_commands", flood)
+    monkeypatch.setattr(inbox, "_AT_ONCE", 20)
+    assert box.take(0, 0.0) is None
+    assert box.ledgers["cyan1"].invalid == flood.taken
+
+
+@pytest.mark.parametrize(
+    ("side", "payload", "reason"),
+    [
+        ("cyan", b'{"sequence":0}', "sequence is 0"),
+        ("cyan", b"go!", "payload is b'go!'"),
+        ("blue", CoachOrder(sequence=9).encode(), "no side is named blue"),
+    ],
+)
+def test_a_bad_order_is_told_with_its_reason_and_the_standing_one_stays(pitch, side, payload, reason):
+    told = pitch.hear(INVALID)
+    pitch.outside.publisher(ORDER, side="cyan").put(CoachOrder(sequence=3, mode=CoachMode.HOLD))
+    pitch.ticks(1)
+    pitch.outside.publisher(ORDER, side=side).put_payload(payload)
+    pitch.ticks(2)
+    (invalid,) = told.all()
+    assert invalid.key == f"team/{side}/order"
+    assert reason in invalid.reason
+    assert pitch.host.simulation.orders == {Side.CYAN: CoachOrder(sequence=3, mode=CoachMode.HOLD)}
+
+
+def test_an_older_order_does_not_replace_a_newer_one(pitch):
+    writer = pitch.outside.publisher(ORDER, side="magenta")
+    writer.put(CoachOrder(sequence=5, mode=CoachMode.PARK))
+    writer.put(CoachOrder(sequence=4, mode=CoachMode.PLAY))
+    pitch.ticks(1)
+    assert pitch.host.simulation.orders[Side.MAGENTA].mode is CoachMode.PARK

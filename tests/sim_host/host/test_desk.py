@@ -1,0 +1,95 @@
+"""What can be asked of a running host."""
+
+import pytest
+
+from schemas.bus.contract import NoAnswerError
+from schemas.coach import CoachOrder
+from schemas.game import ActionName, ActionReply, Phase, RefereeAction
+from schemas.host import SetupRequest
+from schemas.side import Side
+from schemas.topics import ACTION, INVALID, SETUP, STATE
+
+
+def ask(pitch, action, side=None) -> ActionReply:
+    """The referee's answer, given in the next tick."""
+    answer = pitch.outside.ask(ACTION, RefereeAction(action=action, side=side))
+    pitch.ticks(1)
+    return answer.result(0.0)
+
+
+@pytest.mark.parametrize("stage", ["pitch", "live"])
+def test_an_action_is_answered_in_the_next_tick(stage, request):
+    pitch = request.getfixturevalue(stage)
+    states = pitch.hear(STATE)
+    pitch.ticks(2)
+    assert ask(pitch, ActionName.STOP) == ActionReply(accepted=True)
+    assert states.all()[-1].phase is Phase.STOPPED
+    again = ask(pitch, ActionName.STOP)
+    assert not again.accepted
+    assert "the game is stopped already" in again.reason
+    assert not ask(pitch, ActionName.CORNER).accepted
+    assert ask(pitch, ActionName.CORNER, Side.MAGENTA).accepted
+
+
+def test_actions_of_one_tick_are_answered_each_with_its_own_reply(pitch):
+    pitch.ticks(2)
+    first, second = (pitch.outside.ask(ACTION, RefereeAction(action=ActionName.STOP)) for _ in range(2))
+    pitch.ticks(1)
+    assert (first.result(0.0).accepted, second.result(0.0).accepted) == (True, False)
+
+
+def test_a_question_that_is_none_is_told_and_answered_with_what_is_wrong(pitch):
+    told = pitch.hear(INVALID)
+    answer = pitch.outside.ask(ACTION, CoachOrder(sequence=1))
+    pitch.ticks(1)
+    with pytest.raises(NoAnswerError, match="RefereeAction: "):
+        answer.result(0.0)
+    (invalid,) = told.all()
+    assert invalid.key == "game/action"
+
+
+def test_the_setup_is_told_before_the_first_tick_and_during_the_match(pitch_of):
+    pitch = pitch_of(patience={"attendance": 0})
+    answer = pitch.outside.ask(SETUP, SetupRequest())
+    pitch.begin()
+    pitch.ticks(1)
+    setup = answer.result(0.0)
+    assert setup.teams[Side.CYAN].robots == ["cyan1", "cyan2"]
+
+
+def test_the_setup_is_told_to_a_robot_that_has_to_know_it_before_it_can_answer(pitch):
+    pitch.agents["cyan2"].frozen = True
+    answer = pitch.outside.ask(SETUP, SetupRequest())
+
+    def ask_first():
+        if pitch.agents["cyan2"].frozen:
+            try:
+                answer.result(0.0)
+            except NoAnswerError:
+                return
+            pitch.agents["cyan2"].frozen = False
+
+    pitch.idle.append(ask_first)
+    pitch.ticks(1)
+    assert [given.answers_tick for given in pitch.inputs("cyan2")] == [0]
+
+
+def test_a_start_begins_the_match_though_nobody_has_come(pitch_of):
+    pitch = pitch_of()
+    answer = pitch.outside.ask(ACTION, RefereeAction(action=ActionName.START))
+    pitch.begin()
+    pitch.ticks(1)
+    assert answer.result(0.0).accepted
+    assert pitch.host.simulation.state.phase is not Phase.PRE_GAME
+    assert pitch.clock.now() < 1.0
+
+
+def test_an_action_after_the_match_is_refused(pitch_of):
+    pitch = pitch_of(duration=1)
+    pitch.join_all()
+    pitch.begin()
+    while not pitch.host.simulation.over:
+        pitch.ticks(1)
+    answer = pitch.outside.ask(ACTION, RefereeAction(action=ActionName.START))
+    pitch.host.part()
+    assert answer.result(0.0) == ActionReply(accepted=False, reason="the match is over")

@@ -1,0 +1,66 @@
+"""The same match again: on the bus, without one, and with another seed."""
+
+from dataclasses import dataclass
+
+import pytest
+
+from arena.in_process import play
+from schemas.game import Phase
+from schemas.match_config import MatchConfig
+from schemas.topics import APPLIED, STATE, WORLD
+from schemas.world import World
+
+SHIPPED = {
+    "duration": 2,
+    "teams": {
+        "cyan": {"brain": "robot_agent.teams.simple:Simple", "size": 3},
+        "magenta": {"brain": "robot_agent.teams.nubot:NuBot", "size": 2},
+    },
+}
+
+
+@dataclass
+class Watched:
+    """All that was published of a whole match."""
+
+    worlds: list[World]
+    chains: list[str]
+
+
+@pytest.fixture
+def watch_match(pitch_of):
+    def watch(seed: int) -> Watched:
+        pitch = pitch_of(seed=seed, **SHIPPED)
+        worlds, applied = pitch.hear(WORLD), pitch.hear(APPLIED)
+        pitch.join_all()
+        pitch.host.run()
+        return Watched(worlds.all(), [message.chain for message in applied.all()])
+
+    return watch
+
+
+def test_the_same_seed_gives_the_same_match_tick_for_tick_on_the_bus_and_without_one(watch_match):
+    first, again = watch_match(7), watch_match(7)
+    assert [world.tick for world in first.worlds] == list(range(len(first.worlds)))
+    assert len(first.worlds) > 100
+    assert again.worlds == first.worlds
+    assert again.chains == first.chains
+    alone = []
+    played = play(
+        MatchConfig.model_validate({"seed": 7, **SHIPPED}), watch=lambda tick: alone.append(tick.applied["chain"])
+    )
+    assert alone == first.chains[1:]
+    assert (played.chain, played.ticks) == (first.chains[-1], len(first.worlds) - 1)
+
+
+def test_another_seed_gives_another_match(watch_match):
+    assert watch_match(8).worlds[-1] != watch_match(7).worlds[-1]
+
+
+def test_a_match_is_played_to_full_time_and_every_tick_is_told_once(pitch_of):
+    pitch = pitch_of(duration=1)
+    worlds, states = pitch.hear(WORLD), pitch.hear(STATE)
+    pitch.join_all()
+    pitch.host.run()
+    assert [world.tick for world in worlds.all()] == list(range(pitch.host.simulation.now.tick + 1))
+    assert states.all()[-1].phase is Phase.FULL_TIME

@@ -1,0 +1,44 @@
+"""The referee treats both sides alike: the same story with colours swapped and the field turned is decided the same."""
+
+import pytest
+
+from schemas.side import Side
+
+STORIES = {
+    "goal": [((0.98, 0.1), ["cyan2"]), ((1.02, 0.1), [])],
+    "own goal": [((-0.98, 0.1), ["cyan2"]), ((-1.02, 0.1), [])],
+    "throw-in": [((0.3, 0.97), ["magenta2"]), ((0.32, 1.05), [])],
+    "corner": [((0.98, 0.6), ["magenta4"]), ((1.02, 0.6), [])],
+    "goal kick": [((-0.98, -0.2), ["magenta4"]), ((-1.02, -0.25), [])],
+    "goal kick, level with the goal": [((-0.98, -0.3), ["magenta4"]), ((-1.02, -0.3), [])],
+    "goal kick, between two markers": [((-0.98, -0.25), ["magenta4"]), ((-1.02, -0.25), [])],
+    "drop ball": [((0.9, 0.1), []), ((1.02, 0.4), [])],
+    "lost": [((0.2, 0.1, 0.1), []), ((0.2, 0.1, -3.0), [])],
+}
+"""Places as shares of the goal line's x and the touch line's y, with those who touch the ball."""
+
+
+@pytest.mark.parametrize("profile", ["msl", "paper"])
+@pytest.mark.parametrize("story", STORIES.values(), ids=STORIES.keys())
+def test_a_mirrored_story_has_mirrored_decisions(new_bench, profile, story):
+    told = [tell(new_bench(profile, duration=40.0, dt=0.1, mirrored=mirrored), story) for mirrored in (False, True)]
+    assert told[0] == told[1] and len(told[0]) > 8
+
+
+def tell(bench, story):
+    """Every event of the story to the end of the match, as cyan of the story that is not mirrored would tell it."""
+    bench.playing((1.0, 0.0), [])
+    for (share_x, share_y, *height), touches in story:
+        bench.tick((share_x * bench.pitch.goal_line, share_y * bench.pitch.touch_line, *height), touches)
+    for _ in range(1500):
+        bench.tick()
+    return [unmirrored(bench, event) for event in bench.events]
+
+
+def unmirrored(bench, event):
+    sign = -1 if bench.mirrored else 1
+    robot = event.robot and bench.robot(event.robot)
+    side = event.side and bench.side(event.side)
+    place = event.place and (sign * event.place.x + 0.0, sign * event.place.y + 0.0)
+    score = event.score and tuple(getattr(event.score, bench.side(side)) for side in Side)
+    return event.tick, event.kind, event.rule, side, robot, place, score

@@ -1,0 +1,32 @@
+"""The game from one team's point of view."""
+
+import pytest
+
+from schemas.game import GameView, Point, TeamPhase
+from schemas.side import Side
+from sim_host.referee.view import game_view
+
+
+@pytest.mark.parametrize("halves_over", [0, 1])
+def test_both_teams_see_a_corner_at_the_end_its_taker_attacks(bench, halves_over):
+    bench.playing()
+    if halves_over:
+        bench.ask("end_half")
+        bench.until(lambda state: state.half == 2)
+        bench.playing()
+    bench.ask("goal", Side.MAGENTA)
+    bench.ask("corner", Side.CYAN)
+    bench.until(lambda state: state.spot is not None)
+    inset = bench.book.restarts.corner_inset
+    ours, theirs = (GameView(**game_view(bench.state, side)) for side in Side)
+    assert (ours.phase, theirs.phase) == (TeamPhase.OUR_CORNER, TeamPhase.THEIR_CORNER)
+    assert (ours.our_score, ours.their_score) == (theirs.their_score, theirs.our_score) == (0, 1)
+    assert ours.spot.x == pytest.approx(bench.pitch.goal_line - inset)
+    assert theirs.spot == Point(x=-ours.spot.x, y=-ours.spot.y)
+    assert ours.half == bench.state.half and ours.clock == bench.state.clock and not ours.running
+
+
+def test_in_play_both_see_the_same_and_no_spot(bench):
+    bench.playing()
+    cyan, magenta = (game_view(bench.state, side) for side in Side)
+    assert cyan == magenta and cyan["phase"] == "play" and cyan["running"] and cyan["spot"] is None

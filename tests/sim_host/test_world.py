@@ -1,0 +1,348 @@
+"""The physical world against closed forms, for both profiles."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pytest
+from pytest import approx
+
+from schemas.command import Drive, Kick, KickMode
+from schemas.host import AppliedInput, Placement
+from schemas.match_config import load_match
+from schemas.profile import Profile, load_profile
+from sim_host.snapshot import BallState, RobotState, Roster, Snapshot
+from sim_host.world.world import World
+
+ROSTER = Roster.of(load_match(None, {"teams.cyan.size": 2, "teams.magenta.size": 2}))
+REST = AppliedInput(Drive(), dribble=False)
+GRAVITY = 9.81
+
+
+class Rig:
+    """A world with four robots parked in the corners, and one of them at the wheel."""
+
+    def __init__(self, profile: Profile) -> None:
+        self.profile = profile
+        self.world = World(profile, ROSTER)
+        x, y = profile.field.goal_line - 1, profile.field.touch_line - 1
+        self.place(cyan1=(-x, y, 0), cyan2=(-x, -y, 0), magenta1=(x, y, 0), magenta2=(x, -y, 0), ball=(0, 0, 0))
+
+    def place(self, **bodies: tuple[float, float, float]) -> None:
+        self.world.place([Placement(body=body, x=x, y=y, heading=turn) for body, (x, y, turn) in bodies.items()])
+
+    def tick(self, **told: AppliedInput) -> Snapshot:
+        return self.world.advance({name: told.get(name, REST) for name in ROSTER.names}).snapshot
+
+    def run(self, seconds: float, **told: AppliedInput) -> Snapshot:
+        for _ in range(round(seconds / self.profile.time.tick)):
+            snapshot = self.tick(**told)
+        return snapshot
+
+    def launch(self, vx: float, vy: float, vz: float, spin: tuple[float, float, float] = (0, 0, 0)) -> None:
+        """Set the ball going by hand, as no robot can."""
+        self.world._engine.move_ball((vx, vy, vz), spin)
+
+
+def robot(snapshot: Snapshot, name: str) -> RobotState:
+    return snapshot.robots[ROSTER.names.index(name)]
+
+
+@pytest.fixture(params=["msl", "paper"])
+def rig(request: pytest.FixtureRequest) -> Iterator[Rig]:
+    rig = Rig(load_profile(request.param))
+    yield rig
+    rig.world.close()
+
+
+def drive(vx: float = 0.0, vy: float = 0.0, omega: float = 0.0, **more: object) -> AppliedInput:
+    return AppliedInput(Drive(vx=vx, vy=vy, omega=omega), **{"dribble": False, **more})  # type: ignore[arg-type]
+
+
+def test_the_loaded_bodies_have_the_profiles_mass_and_size(rig: Rig) -> None:
+    """Row 2 of the parity table, read back from the engine."""
+    import pybullet
+
+    engine, robot_body = rig.world._engine, rig.profile.robot
+    dynamics = pybullet.getDynamicsInfo(engine.robots[0], -1, physicsClientId=engine.client)
+    assert dynamics[0] == robot_body.mass
+    assert dynamics[2] == approx((robot_body.inertia_xx, robot_body.inertia_xx, robot_body.inertia_zz))
+    ball = pybullet.getDynamicsInfo(engine.ball, -1, physicsClientId=engine.client)
+    assert (ball[0], ball[2][0]) == approx((rig.profile.ball.mass, rig.profile.ball.inertia))
+
+
+def test_a_robot_takes_v_over_a_to_its_speed_and_covers_half_v_t(rig: Rig) -> None:
+    """v = 3 m/s: t = v/a within 2 %, distance v·t/2 within 2 %; on the body, not on a number."""
+    rig.place(cyan1=(-5, 0, 0), ball=(0, 5, 0))
+    a, ticks, snapshot = rig.profile.drive.acceleration, 0, rig.world.snapshot()
+    while robot(snapshot, "cyan1").vx < 3 - 1e-6:
+        snapshot = rig.tick(cyan1=drive(3))
+        ticks += 1
+    tick = rig.profile.time.tick
+    assert ticks * tick == approx(3 / a, rel=0.02, abs=tick)
+    assert robot(snapshot, "cyan1").x + 5 == approx(3 * 3 / a / 2, rel=0.02, abs=3 * tick)
+
+
+def test_a_robot_turns_while_it_drives_straight_in_its_own_frame(rig: Rig) -> None:
+    """Constant vx and omega: a circle of radius vx / omega."""
+    rig.place(cyan1=(0, 0, 0), ball=(0, 5, 0))
+    rig.run(2.0, cyan1=drive(1, omega=1))
+    places = [robot(rig.tick(cyan1=drive(1, omega=1)), "cyan1") for _ in range(round(2 * math.pi / 0.02))]
+    width = max(p.x for p in places) - min(p.x for p in places)
+    assert width == approx(2.0, rel=0.02)
+    assert all(math.hypot(p.vx, p.vy) == approx(1.0, rel=1e-3) for p in places)
+
+
+def test_a_robot_let_go_of_stands_still_and_upright(rig: Rig) -> None:
+    rig.place(cyan1=(0, 0, 0.3), ball=(0, 5, 0))
+    rig.run(1.0, cyan1=drive(2, 1, 1))
+    snapshot = rig.run(3.0)
+    at = robot(snapshot, "cyan1")
+    assert (at.vx, at.vy, at.omega) == approx((0, 0, 0), abs=1e-9)
+    assert robot(snapshot, "cyan1").z == approx(rig.profile.robot.height / 2, abs=1e-3)
+
+
+def test_a_ball_at_rest_stays_at_rest(rig: Rig) -> None:
+    before = rig.run(0.5).ball
+    after = rig.run(5.0).ball
+    assert (after.x, after.y) == approx((before.x, before.y), abs=1e-6)
+    assert math.hypot(after.vx, after.vy, after.vz) < 1e-6
+
+
+def test_a_rolling_ball_stops_after_v_squared_over_two_a(rig: Rig) -> None:
+    """v = 2 m/s against the profile's rolling deceleration, within 2 %."""
+    rig.place(ball=(-2, 0, 0))
+    r = rig.profile.ball.radius
+    rig.launch(2, 0, 0, spin=(0, 2 / r, 0))
+    end = rig.run(2 / rig.profile.ball.rolling_deceleration + 0.5).ball
+    assert end.x + 2 == approx(2**2 / 2 / rig.profile.ball.rolling_deceleration, rel=0.02)
+    assert (end.vx, end.vy) == approx((0, 0), abs=1e-9)
+
+
+def test_a_dropped_ball_bounces_to_e_squared_of_its_height(rig: Rig) -> None:
+    """h' = e²·h within 3 cm: at 4.4 m/s the ball is up to that deep in the ground when the engine notices."""
+    engine, r = rig.world._engine, rig.profile.ball.radius
+    engine.set_ball((0, 0, r + 1.0), (0, 0, 0), (0, 0, 0))
+    heights, rising = [], False
+    for _ in range(round(1.5 / rig.profile.time.tick)):
+        ball = rig.tick().ball
+        rising = rising or ball.vz > 0.5
+        if rising:
+            heights.append(ball.z - r)
+    assert max(heights) == approx(rig.profile.ball.restitution**2, abs=0.03)
+
+
+def test_a_ball_in_flight_follows_the_parabola(rig: Rig) -> None:
+    """Within 1 mm of the engine's own sum, z = v·t − g·t·(t + dt)/2, and straight in x."""
+    engine, r = rig.world._engine, rig.profile.ball.radius
+    engine.set_ball((-3, 0, r + 0.5), (4, 0, 3), (0, 0, 0))
+    for tick in range(1, round(0.6 / rig.profile.time.tick)):
+        ball, t = rig.tick().ball, tick * rig.profile.time.tick
+        assert ball.x == approx(-3 + 4 * t, abs=1e-3)
+        assert ball.z == approx(r + 0.5 + 3 * t - GRAVITY * t * (t + rig.profile.time.physics_step) / 2, abs=1e-3)
+
+
+def held_ball(rig: Rig, x: float, y: float = 0.0, heading: float = 0.0) -> None:
+    gap = rig.profile.dribble.gap
+    rig.place(cyan1=(x, y, heading), ball=(x + gap * math.cos(heading), y + gap * math.sin(heading), 0))
+
+
+@pytest.mark.parametrize("speed", [1.0, 5.0, 9.0])
+def test_a_ground_kick_leaves_at_its_speed(rig: Rig, speed: float) -> None:
+    """Equation 3: exit speed within 1 % over the first tick, allowing for one tick of rolling resistance."""
+    held_ball(rig, -3)
+    snapshot = rig.tick(cyan1=drive(kick=Kick(mode=KickMode.GROUND, speed=speed)))
+    lost = rig.profile.ball.rolling_deceleration * rig.profile.time.tick
+    assert snapshot.kicked == "cyan1"
+    assert math.hypot(snapshot.ball.vx, snapshot.ball.vy) == approx(speed - lost, rel=0.01)
+    assert snapshot.ball.vy == approx(0, abs=1e-3)
+
+
+@pytest.mark.parametrize("speed", [4.0, 8.0, 12.0])
+@pytest.mark.parametrize(("d", "y", "heading"), [(2.5, 0, 0), (5, 0.5, -0.1), (8, -1, 0.1)])
+def test_a_lob_crosses_the_goal_plane_under_the_bar(rig: Rig, d: float, y: float, heading: float, speed: float) -> None:
+    """Between the ground and (d, h), at most one ball radius below it unless the lob comes down steeply.
+
+    The engine falls ½·g·dt·t lower than the parabola: up to 5 cm here, more than the margin under the bar.
+    """
+    goal_line, r = rig.profile.field.goal_line, rig.profile.ball.radius
+    held_ball(rig, goal_line - d, y, heading)
+    snapshot = rig.tick(cyan1=drive(kick=Kick(mode=KickMode.LOB, speed=speed)))
+    assert snapshot.kicked == "cyan1"
+    before = snapshot.ball
+    for _ in range(300):
+        after = rig.tick().ball
+        if after.x >= goal_line:
+            break
+        before = after
+    share = (goal_line - before.x) / (after.x - before.x)
+    height = before.z + share * (after.z - before.z)
+    want = rig.profile.field.goal_height - r - rig.profile.kicker.lob_margin
+    steepness = math.hypot(before.vx, before.vz) / math.hypot(before.vx, before.vy)
+    assert height <= want + 0.005
+    assert height == approx(want - (steepness - 1) * (r + rig.profile.kicker.lob_margin), abs=0.03)
+
+
+def test_a_ball_shot_into_the_goal_rests_in_its_net(rig: Rig) -> None:
+    field = rig.profile.field
+    for vx, vz in ((5, 0), (8, 0), (6, 3)):
+        rig.place(ball=(field.goal_line - 1, 0.3, 0))
+        rig.launch(vx, 0, vz)
+        end = rig.run(8.0).ball
+        assert field.goal_line + rig.profile.ball.radius < end.x < field.goal_line + field.goal_depth
+        assert math.hypot(end.vx, end.vy) < 1e-3
+
+
+@pytest.mark.parametrize(("y", "z"), [("post", 0.2), ("over", 1.6)])
+def test_a_ball_on_the_post_or_over_the_bar_does_not_end_in_the_goal(rig: Rig, y: str, z: float) -> None:
+    field, r = rig.profile.field, rig.profile.ball.radius
+    at = field.goal_width / 2 + field.post / 2 if y == "post" else 0.0
+    rig.world._engine.set_ball((field.goal_line - 0.6, at, z), (10, 0, 0), (0, 0, 0))
+    for _ in range(100):
+        ball = rig.tick().ball
+        deep = field.goal_line + r < ball.x < field.goal_line + field.goal_depth
+        inside = deep and abs(ball.y) < field.goal_width / 2 and ball.z < field.goal_height
+        assert not inside
+
+
+def test_the_ball_stays_with_a_dribbling_robot_at_top_speed_and_turn_rate(rig: Rig) -> None:
+    """Row 6: within the hold distance for three seconds of the hardest driving."""
+    top = rig.profile.drive
+    held_ball(rig, -2, 0)
+    for _ in range(round(3 / rig.profile.time.tick)):
+        snapshot = rig.tick(cyan1=drive(top.max_speed, omega=top.max_turn_rate, dribble=True))
+        at = robot(snapshot, "cyan1")
+        assert snapshot.possession == "cyan1"
+        distance = math.hypot(snapshot.ball.x - at.x, snapshot.ball.y - at.y)
+        assert distance == approx(rig.profile.dribble.gap, abs=0.02)
+
+
+def test_a_ball_that_is_not_asked_for_is_not_held(rig: Rig) -> None:
+    held_ball(rig, 0)
+    assert rig.tick().possession is None
+    assert rig.tick(cyan1=drive(dribble=True)).possession == "cyan1"
+    assert rig.tick().possession is None
+
+
+def test_a_held_ball_is_not_carried_through_an_opponent(rig: Rig) -> None:
+    """Defect 8: the ball of the seed passed through opponents while dribbled."""
+    held_ball(rig, -1)
+    rig.place(magenta1=(1.5, 0, math.pi / 2))
+    touching = rig.profile.robot.radius + rig.profile.ball.radius
+    for _ in range(round(3 / rig.profile.time.tick)):
+        snapshot = rig.tick(cyan1=drive(1.5, dribble=True))
+        other = robot(snapshot, "magenta1")
+        assert math.hypot(snapshot.ball.x - other.x, snapshot.ball.y - other.y) > touching - 0.03
+
+
+def test_a_kick_without_the_ball_is_refused_now_and_not_kept_for_later(rig: Rig) -> None:
+    """Defect 10: a kick request of the seed waited for the next hold."""
+    rig.place(cyan1=(0, 0, 0), ball=(3, 0, 0))
+    inputs = dict.fromkeys(ROSTER.names, REST)
+    advance = rig.world.advance(inputs | {"cyan1": drive(kick=Kick(mode=KickMode.GROUND, speed=5))})
+    assert advance.refused == {"cyan1": "kick: ball not held"}
+    held_ball(rig, 0)
+    snapshot = rig.run(0.2, cyan1=drive(dribble=True))
+    assert snapshot.possession == "cyan1" and snapshot.ball.vx == approx(0, abs=1e-6)
+
+
+def test_two_robots_that_meet_do_not_pass_through_each_other(rig: Rig) -> None:
+    rig.place(cyan1=(-2, 0, 0), magenta1=(2, 0, math.pi), ball=(0, 5, 0))
+    for _ in range(round(3 / rig.profile.time.tick)):
+        snapshot = rig.tick(cyan1=drive(2), magenta1=drive(2))
+        apart = math.hypot(
+            robot(snapshot, "cyan1").x - robot(snapshot, "magenta1").x,
+            robot(snapshot, "cyan1").y - robot(snapshot, "magenta1").y,
+        )
+        assert apart > 2 * rig.profile.robot.radius - 0.02
+
+
+def test_a_robot_that_is_held_back_is_stuck_and_only_that_one(rig: Rig) -> None:
+    """Row 44 and defect 5: each robot has its own flag."""
+    wall = rig.profile.field.goal_line + rig.profile.field.border - rig.profile.robot.radius
+    rig.place(cyan1=(wall - 0.05, 3, 0), cyan2=(-3, 0, 0))
+    told = dict.fromkeys(ROSTER.names, REST) | {"cyan1": drive(2), "cyan2": drive(2)}
+    for _ in range(round(1 / rig.profile.time.tick)):
+        advance = rig.world.advance(told)
+    assert advance.stuck == [True, False, False, False]
+
+
+def test_nothing_leaves_the_boundary(rig: Rig) -> None:
+    field = rig.profile.field
+    snapshot = rig.run(6.0, cyan1=drive(-20), magenta1=drive(20), magenta2=drive(20, -20))
+    for state in snapshot.robots:
+        assert abs(state.x) < field.goal_line + field.border and abs(state.y) < field.touch_line + field.border
+    rig.place(ball=(0, 0, 0))
+    rig.launch(9, 9, 4)
+    end = rig.run(8.0).ball
+    assert abs(end.x) < field.goal_line + field.border and abs(end.y) < field.touch_line + field.border
+
+
+def test_who_touched_the_ball_last_comes_from_contacts(rig: Rig) -> None:
+    rig.place(cyan1=(0, 0, 0), ball=(1, 0, 0))
+    touches: list[str] = []
+    for _ in range(round(1 / rig.profile.time.tick)):
+        touches += rig.tick(cyan1=drive(2)).touches
+    assert touches and set(touches) == {"cyan1"}
+
+
+def test_a_rebuilt_world_depends_on_the_poses_and_velocities_of_the_snapshot_alone() -> None:
+    """A checkpoint: the same numbers put into a world with another past give the same future, to the last bit."""
+    profile = load_profile("msl")
+    chase = {"cyan1": drive(2, omega=0.3, dribble=True), "magenta1": drive(2, omega=-0.2, dribble=True)}
+    live, other = Rig(profile), Rig(profile)
+    live.place(cyan1=(-1.5, 0.1, 0), magenta1=(1.5, -0.1, math.pi), ball=(0, 0, 0))
+    snapshot = live.run(1.0, **chase)
+    other.run(0.5, cyan1=drive(3, 1, 1))
+    live.world.rebuild()
+    other.world._robots, other.world._ball_state = snapshot.robots, snapshot.ball
+    other.world.rebuild()
+    for _ in range(75):
+        live.tick(**chase)
+        other.tick(**chase)
+        assert live.world._engine.packed() == other.world._engine.packed()
+
+
+def test_a_turned_world_with_the_same_commands_is_the_turned_world() -> None:
+    """Row 24: turned by π, cyan for magenta, everything happens as before, to 1 mm after two seconds of play."""
+    profile = load_profile("msl")
+    one, other = Rig(profile), Rig(profile)
+    one.place(cyan1=(-1.0, 0.2, 0.1), magenta1=(3.0, -1.0, 2.0), ball=(-0.65, 0.235, 0))
+    other.place(magenta1=(1.0, -0.2, 0.1 - math.pi), cyan1=(-3.0, 1.0, 2.0 - math.pi), ball=(0.65, -0.235, 0))
+    kick = drive(1, 0.2, 0.5, kick=Kick(mode=KickMode.GROUND, speed=4))
+    for tick in range(100):
+        mine = kick if tick == 40 else drive(1, 0.2, 0.5, dribble=True)
+        a = one.tick(cyan1=mine, magenta1=drive(1.5))
+        b = other.tick(magenta1=mine, cyan1=drive(1.5))
+    assert (b.ball.x, b.ball.y) == approx((-a.ball.x, -a.ball.y), abs=1e-3)
+    assert (robot(b, "magenta1").x, robot(b, "magenta1").y) == approx(
+        (-robot(a, "cyan1").x, -robot(a, "cyan1").y), abs=1e-3
+    )
+
+
+def test_the_hash_chain_tells_any_difference_of_any_tick() -> None:
+    profile = load_profile("msl")
+    chains = []
+    for vx in (1.0, 1.0, 1.0 + 1e-9):
+        rig = Rig(profile)
+        chain = []
+        for tick in range(40):
+            rig.tick(cyan1=drive(vx if tick == 30 else 1.0))
+            chain.append(rig.world.chain())
+        chains.append(chain)
+        rig.world.close()
+    assert chains[0] == chains[1]
+    assert chains[0][:30] == chains[2][:30] and chains[0][30] != chains[2][30]
+
+
+def test_a_heavier_ball_or_another_size_is_a_matter_of_the_profile() -> None:
+    profile = load_profile("msl")
+    slow = replace(profile, ball=replace(profile.ball, rolling_deceleration=2.0))
+    ends = []
+    for one in (profile, slow):
+        rig = Rig(one)
+        rig.launch(2, 0, 0, spin=(0, 2 / one.ball.radius, 0))
+        ends.append(rig.run(5.0).ball.x)
+        rig.world.close()
+    assert ends[0] > 2 * ends[1]
+    assert isinstance(rig.world.snapshot().ball, BallState)
