@@ -119,7 +119,8 @@ class Program:
 class Listener:
     """A client that keeps what a host says."""
 
-    def __init__(self, match: str, endpoint: str) -> None:
+    def __init__(self, match: str, endpoint: str, program: Program) -> None:
+        self._program = program
         self.bus: ZenohBus = open_client(match, WallClock(), endpoint, LIMIT)
         self._subscriptions: dict[str, Subscription] = {
             topic.key: self.bus.subscribe(topic) for topic in (WORLD, APPLIED, HEALTH, EVENT, INVALID, STATE)
@@ -137,7 +138,12 @@ class Listener:
             self.update()
             return condition(self)
 
-        return wait_for(heard, f"{what}; newest health: {self.said['host/health'][-1:]}")
+        try:
+            return wait_for(heard, what)
+        except AssertionError as error:
+            newest = f"tick {self.tick}, connected {self.bus.connected()}, health {self.healths[-1:]}"
+            program = f"status {self._program.popen.poll()}, stderr: {self._program.err}"
+            raise AssertionError(f"{error}\n{newest}\n{program}") from None
 
     def until_tick(self, tick: int) -> None:
         self.until(lambda one: one.tick >= tick, f"tick {tick}")
@@ -187,12 +193,12 @@ def start(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[..., Pr
 
 
 @pytest.fixture(scope="module")
-def listen() -> Iterator[Callable[[str, str], Listener]]:
-    """Opens clients, as soon as the host is there."""
+def listen() -> Iterator[Callable[[str, str, Program], Listener]]:
+    """Opens clients of a program's match, as soon as its host is there."""
     open_ones: list[Listener] = []
 
-    def listen(match: str, endpoint: str) -> Listener:
-        open_ones.append(Listener(match, endpoint))
+    def listen(match: str, endpoint: str, program: Program) -> Listener:
+        open_ones.append(Listener(match, endpoint, program))
         return open_ones[-1]
 
     yield listen

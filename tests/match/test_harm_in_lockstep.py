@@ -123,7 +123,8 @@ def story(start, listen, folder, endpoint):
     (folder / "mind.py").write_text(MIND)
     (folder / "match.toml").write_text(MATCH)
     words = ("match.toml", "--seed", "7", "--pace", "lockstep", "--record", "m.mcap", "--json", "--listen", endpoint)
-    return Story(start("arena", "match", *words, folder=folder), listen("harmed", endpoint))
+    program = start("arena", "match", *words, folder=folder)
+    return Story(program, listen("harmed", endpoint, program))
 
 
 @pytest.fixture(scope="module")

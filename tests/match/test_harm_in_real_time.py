@@ -101,7 +101,8 @@ def story(start, listen, folder, endpoint):
     (folder / "mind.py").write_text(MIND)
     (folder / "match.toml").write_text(MATCH)
     words = ("match.toml", "--seed", "7", "--pace", "realtime", "--record", "m.mcap", "--json", "--listen", endpoint)
-    return Story(start("arena", "match", *words, folder=folder), listen("live", endpoint), start, endpoint)
+    program = start("arena", "match", *words, folder=folder)
+    return Story(program, listen("live", endpoint, program), start, endpoint)
 
 
 @pytest.fixture(scope="module")

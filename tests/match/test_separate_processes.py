@@ -55,7 +55,7 @@ class Story:
             for robot in ("cyan1", "magenta1")
         ]
         recorder = start("recordings", *meeting, "--out", "m.mcap", folder=folder, name="recorder")
-        heard = listen("apart", endpoint)
+        heard = listen("apart", endpoint, first_host)
         heard.until_tick(300)
         os.kill(first_host.popen.pid, signal.SIGKILL)
         self.recorder_status = recorder.status()
@@ -64,7 +64,7 @@ class Story:
         heard.bus.close()
 
         second_host = self.host("second", 2)
-        again = listen("apart", endpoint)
+        again = listen("apart", endpoint, second_host)
         again.until(lambda one: one.said["game/state"] and one.said["game/state"][-1].phase == "full_time", "full time")
         self.second_healths, self.second_worlds = again.healths, again.worlds
         again.bus.close()
