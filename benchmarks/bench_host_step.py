@@ -39,7 +39,7 @@ def commands(simulation: Simulation) -> dict[str, Command]:
             dribble=True,
             radio=word if (tick + place) % 5 == 0 else None,
         )
-        for place, name in enumerate(simulation.roster.names)
+        for place, name in enumerate(simulation.roster)
     }
 
 
@@ -55,7 +55,7 @@ def main() -> None:
             to_json(tick.world)
             to_json(tick.applied)
 
-    raw = Engine(simulation.profile, simulation.roster.names)
+    raw = Engine(simulation.profile, simulation.roster)
     drives = [(math.cos(place), math.sin(place), 0.3) for place in range(len(raw.robots))]
 
     def loop() -> None:

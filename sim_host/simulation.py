@@ -64,7 +64,7 @@ class Simulation:
         self.config = config
         self.profile: Profile = load_profile(config.profile)
         self.book: RuleBook = load_rule_book(config.rules)
-        self.roster = Roster.of(config)
+        self.roster = Roster.of(config, self.profile)
         p, streams = self.profile, Streams(config.seed)
         starts = start_poses(self.roster, p.field)
         self.referee = Referee(

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from schemas.match_config import MatchConfig
+from schemas.profile import Profile
+from schemas.robot_model import RobotModel
 from schemas.side import Side
 
 
@@ -38,15 +40,17 @@ class Roster:
     names: tuple[str, ...]
     sides: tuple[Side, ...]
     keepers: dict[Side, str]
+    models: tuple[RobotModel, ...]
 
     @classmethod
-    def of(cls, config: MatchConfig) -> "Roster":
+    def of(cls, config: MatchConfig, profile: Profile) -> "Roster":
         """The robots of a match: cyan's, then magenta's, each side's goalkeeper first."""
         members = [(name, side) for side in Side for name in config.robots(side)]
         return cls(
             names=tuple(name for name, _ in members),
             sides=tuple(side for _, side in members),
             keepers={side: config.robots(side)[0] for side in Side},
+            models=(RobotModel.standard(profile),) * len(members),
         )
 
     def side_of(self, name: str) -> Side:

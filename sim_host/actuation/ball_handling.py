@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from schemas.host import AppliedInput
-from schemas.profile import Profile
+from schemas.profile import Dribble, Profile
+from schemas.robot_model import RobotModel
 from sim_host.actuation.chassis import FieldDrive
 from sim_host.actuation.kick import KickRefusedError, launch
 from sim_host.actuation.possession import can_hold, holder
@@ -35,12 +36,13 @@ class BallReport:
 class BallHandling:
     """Possession and motion of the ball."""
 
-    def __init__(self, profile: Profile, engine: Engine) -> None:
+    def __init__(self, profile: Profile, models: Sequence[RobotModel], engine: Engine) -> None:
         self._profile = profile
+        self._models = models
+        self._dribbles = [model.dribble for model in models]
         self._engine = engine
         self._step = profile.time.physics_step
         self._rolling_mass = profile.ball.mass + profile.ball.inertia / profile.ball.radius**2
-        self._touching = profile.robot.radius + profile.ball.radius
         self.holding: int | None = None
         self._leaving: int | None = None
         """The robot whose kicked ball has not left its hull yet."""
@@ -58,7 +60,7 @@ class BallHandling:
         """
         report = BallReport()
         claims = [place for place, one in enumerate(inputs) if one.dribble or one.kick is not None]
-        new = holder(claims, robots, ball, self._profile.dribble) if claims else None
+        new = holder(claims, robots, ball, self._dribbles) if claims else None
         if new != self.holding:
             self.hold(new)
         for place in claims:
@@ -69,7 +71,7 @@ class BallHandling:
                 report.refused[place] = "kick: ball not held"
                 continue
             try:
-                self._launch(launch(kick, ball.x, robots[place].heading, self._profile))
+                self._launch(launch(kick, ball.x, robots[place].heading, self._models[place].kicker, self._profile))
             except KickRefusedError as refusal:
                 report.refused[place] = str(refusal)
                 continue
@@ -82,7 +84,7 @@ class BallHandling:
     def before_step(self, drives: Sequence[FieldDrive]) -> None:
         """Move the ball as its holder does, or let the ground slow it."""
         if self.holding is not None:
-            self._carry(self._engine.robot_now(self.holding), drives[self.holding])
+            self._carry(self._engine.robot_now(self.holding), drives[self.holding], self._dribbles[self.holding])
         else:
             self._roll(self._engine.ball_now())
 
@@ -99,15 +101,16 @@ class BallHandling:
 
     def let_go(self, robots: tuple[RobotState, ...], ball: BallState) -> bool:
         """At the end of a tick, let a ball go that has left its holder; whether one was."""
-        if self.holding is None or can_hold(robots[self.holding], ball, self._profile.dribble):
+        if self.holding is None or can_hold(robots[self.holding], ball, self._dribbles[self.holding]):
             return False
         self.hold(None)
         return True
 
     def _leave(self, kicker: int) -> None:
         """Let a kicked ball collide with its kicker again as soon as it has left the hull."""
-        robot, ball = self._engine.robot_now(kicker), self._engine.ball_now()
-        if math.hypot(ball.x - robot.x, ball.y - robot.y) > self._touching or ball.z > self._profile.robot.height:
+        robot, ball, hull = self._engine.robot_now(kicker), self._engine.ball_now(), self._models[kicker].body
+        touching = hull.radius + self._profile.ball.radius
+        if math.hypot(ball.x - robot.x, ball.y - robot.y) > touching or ball.z > hull.height:
             self.hold(None)
 
     def _launch(self, velocity: tuple[float, float, float]) -> None:
@@ -120,13 +123,13 @@ class BallHandling:
         radius = self._profile.ball.radius
         return -vy / radius, vx / radius, 0.0
 
-    def _carry(self, robot: RobotState, drive: FieldDrive) -> None:
+    def _carry(self, robot: RobotState, drive: FieldDrive, dribble: Dribble) -> None:
         """Move the ball with its holder for one step, toward the gap before it (paper, equation 2)."""
         vx, vy, omega = drive
-        gap, dt = self._profile.dribble.gap, self._step
+        gap, dt = dribble.gap, self._step
         turned = robot.heading + omega * dt
         x, y = robot.x + vx * dt + gap * math.cos(turned), robot.y + vy * dt + gap * math.sin(turned)
-        if self._profile.dribble.method == "pose":
+        if dribble.method == "pose":
             at = (robot.x + gap * math.cos(robot.heading), robot.y + gap * math.sin(robot.heading))
             velocity = ((x - at[0]) / dt, (y - at[1]) / dt, 0.0)
             self._engine.set_ball((*at, self._profile.ball.radius), velocity, self._rolling(*velocity[:2]))

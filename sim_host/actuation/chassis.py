@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from schemas.host import AppliedInput
-from schemas.profile import Profile
+from schemas.profile import TimeSteps
+from schemas.robot_model import RobotModel
 from sim_host.actuation.drive import DrivePlanner, Flags, Floats, Vectors
 from sim_host.snapshot import RobotState
 
@@ -25,11 +26,12 @@ _MOVING = 0.2
 class Chassis:
     """Motion of all robots, in the order of the roster; each robot has its own memory."""
 
-    def __init__(self, profile: Profile, count: int) -> None:
-        self._tick = profile.time.tick
-        self._step = profile.time.physics_step
-        self._top = profile.drive.max_speed
-        self._planner = DrivePlanner(profile.drive, profile.time.physics_step, profile.time.steps_per_tick)
+    def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:
+        count = len(models)
+        self._tick = time.tick
+        self._step = time.physics_step
+        self._top = np.array([model.drive.max_speed for model in models])
+        self._planner = DrivePlanner([model.drive for model in models], time.physics_step, time.steps_per_tick)
         self._set_in_body: Vectors = np.zeros(count, dtype=complex)
         self._set_in_field: Vectors = np.zeros(count, dtype=complex)
         self._slow_for = np.zeros(count)

@@ -5,6 +5,8 @@ limits hold in the body frame, where the wheels are, and a limit that bites keep
 Planar vectors are complex numbers, x + iy: turning is multiplying.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,12 +23,16 @@ _TINY = 1e-12
 class DrivePlanner:
     """Plans the velocities of all robots over the physics steps of one tick."""
 
-    def __init__(self, limits: Drive, step: float, steps: int) -> None:
-        self._limits = limits
-        self._elapsed = step * np.arange(1, steps + 1)[:, None]
-        self._gain = limits.acceleration * self._elapsed
-        self._turn = limits.turn_acceleration * self._elapsed
-        self._kept = 1.0 - limits.acceleration / limits.deceleration
+    def __init__(self, drives: Sequence[Drive], step: float, steps: int) -> None:
+        elapsed = step * np.arange(1, steps + 1)[:, None]
+        acceleration = np.array([drive.acceleration for drive in drives])
+        deceleration = np.array([drive.deceleration for drive in drives])
+        self._top_speed = np.array([drive.max_speed for drive in drives])
+        self._top_turn_rate = np.array([drive.max_turn_rate for drive in drives])
+        self._gain = acceleration * elapsed
+        self._loss = deceleration * elapsed
+        self._turn = np.array([drive.turn_acceleration for drive in drives]) * elapsed
+        self._kept = 1.0 - acceleration / deceleration
 
     def velocities(self, now: Vectors, demand: Vectors) -> Vectors:
         """Body velocities after each step, shape (steps, n), from those now toward the demanded ones; all in m/s.
@@ -34,19 +40,18 @@ class DrivePlanner:
         A demand beyond top speed is shortened. Speed against the direction of the change is lost at the deceleration
         limit, and only then speed is gained at the acceleration limit.
         """
-        limits = self._limits
-        wanted = demand * np.minimum(1.0, limits.max_speed / (np.abs(demand) + _TINY))
+        wanted = demand * np.minimum(1.0, self._top_speed / (np.abs(demand) + _TINY))
         change = wanted - now
         size = np.abs(change)
         direction = change / (size + _TINY)
         to_lose = np.maximum(-(now * direction.conj()).real, 0.0)
-        done = np.minimum(limits.deceleration * self._elapsed, self._gain + self._kept * to_lose)
+        done = np.minimum(self._loss, self._gain + self._kept * to_lose)
         after: Vectors = now + np.minimum(done, size) * direction
         return after
 
     def turn_rates(self, now: Floats, demand: Floats) -> Floats:
         """Turn rates after each step, shape (steps, n), from those now toward the demanded ones; all in rad/s."""
-        top = self._limits.max_turn_rate
+        top = self._top_turn_rate
         change = np.minimum(np.maximum(demand, -top), top) - now
         after: Floats = now + np.minimum(np.maximum(change, -self._turn), self._turn)
         return after

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from schemas.command import Kick, KickMode
-from schemas.profile import Field, Profile
+from schemas.profile import Field, Kicker, Profile
 
 GRAVITY = 9.81
 """m/s², simatch world file."""
@@ -57,7 +57,7 @@ def solve_lob(d: float, h: float, speed: float, step: float) -> tuple[float, flo
     return along, h / t + GRAVITY * (t + step) / 2.0
 
 
-def launch(kick: Kick, ball_x: float, heading: float, profile: Profile) -> Launch:
+def launch(kick: Kick, ball_x: float, heading: float, kicker: Kicker, profile: Profile) -> Launch:
     """The velocity of a ball at `ball_x` m after a kick along `heading`.
 
     Ground: paper, equation 3. Lob: paper, equation 10.
@@ -66,23 +66,23 @@ def launch(kick: Kick, ball_x: float, heading: float, profile: Profile) -> Launc
         KickRefusedError: a lob whose axis meets no goal plane ahead.
     """
     c, s = math.cos(heading), math.sin(heading)
-    pitch, kicker = profile.field, profile.kicker
+    pitch = profile.field
     if kick.mode is KickMode.GROUND:
         speed = min(kick.speed, kicker.max_ground_speed)
         return Launch(speed * c, speed * s, 0.0)
     d = distance_to_goal_plane(ball_x, heading, pitch.goal_line)
     if not 0.0 < d < pitch.length * 2.0:
         raise KickRefusedError("kick: a lob is aimed at a goal, and this axis meets no goal line ahead")
-    along, up = lob(d, min(kick.speed, kicker.max_lob_speed), profile)
+    along, up = lob(d, min(kick.speed, kicker.max_lob_speed), kicker.lob_margin, profile)
     return Launch(along * c, along * s, up)
 
 
-def lob(d: float, speed: float, profile: Profile) -> tuple[float, float]:
+def lob(d: float, speed: float, margin: float, profile: Profile) -> tuple[float, float]:
     """Horizontal and vertical speed, m/s, of a lob that clears the bar's edge at `d` m."""
     p, step = profile, profile.time.physics_step
     steepness = 1.0
     for _ in range(_ROUNDS):
-        h = max(lob_rise(p.field, p.ball.radius, p.kicker.lob_margin, steepness), 0.0)
+        h = max(lob_rise(p.field, p.ball.radius, margin, steepness), 0.0)
         along, up = solve_lob(d, h, speed, step)
         down = up - GRAVITY * (d / along + step)
         steepness = math.hypot(along, down) / along

@@ -1,7 +1,7 @@
 """Who holds the ball: the hold condition of each robot, and a fair decision between several."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from schemas.profile import Dribble
 from sim_host.snapshot import BallState, RobotState
@@ -21,7 +21,9 @@ def can_hold(robot: RobotState, ball: BallState, dribble: Dribble) -> bool:
     return abs(math.remainder(bearing, 2.0 * math.pi)) <= dribble.cone / 2.0
 
 
-def holder(claims: Iterable[int], robots: tuple[RobotState, ...], ball: BallState, dribble: Dribble) -> int | None:
+def holder(
+    claims: Iterable[int], robots: Sequence[RobotState], ball: BallState, dribbles: Sequence[Dribble]
+) -> int | None:
     """The robot that holds the ball among those that want to: the nearest that can, nobody when two are equally near.
 
     The same for both sides and any order of robots: the ball between two equal claims is left to the contacts.
@@ -29,7 +31,7 @@ def holder(claims: Iterable[int], robots: tuple[RobotState, ...], ball: BallStat
     near = sorted(
         (math.hypot(ball.x - robots[i].x, ball.y - robots[i].y), i)
         for i in claims
-        if can_hold(robots[i], ball, dribble)
+        if can_hold(robots[i], ball, dribbles[i])
     )
     if not near or (len(near) > 1 and near[1][0] - near[0][0] < FAIR):
         return None

@@ -16,8 +16,9 @@ import pybullet
 from schemas.frames import wrap
 from schemas.host import Placement
 from schemas.profile import Profile
+from schemas.robot_model import RobotModel
 from sim_host.actuation.kick import GRAVITY
-from sim_host.snapshot import BallState, RobotState
+from sim_host.snapshot import BallState, RobotState, Roster
 from sim_host.world.pitch import Box, boundary, goals
 
 _WALL_RESTITUTION = 0.5
@@ -48,12 +49,13 @@ class BodyState(NamedTuple):
 class Engine:
     """One physical world; bodies are addressed by their place in the roster."""
 
-    def __init__(self, profile: Profile, names: Sequence[str]) -> None:
+    def __init__(self, profile: Profile, roster: Roster) -> None:
         self._profile = profile
-        self.names = tuple(names)
+        self.names = roster.names
+        self._models = roster.models
+        self._heights = [model.body.height / 2 for model in roster.models]
         self.client = pybullet.connect(pybullet.DIRECT)
         self._lift = GRAVITY * profile.time.physics_step
-        self._height = profile.robot.height / 2
         self._build()
 
     def close(self) -> None:
@@ -82,7 +84,7 @@ class Engine:
                 self._surface(self._box(box), friction=0.5, restitution=1.0)
             for box in goal.net:
                 self._surface(self._box(box), friction=0.0, restitution=_NET_RESTITUTION)
-        self.robots = [self._robot(place) for place in range(len(self.names))]
+        self.robots = [self._robot(place, model) for place, model in enumerate(self._models)]
         self.ball = self._ball()
         self._through: int | None = None
         self.read()
@@ -102,12 +104,12 @@ class Engine:
             body, -1, lateralFriction=friction, restitution=restitution, physicsClientId=self.client
         )
 
-    def _robot(self, place: int) -> int:
-        robot, client = self._profile.robot, self.client
+    def _robot(self, place: int, model: RobotModel) -> int:
+        robot, client = model.body, self.client
         shape = pybullet.createCollisionShape(
             pybullet.GEOM_CYLINDER, radius=robot.radius, height=robot.height, physicsClientId=client
         )
-        aside = (3.0 * place, -1000.0, self._height)  # out of everybody's way until it is placed
+        aside = (3.0 * place, -1000.0, robot.height / 2)  # out of everybody's way until it is placed
         body: int = pybullet.createMultiBody(robot.mass, shape, basePosition=aside, physicsClientId=client)
         pybullet.changeDynamics(
             body,
@@ -144,9 +146,9 @@ class Engine:
         Its future then depends on these numbers alone: contact caches and warm starts are gone.
         """
         self._build()
-        for body, robot in zip(self.robots, robots, strict=True):
+        for body, height, robot in zip(self.robots, self._heights, robots, strict=True):
             velocity, spin = (robot.vx, robot.vy, 0.0), (0.0, 0.0, robot.omega)
-            self._put(body, BodyState((robot.x, robot.y, self._height), _upright(robot.heading), velocity, spin))
+            self._put(body, BodyState((robot.x, robot.y, height), _upright(robot.heading), velocity, spin))
         position, velocity = (ball.x, ball.y, ball.z), (ball.vx, ball.vy, ball.vz)
         self._put(self.ball, BodyState(position, _NO_TURN, velocity, _NOTHING))
         self.read()
@@ -166,17 +168,17 @@ class Engine:
             position = (placement.x, placement.y, self._profile.ball.radius)
             self._put(self.ball, BodyState(position, _NO_TURN, _NOTHING, _NOTHING))
             return
-        position = (placement.x, placement.y, self._height)
-        state = BodyState(position, _upright(placement.heading), _NOTHING, _NOTHING)
-        self._put(self.robots[self.names.index(placement.body)], state)
+        place = self.names.index(placement.body)
+        position = (placement.x, placement.y, self._heights[place])
+        self._put(self.robots[place], BodyState(position, _upright(placement.heading), _NOTHING, _NOTHING))
 
     def read(self) -> None:
         """Take in the state of all bodies; a robot that was lifted or tipped is put upright first."""
         self._states = [self._state(body) for body in (*self.robots, self.ball)]
-        for place, body in enumerate(self.robots):
+        for place, (body, height) in enumerate(zip(self.robots, self._heights, strict=True)):
             position, (qx, qy, qz, qw), velocity, spin = self._states[place]
-            if abs(qx) > _UPRIGHT or abs(qy) > _UPRIGHT or abs(position[2] - self._height) > _UPRIGHT:
-                at, moving = (position[0], position[1], self._height), (velocity[0], velocity[1], 0.0)
+            if abs(qx) > _UPRIGHT or abs(qy) > _UPRIGHT or abs(position[2] - height) > _UPRIGHT:
+                at, moving = (position[0], position[1], height), (velocity[0], velocity[1], 0.0)
                 self._put(body, BodyState(at, _upright(2.0 * math.atan2(qz, qw)), moving, (0.0, 0.0, spin[2])))
                 self._states[place] = self._state(body)
 

@@ -31,9 +31,9 @@ class World:
     def __init__(self, profile: Profile, roster: Roster) -> None:
         self._roster = roster
         self._tick_s = profile.time.tick
-        self._engine = Engine(profile, roster.names)
-        self._chassis = Chassis(profile, len(roster.names))
-        self._ball = BallHandling(profile, self._engine)
+        self._engine = Engine(profile, roster)
+        self._chassis = Chassis(profile.time, roster.models)
+        self._ball = BallHandling(profile, roster.models, self._engine)
         self.tick = 0
         self._chain = b""
         self._look()

@@ -18,7 +18,7 @@ SPEED = st.floats(-8, 8)
 
 
 def planner() -> DrivePlanner:
-    return DrivePlanner(LIMITS, STEP, STEPS)
+    return DrivePlanner([LIMITS], STEP, STEPS)
 
 
 def run(now: complex, demand: complex, ticks: int) -> list[complex]:

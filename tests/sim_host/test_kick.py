@@ -40,14 +40,14 @@ def test_the_solution_passes_through_d_and_h_and_stays_below_the_bound(d: float,
 
 def test_a_ground_kick_leaves_along_the_kick_axis_at_its_speed() -> None:
     """Equation 3."""
-    vx, vy, vz = launch(Kick(mode=KickMode.GROUND, speed=5), 0.0, 2.0, MSL)
+    vx, vy, vz = launch(Kick(mode=KickMode.GROUND, speed=5), 0.0, 2.0, MSL.kicker, MSL)
     assert (math.hypot(vx, vy), math.atan2(vy, vx), vz) == approx((5.0, 2.0, 0.0))
 
 
 def test_a_kick_is_no_faster_than_the_device() -> None:
     """Defect 12 of section 14: a lob's strength was not clamped."""
-    ground = launch(Kick(mode=KickMode.GROUND, speed=40), 0.0, 0.0, MSL)
-    lob = launch(Kick(mode=KickMode.LOB, speed=40), -10.0, 0.0, MSL)
+    ground = launch(Kick(mode=KickMode.GROUND, speed=40), 0.0, 0.0, MSL.kicker, MSL)
+    lob = launch(Kick(mode=KickMode.LOB, speed=40), -10.0, 0.0, MSL.kicker, MSL)
     assert ground.vx == approx(MSL.kicker.max_ground_speed)
     assert lob.vx <= MSL.kicker.max_lob_speed
 
@@ -61,4 +61,4 @@ def test_the_distance_is_measured_along_the_kick_axis_to_the_goal_line_ahead(
 
 def test_a_lob_that_meets_no_goal_line_is_refused_with_its_reason() -> None:
     with pytest.raises(KickRefusedError, match="aimed at a goal"):
-        launch(Kick(mode=KickMode.LOB, speed=8), 0.0, math.pi / 2, MSL)
+        launch(Kick(mode=KickMode.LOB, speed=8), 0.0, math.pi / 2, MSL.kicker, MSL)

@@ -15,7 +15,7 @@ from sim_host.sensing.perception import Percept, Perception
 from sim_host.sensing.streams import Streams
 from sim_host.snapshot import BallState, RobotState, Roster, Snapshot
 
-ROSTER = Roster.of(load_match(None, {"teams.cyan.size": 2, "teams.magenta.size": 2}))
+ROSTER = Roster.of(load_match(None, {"teams.cyan.size": 2, "teams.magenta.size": 2}), load_profile("msl"))
 ROBOTS = (
     RobotState(-3.0, 1.0, 0.4, 0.5, 1.0, -0.5, 0.2, False),
     RobotState(2.0, -4.0, 0.4, -3.0, 0.0, 0.0, 0.0, False),

@@ -14,7 +14,7 @@ from sim_host.radio import RadioAir
 from sim_host.sensing.streams import Streams
 from sim_host.snapshot import Roster
 
-ROSTER = Roster.of(load_match(None, {"teams.cyan.size": 3, "teams.magenta.size": 2}))
+ROSTER = Roster.of(load_match(None, {"teams.cyan.size": 3, "teams.magenta.size": 2}), load_profile("msl"))
 TICK = 0.02
 CLEAR = Air(delay=0.0, loss=0.0, budget=2.2e6)
 

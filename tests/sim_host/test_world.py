@@ -11,10 +11,11 @@ from schemas.command import Drive, Kick, KickMode
 from schemas.host import AppliedInput, Placement
 from schemas.match_config import load_match
 from schemas.profile import Profile, load_profile
+from schemas.robot_model import RobotModel
 from sim_host.snapshot import BallState, RobotState, Roster, Snapshot
 from sim_host.world.world import World
 
-ROSTER = Roster.of(load_match(None, {"teams.cyan.size": 2, "teams.magenta.size": 2}))
+ROSTER = Roster.of(load_match(None, {"teams.cyan.size": 2, "teams.magenta.size": 2}), load_profile("msl"))
 REST = AppliedInput(Drive(), dribble=False)
 GRAVITY = 9.81
 
@@ -24,7 +25,8 @@ class Rig:
 
     def __init__(self, profile: Profile) -> None:
         self.profile = profile
-        self.world = World(profile, ROSTER)
+        roster = replace(ROSTER, models=(RobotModel.standard(profile),) * len(ROSTER.names))
+        self.world = World(profile, roster)
         x, y = profile.field.goal_line - 1, profile.field.touch_line - 1
         self.place(cyan1=(-x, y, 0), cyan2=(-x, -y, 0), magenta1=(x, y, 0), magenta2=(x, -y, 0), ball=(0, 0, 0))
 

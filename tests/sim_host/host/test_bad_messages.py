@@ -7,6 +7,7 @@ from schemas.clock import SteppedClock
 from schemas.coach import CoachMode, CoachOrder
 from schemas.command import Command
 from schemas.match_config import MatchConfig
+from schemas.profile import load_profile
 from schemas.side import Side
 from schemas.topics import COMMAND, INVALID, ORDER, WORLD
 from sim_host import inbox
@@ -100,7 +101,7 @@ class Endless:
 
 def test_a_flood_does_not_hold_the_host(monkeypatch):
     seat = Medium().seat("friendly", SteppedClock())
-    box = inbox.Inbox(seat, Roster.of(MatchConfig()), Complaints())
+    box = inbox.Inbox(seat, Roster.of(MatchConfig(), load_profile("msl")), Complaints())
     flood = Endless(seat)
     monkeypatch.setattr(box, "_commands", flood)
     monkeypatch.setattr(inbox, "_AT_ONCE", 20)

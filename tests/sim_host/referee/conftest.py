@@ -35,7 +35,7 @@ class Bench:
         self.book = load_rule_book(rules or profile)
         self.pitch, self.radius, self.hull = chosen.field, chosen.ball.radius, chosen.robot.radius
         self.mirrored = mirrored
-        self.roster = Roster.of(MatchConfig())
+        self.roster = Roster.of(MatchConfig(), chosen)
         self.starts = {}
         for name, side in zip(self.roster.names, self.roster.sides, strict=True):
             number = int(name[-1])

@@ -5,10 +5,11 @@ from hypothesis import strategies as st
 
 from schemas.game import RESTARTS, ActionName, EventKind, Phase, Point, RefereeAction
 from schemas.match_config import MatchConfig
+from schemas.profile import load_profile
 from schemas.side import Side
 from sim_host.snapshot import Roster
 
-NAMES = Roster.of(MatchConfig()).names
+NAMES = Roster.of(MatchConfig(), load_profile("msl")).names
 flights = st.tuples(
     st.floats(-13.0, 13.0),
     st.floats(-9.0, 9.0),

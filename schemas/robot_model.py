@@ -1,0 +1,21 @@
+"""What one robot of a match is: its body, its drive, how it holds the ball and how it kicks."""
+
+from dataclasses import dataclass
+
+from schemas.profile import Dribble, Drive, Kicker, Profile, RobotBody
+
+
+@dataclass(frozen=True, slots=True)
+class RobotModel:
+    """One type of robot."""
+
+    type: str
+    body: RobotBody
+    drive: Drive
+    dribble: Dribble
+    kicker: Kicker
+
+    @classmethod
+    def standard(cls, profile: Profile) -> "RobotModel":
+        """The robot of a profile, of which most teams are made."""
+        return cls("standard", profile.robot, profile.drive, profile.dribble, profile.kicker)
