@@ -2,7 +2,7 @@
 
 import typer
 
-from arena.commands import agent, coach, host, info, match, record, schema, topics
+from arena.commands import agent, coach, host, info, match, parameters, record, schema, topics
 from arena.front import Front
 
 app = typer.Typer(
@@ -18,6 +18,7 @@ app.command("match")(match.match)
 app.command("host")(host.host)
 app.command("agent")(agent.agent)
 app.add_typer(coach.app, name="coach")
+app.add_typer(parameters.app, name="parameters")
 app.command("record")(record.record)
 app.command("info")(info.info)
 app.command("topics")(topics.topics)

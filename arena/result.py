@@ -13,7 +13,15 @@ from coach_gateway.view import MatchView
 from schemas.game import EventKind, GameEvent, Score
 
 NOTABLE = frozenset(
-    {EventKind.GOAL, EventKind.HALF_TIME, EventKind.FULL_TIME, EventKind.ACTION, EventKind.AGENT, EventKind.STALL}
+    {
+        EventKind.GOAL,
+        EventKind.HALF_TIME,
+        EventKind.FULL_TIME,
+        EventKind.ACTION,
+        EventKind.AGENT,
+        EventKind.STALL,
+        EventKind.PARAMETERS,
+    }
 )
 """Events that people read about afterwards; stops and restarts are in the recording."""
 

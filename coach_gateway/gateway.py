@@ -8,8 +8,9 @@ from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import ActionReply, RefereeAction
 from schemas.host import Setup, SetupRequest
 from schemas.message import BadMessageError, Message
+from schemas.parameters import ParametersReply, ParametersRequest
 from schemas.side import Side
-from schemas.topics import ACTION, ORDER, SETUP, Topic
+from schemas.topics import ACTION, ORDER, PARAMETERS, SETUP, Topic
 
 
 class Gateway:
@@ -38,6 +39,15 @@ class Gateway:
             TouchlineError: no host answers for this match.
         """
         reply: ActionReply = self._ask(ACTION, action)
+        return reply
+
+    def parameters(self, request: ParametersRequest) -> ParametersReply:
+        """Ask for live parameters, or change them; the reply says whether it was accepted, and why not.
+
+        Raises:
+            TouchlineError: no host answers for this match.
+        """
+        reply: ParametersReply = self._ask(PARAMETERS, request)
         return reply
 
     def order(self, side: Side, **content: Any) -> CoachOrder:

@@ -135,6 +135,7 @@ class EventKind(StrEnum):
     FULL_TIME = "full_time"
     ACTION = "action"
     AGENT = "agent"
+    PARAMETERS = "parameters"
 
 
 class GameEvent(Message):

@@ -7,6 +7,7 @@ from pydantic import Field
 
 from schemas.command import Drive, Kick, Radio
 from schemas.message import Message, Name, Part
+from schemas.parameters import ParameterName, Value
 from schemas.profile import Ball, Dribble, Kicker, RobotBody, TimeSteps
 from schemas.profile import Drive as DriveLimits
 from schemas.profile import Field as Pitch
@@ -45,6 +46,8 @@ class Setup(Message):
     teams: dict[Side, TeamSetup]
     engine: dict[str, str] = {}
     """Fingerprint of what computes the world: engine version, the maths library's answers."""
+    parameters: dict[ParameterName, Value] = {}
+    """Live parameters that are not what the match began with, and their values; the numbers above have them already."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +82,8 @@ class Applied(Message):
     placements: list[Placement] = []
     checkpoint: bool = False
     """The world was rebuilt from poses and velocities before this tick: re-simulation may begin here."""
+    parameters: dict[ParameterName, Value] = {}
+    """Live parameters that were changed before this tick, and their new values."""
     chain: str
     """blake2b over the state of this tick, keyed with the chain before it; hex."""
 

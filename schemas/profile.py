@@ -214,7 +214,7 @@ def load_profile(name: str) -> Profile:
         raise TouchlineError(f"{name}: section [{section}] is not known; {did_you_mean(section, SECTIONS)}")
     origins = {key.removeprefix(f"{name}: "): origin for key, origin in origins.items()}
     profile = Profile(name=name, origins=origins, **sections)
-    _consistent(profile)
+    check_consistent(profile)
     return profile
 
 
@@ -241,8 +241,12 @@ def profile_text(name: str) -> str:
         raise TouchlineError(f'profile is "{name}": {error.strerror}; give one of {", ".join(SHIPPED)}') from None
 
 
-def _consistent(profile: Profile) -> None:
-    """Numbers that only make sense together."""
+def check_consistent(profile: Profile) -> None:
+    """Make sure of the numbers that only make sense together.
+
+    Raises:
+        TouchlineError: two that do not.
+    """
     touching = profile.robot.radius + profile.ball.radius
     if profile.dribble.gap > profile.dribble.distance:
         raise TouchlineError(

@@ -63,13 +63,21 @@ def read_section(section: type[T], table: dict[str, Any], where: str, origins: d
 
 
 def _checked(entry: dict[str, Any], meaning: Quantity | Choice, kind: Any, at: str) -> Any:
-    value = entry.get("value")
+    if isinstance(meaning, Quantity) and entry.get("unit") != meaning.unit:
+        raise TouchlineError(f'{at} has unit {entry.get("unit")!r}; it is given in "{meaning.unit}"')
+    return checked(entry.get("value"), meaning, kind, at)
+
+
+def checked(value: Any, meaning: Quantity | Choice, kind: Any, at: str) -> Any:
+    """A value as its field of that type keeps it; `at` names the place in the sentence of an error.
+
+    Raises:
+        TouchlineError: a wrong type, a number out of range, a word that is not known.
+    """
     if isinstance(meaning, Choice):
         if value not in meaning.words:
             raise TouchlineError(f"{at} is {value!r}; {did_you_mean(str(value), meaning.words)}")
         return value
-    if entry.get("unit") != meaning.unit:
-        raise TouchlineError(f'{at} has unit {entry.get("unit")!r}; it is given in "{meaning.unit}"')
     if get_origin(kind) is tuple:
         if not isinstance(value, list):
             raise TouchlineError(f"{at} is {value!r}; write a list of numbers")
@@ -86,7 +94,8 @@ def _number(value: Any, meaning: Quantity, at: str) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
         raise TouchlineError(f"{at} is {value!r}; write a number in {meaning.unit}")
     if not meaning.low <= value <= meaning.high:
-        raise TouchlineError(f"{at} is {value}; it lies between {meaning.low:g} and {meaning.high:g} {meaning.unit}")
+        unit = "" if meaning.unit == "1" else f" {meaning.unit}"
+        raise TouchlineError(f"{at} is {value}; it lies between {meaning.low:g} and {meaning.high:g}{unit}")
     return float(value)
 
 

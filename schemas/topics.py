@@ -14,6 +14,7 @@ from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import ActionReply, GameEvent, GameState, RefereeAction
 from schemas.host import Applied, Belief, Health, Invalid, RecorderProgress, Setup, SetupRequest
 from schemas.message import Message
+from schemas.parameters import ParametersReply, ParametersRequest
 from schemas.sight import Sight
 from schemas.world import BallFrame, RobotFrame, World
 
@@ -29,6 +30,8 @@ class Party(StrEnum):
     REFEREE = "referee"
     RECORDER = "recorder"
     VIEWER = "viewer"
+    OPERATOR = "operator"
+    """Whoever runs the host."""
 
 
 class Delivery(StrEnum):
@@ -199,6 +202,17 @@ SETUP = Topic(
     "how the match is set up: pitch, bodies, limits, rules, names",
     reply=Setup,
 )
+PARAMETERS = Topic(
+    "host/parameters",
+    ParametersRequest,
+    Party.OPERATOR,
+    (Party.HOST,),
+    "at will",
+    Delivery.QUERY,
+    False,
+    "live parameters: listed, read, set, reset; refused with the reason",
+    reply=ParametersReply,
+)
 APPLIED = Topic(
     "host/applied",
     Applied,
@@ -262,6 +276,7 @@ TOPICS: dict[str, Topic] = {
     "event": EVENT,
     "action": ACTION,
     "setup": SETUP,
+    "parameters": PARAMETERS,
     "applied": APPLIED,
     "health": HEALTH,
     "invalid": INVALID,

@@ -3,18 +3,18 @@
 The host steps it for agents on the bus, tests and learning step it with brains in the same process.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from schemas.coach import CoachOrder
 from schemas.command import Command
-from schemas.game import ActionReply, GameEvent, Phase, RefereeAction
+from schemas.errors import TouchlineError
+from schemas.game import ActionReply, EventKind, GameEvent, Phase, RefereeAction
 from schemas.host import AppliedInput, Placement, Setup, TeamSetup
 from schemas.match_config import MatchConfig
-from schemas.noise import sensing_of
-from schemas.profile import Profile, load_profile
-from schemas.profile import Radio as Air
+from schemas.parameters import ParameterDeed, ParametersReply, ParametersRequest, Value
+from schemas.profile import Profile
 from schemas.rule_book import RuleBook, load_rule_book
 from schemas.side import Side
 from sim_host.actuation.commands import Commands
@@ -25,6 +25,7 @@ from sim_host.sensing.streams import Streams
 from sim_host.sights import Send, Sights
 from sim_host.snapshot import Roster, Snapshot
 from sim_host.start import start_poses
+from sim_host.tuning import Tuning
 from sim_host.world.engine import fingerprint
 from sim_host.world.world import World
 
@@ -53,6 +54,19 @@ class Tick:
     """Robot → how many parts of its command could not be done."""
 
 
+@dataclass(slots=True)
+class _Due:
+    """What happens between two ticks: decided by the referee in the last one, or by an operator since."""
+
+    placements: list[Placement] = field(default_factory=list)
+    is_checkpoint: bool = False
+    parameters: dict[str, Value] = field(default_factory=dict)
+    remake: bool = False
+    """The world is built with numbers that have changed."""
+    said: list[tuple[EventKind, str, str]] = field(default_factory=list)
+    """Kind, rule and sentence of each event that tells of it."""
+
+
 def _keep(robot: str, sight: bytes) -> None:
     """Send nothing: whoever steps the simulation finds the sights in its tick."""
 
@@ -62,10 +76,13 @@ class Simulation:
 
     def __init__(self, config: MatchConfig) -> None:
         self.config = config
-        self.profile: Profile = load_profile(config.profile)
+        self.tuning = Tuning.of(config)
+        """The numbers in force from the next tick on."""
         self.book: RuleBook = load_rule_book(config.rules)
-        self.roster = Roster.of(config, self.profile)
-        p, streams = self.profile, Streams(config.seed)
+        p = self.profile
+        self.roster = Roster.of(config, p)
+        self._streams = Streams(config.seed)
+        self._engine = fingerprint()
         starts = start_poses(self.roster, p.field)
         self.referee = Referee(
             self.book,
@@ -82,12 +99,15 @@ class Simulation:
         self.world = World(p, self.roster)
         self.orders: dict[Side, CoachOrder] = {}
         self._commands = Commands(self.roster.names, p.safety.watchdog / p.time.tick)
-        sensing = sensing_of(config.noise.preset, p.sensing)
-        self._radio = RadioAir(_air(config, p), self.roster, p.time.tick, streams)
-        self._sights = Sights(self.roster, p.robot.radius, Perception(sensing, self.roster, streams), self._radio)
-        self._to_place = tuple(Placement(body=n, x=at.x, y=at.y, heading=at.heading) for n, at in starts.items())
-        self._to_rebuild = False
+        self._radio = RadioAir(p.radio, self.roster, p.time.tick, self._streams)
+        self._sights = self._make_sights()
+        self._due = _Due([Placement(body=n, x=at.x, y=at.y, heading=at.heading) for n, at in starts.items()])
         self.now = self._begin()
+
+    @property
+    def profile(self) -> Profile:
+        """The numbers in force from the next tick on."""
+        return self.tuning.profile
 
     @property
     def over(self) -> bool:
@@ -103,7 +123,7 @@ class Simulation:
 
         `send` is given each robot's sight as soon as it is written: robots think while the rest is still done.
         """
-        placements, is_checkpoint = self._change_world()
+        done = self._change_world()
         inputs = self._commands.inputs(self.world.tick, commands)
         advance = self.world.advance(inputs)
         snapshot = advance.snapshot
@@ -117,13 +137,34 @@ class Simulation:
             time=snapshot.time,
             world=_world_fields(snapshot, advance.stuck, self.state.clock),
             sights=sights,
-            applied=self._applied(snapshot, inputs, placements, is_checkpoint),
+            applied=self._applied(snapshot, inputs, done),
             beliefs=beliefs,
-            events=ruling.events,
+            events=(*self._told(done, snapshot), *ruling.events),
             replies=ruling.replies,
             refused={name: len(sentences) for name, sentences in refusals.items()},
         )
         return self.now
+
+    def parameters(self, request: ParametersRequest) -> ParametersReply:
+        """List, read, set or reset live parameters; a change is in force from the next tick on, or refused whole."""
+        before = self.tuning
+        if self.over and request.deed in (ParameterDeed.SET, ParameterDeed.RESET):
+            return ParametersReply(accepted=False, reason="the match is over")
+        try:
+            self.tuning = before.changed(request)
+            asked = tuple(request.values) or tuple(request.names)
+            described = self.tuning.describe(asked)
+        except TouchlineError as error:
+            self.tuning = before
+            return ParametersReply(accepted=False, reason=str(error))
+        changed = self.tuning.since(before)
+        if changed:
+            self._take(before)
+            self._due.parameters.update(changed)
+            values = ", ".join(f"{name} = {_in_words(value)}" for name, value in changed.items())
+            text = f"{request.source} sets {values}"
+            self._due.said.append((EventKind.PARAMETERS, request.deed.value, text))
+        return ParametersReply(accepted=True, parameters=described)
 
     def setup(self) -> Setup:
         """What agents and viewers must know before the first tick."""
@@ -145,13 +186,14 @@ class Simulation:
             teams={
                 side: TeamSetup(name=config.team(side).name or side.value, robots=config.robots(side)) for side in Side
             },
-            engine=fingerprint(),
+            engine=self._engine,
+            parameters=self.tuning.since(self.tuning.at_start),
         )
 
     def _begin(self) -> Tick:
         """Tick 0: everybody has been set down, nobody has moved."""
-        placements, _ = self._change_world()
-        self._to_place = ()
+        done = self._change_world()
+        done.is_checkpoint = True
         snapshot = self.world.snapshot()
         stuck = [False] * len(self.roster.names)
         return Tick(
@@ -159,20 +201,45 @@ class Simulation:
             time=snapshot.time,
             world=_world_fields(snapshot, stuck, self.state.clock),
             sights=self._sights.at(snapshot, self.state, stuck, self.orders, {}, {}, _keep),
-            applied=self._applied(snapshot, {}, placements, True),
+            applied=self._applied(snapshot, {}, done),
         )
 
-    def _change_world(self) -> tuple[tuple[Placement, ...], bool]:
-        """What was decided after the last tick happens before this one: bodies placed, and whether rebuilt."""
-        self.world.place(self._to_place)
-        if self._to_rebuild:
+    def _change_world(self) -> _Due:
+        """What is due happens, in this order: other numbers, bodies placed, the world rebuilt; returns what was."""
+        done, self._due = self._due, _Due()
+        if done.remake:
+            self.world.remake(self.profile, self.roster)
+        self.world.place(done.placements)
+        if done.is_checkpoint:
             self.world.rebuild()
-        return self._to_place, self._to_rebuild
+        return done
+
+    def _take(self, before: Tuning) -> None:
+        """Let everything that works with numbers take those in force now."""
+        old, new = before.profile, self.profile
+        if new.radio != old.radio:
+            self._radio = RadioAir(new.radio, self.roster, new.time.tick, self._streams)
+        if new.safety != old.safety:
+            self._commands = self._commands.with_watchdog(new.safety.watchdog / new.time.tick)
+        if replace(new, radio=old.radio, safety=old.safety, sensing=old.sensing) != old:
+            self.roster = self.roster.tuned(new)
+            self._due.remake = self._due.is_checkpoint = True
+        self._sights = self._make_sights()
+
+    def _make_sights(self) -> Sights:
+        perception = Perception(self.tuning.sensing, self.roster, self._streams)
+        return Sights(self.roster, self.profile.robot.radius, perception, self._radio)
+
+    def _told(self, done: _Due, snapshot: Snapshot) -> Iterator[GameEvent]:
+        """The events of what was done between the ticks."""
+        for kind, rule, text in done.said:
+            yield GameEvent(
+                tick=snapshot.tick, time=snapshot.time, clock=self.state.clock, kind=kind, rule=rule, text=text
+            )
 
     def _follow(self, ruling: Ruling) -> None:
         self.state = ruling.state
-        self._to_place = ruling.placements
-        self._to_rebuild = ruling.checkpoint
+        self._due = _Due(list(ruling.placements), ruling.checkpoint)
 
     def _talk(
         self, snapshot: Snapshot, commands: Mapping[str, Command], refusals: dict[str, list[str]]
@@ -191,27 +258,22 @@ class Simulation:
             beliefs.append((self.roster.side_of(name), name, fields))
         return beliefs
 
-    def _applied(
-        self,
-        snapshot: Snapshot,
-        inputs: Mapping[str, AppliedInput],
-        placements: tuple[Placement, ...],
-        is_checkpoint: bool,
-    ) -> Fields:
-        return {
+    def _applied(self, snapshot: Snapshot, inputs: Mapping[str, AppliedInput], done: _Due) -> Fields:
+        fields: Fields = {
             "tick": snapshot.tick,
             "time": snapshot.time,
             "inputs": inputs,
-            "placements": placements,
-            "checkpoint": is_checkpoint,
-            "chain": self.world.chain(),
+            "placements": done.placements,
+            "checkpoint": done.is_checkpoint,
         }
+        if done.parameters:
+            fields["parameters"] = done.parameters
+        fields["chain"] = self.world.chain()
+        return fields
 
 
-def _air(config: MatchConfig, profile: Profile) -> Air:
-    """The profile's radio, with the numbers that the match file gives."""
-    given = {key: value for key, value in config.radio.model_dump().items() if value is not None}
-    return replace(profile.radio, **given)
+def _in_words(value: Value) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def _world_fields(snapshot: Snapshot, stuck: list[bool], clock: float) -> Fields:

@@ -1,6 +1,6 @@
 """The state of the world at one tick, as plain numbers in the field frame: what the referee and the sensors look at."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from schemas.match_config import MatchConfig
@@ -52,6 +52,10 @@ class Roster:
             keepers={side: config.robots(side)[0] for side in Side},
             models=(RobotModel.standard(profile),) * len(members),
         )
+
+    def tuned(self, profile: Profile) -> "Roster":
+        """The same robots with the numbers of a profile."""
+        return replace(self, models=(RobotModel.standard(profile),) * len(self.names))
 
     def side_of(self, name: str) -> Side:
         """The side of a robot."""

@@ -1,22 +1,17 @@
 """`touchline coach`: the referee box and the coach's bench of a running match."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from typing import TYPE_CHECKING, Annotated, Any
+from collections.abc import Callable
+from typing import Annotated, Any
 
 import typer
 
 from arena import options
+from arena.seat import PATIENCE
+from arena.seat import seat as _seat
 from schemas.coach import CoachMode, CoachOrder
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.game import ActionName, Point, RefereeAction
 from schemas.side import Side
-
-if TYPE_CHECKING:
-    from schemas.bus.contract import Bus
-
-PATIENCE = 3.0
-"""s of wall time to find a host that should be there."""
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -172,15 +167,6 @@ def _act(connect: str, match: str, action: RefereeAction) -> None:
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")
     typer.echo(f"{action.action.value} accepted")
-
-
-@contextmanager
-def _seat(connect: str, match: str) -> "Iterator[Bus]":
-    from schemas.bus.zenoh_bus import open_client
-    from schemas.clock import WallClock
-
-    with open_client(match, WallClock(), connect, PATIENCE) as bus:
-        yield bus
 
 
 def _point(place: tuple[float, float] | None) -> Point | None:

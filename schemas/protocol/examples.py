@@ -29,6 +29,7 @@ from schemas.host import (
 )
 from schemas.match_config import MatchConfig
 from schemas.message import Message
+from schemas.parameters import Parameter, ParameterDeed, ParametersReply, ParametersRequest
 from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
@@ -134,6 +135,7 @@ def _host() -> tuple[Message, ...]:
     return (
         SetupRequest(),
         _setup(),
+        *_parameters(),
         Applied(
             tick=_TICK + 1,
             time=_TIME + 0.02,
@@ -160,6 +162,23 @@ def _host() -> tuple[Message, ...]:
             size=41,
         ),
         RecorderProgress(tick=403, messages=6045, lost=0),
+    )
+
+
+def _parameters() -> tuple[Message, ...]:
+    rolling = Parameter(
+        name="ball.rolling_deceleration",
+        says="loss of speed of a ball that rolls freely",
+        unit="m/s²",
+        low=0.0,
+        high=10.0,
+        origin="simatch ball_decay_coef",
+        value=1.2,
+        initial=0.5,
+    )
+    return (
+        ParametersRequest(deed=ParameterDeed.SET, values={"ball.rolling_deceleration": 1.2}),
+        ParametersReply(accepted=True, parameters=[rolling]),
     )
 
 

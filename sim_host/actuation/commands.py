@@ -19,6 +19,12 @@ class Commands:
         self._watchdog = watchdog_ticks
         self._standing: dict[str, Command] = {}
 
+    def with_watchdog(self, watchdog_ticks: float) -> "Commands":
+        """The same with another limit."""
+        changed = Commands(self._names, watchdog_ticks)
+        changed._standing = dict(self._standing)
+        return changed
+
     def inputs(self, tick: int, fresh: Mapping[str, Command]) -> dict[str, AppliedInput]:
         """The inputs of this tick; a kick is part of the tick its command arrives in, and of no other."""
         self._standing.update(fresh)

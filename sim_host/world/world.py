@@ -61,6 +61,23 @@ class World:
         self._chassis.forget()
         self._look()
 
+    def remake(self, profile: Profile, roster: Roster) -> None:
+        """Build the world anew with other numbers or robots; makes a checkpoint.
+
+        Who stays keeps its pose and velocity, and who is new stands aside until it is placed.
+        """
+        stays, ball = dict(zip(self._roster.names, self._robots, strict=True)), self._ball_state
+        self._engine.close()
+        self._engine = Engine(profile, roster)
+        aside = self._engine.robot_states(None)
+        self._roster = roster
+        self._chassis = Chassis(profile.time, roster.models)
+        self._ball = BallHandling(profile, roster.models, self._engine)
+        robots = [stays.get(name, state) for name, state in zip(roster.names, aside, strict=True)]
+        self._engine.rebuild(robots, ball)
+        self._chassis.forget()
+        self._look()
+
     def advance(self, inputs: Mapping[str, AppliedInput]) -> Advance:
         """One control tick."""
         engine, ball = self._engine, self._ball

@@ -13,7 +13,7 @@ from schemas.bus.zenoh_bus import DEFAULT_ENDPOINT
 from schemas.match_config import MatchConfig
 from schemas.topics import TOPICS
 
-COMMANDS = ("match", "host", "agent", "coach", "record", "info", "topics", "schema")
+COMMANDS = ("match", "host", "agent", "coach", "record", "info", "topics", "schema", "parameters")
 NOBODY = "--connect=tcp/127.0.0.1:9"
 
 
@@ -56,6 +56,9 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "a coach's order beyond reason": (["coach", "order", "cyan", "--max-speed", "90"], "--max-speed is 90"),
     "a side that is none": (["coach", "kickoff", "red"], "'cyan', 'magenta'"),
     "a mode that is none": (["coach", "order", "cyan", "--mode", "run"], "'hold'"),
+    "a parameter without a value": (["parameters", "set", "ball.mass"], "write it as NAME=VALUE"),
+    "a parameter whose name is none": (["parameters", "get", "Ball"], "'Ball' is no name of a parameter"),
+    "parameters without a host": (["parameters", "list", NOBODY], "no host answers there"),
     "a recording that is not there": (["info", "no.mcap"], "no.mcap"),
     "a schema that is not there": (["schema", "sihgt"], 'did you mean "sight"?'),
     "a topic without message": (["schema", "alive"], 'schema of "alive"'),

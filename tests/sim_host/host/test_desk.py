@@ -6,8 +6,9 @@ from schemas.bus.contract import NoAnswerError
 from schemas.coach import CoachOrder
 from schemas.game import ActionName, ActionReply, Phase, RefereeAction
 from schemas.host import SetupRequest
+from schemas.parameters import ParameterDeed, ParametersRequest
 from schemas.side import Side
-from schemas.topics import ACTION, INVALID, SETUP, STATE
+from schemas.topics import ACTION, APPLIED, EVENT, INVALID, PARAMETERS, SETUP, STATE
 
 
 def ask(pitch, action, side=None) -> ActionReply:
@@ -93,3 +94,29 @@ def test_an_action_after_the_match_is_refused(pitch_of):
     answer = pitch.outside.ask(ACTION, RefereeAction(action=ActionName.START))
     pitch.host.part()
     assert answer.result(0.0) == ActionReply(accepted=False, reason="the match is over")
+
+
+def test_a_parameter_is_changed_between_two_ticks_recorded_and_told_to_late_comers(pitch):
+    events, applied = pitch.hear(EVENT), pitch.hear(APPLIED)
+    pitch.ticks(2)
+    values = {"drive.max_speed": 1.5}
+    answer = pitch.outside.ask(PARAMETERS, ParametersRequest(deed=ParameterDeed.SET, values=values))
+    late = pitch.outside.ask(SETUP, SetupRequest())
+    pitch.ticks(1)
+    assert [(one.name, one.value) for one in answer.result(0.0).parameters] == [("drive.max_speed", 1.5)]
+    assert late.result(0.0).drive.max_speed == 1.5
+    assert [message.parameters for message in applied.all()][-2:] == [{}, values]
+    assert "operator sets drive.max_speed = 1.5" in [event.text for event in events.all()]
+
+
+def test_parameters_are_read_after_the_match_and_not_changed(pitch_of):
+    pitch = pitch_of(duration=1)
+    pitch.join_all()
+    pitch.begin()
+    while not pitch.host.simulation.over:
+        pitch.ticks(1)
+    asked = [ParametersRequest(deed=deed, names=["ball"]) for deed in (ParameterDeed.GET, ParameterDeed.RESET)]
+    read, changed = [pitch.outside.ask(PARAMETERS, request) for request in asked]
+    pitch.host.part()
+    assert read.result(0.0).accepted
+    assert changed.result(0.0).reason == "the match is over"

@@ -1,0 +1,158 @@
+"""`touchline parameters`: the numbers of a running match, read and changed."""
+
+import json as json_text
+import math
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from arena import options
+from arena.seat import seat as _seat
+from schemas.errors import MatchFailedError, TouchlineError
+
+if TYPE_CHECKING:
+    from schemas.parameters import Parameter, ParametersReply, ParametersRequest, Value
+
+app = typer.Typer(
+    no_args_is_help=True,
+    help="Read and change the numbers of a running match: ball, limits, noise, radio.\n\n"
+    "Example: touchline parameters set ball.rolling_deceleration=1.2",
+)
+
+Names = Annotated[list[str], typer.Argument(metavar="NAME...", help="Parameters, or sections: ball, radio.loss.")]
+
+
+@app.command("list")
+def list_all(
+    connect: options.Connect = options.DEFAULT_ENDPOINT,
+    match: options.Match = options.DEFAULT_MATCH,
+    json: options.Json = False,
+) -> None:
+    """List every parameter: value, unit, range, what it means, and whether it can be changed.
+
+    Example: touchline parameters list --json | jq '.[] | select(.live).name'
+    """
+    from schemas.parameters import ParameterDeed, ParametersRequest
+
+    _show(_ask(connect, match, ParametersRequest(deed=ParameterDeed.LIST)), json=json)
+
+
+@app.command("get")
+def get(
+    names: Names,
+    connect: options.Connect = options.DEFAULT_ENDPOINT,
+    match: options.Match = options.DEFAULT_MATCH,
+    json: options.Json = False,
+) -> None:
+    """Show some parameters, or whole sections.
+
+    Example: touchline parameters get ball radio.loss
+    """
+    from schemas.parameters import ParameterDeed
+
+    _show(_ask(connect, match, _request(deed=ParameterDeed.GET, names=names)), json=json)
+
+
+@app.command("set")
+def set_values(
+    settings: Annotated[list[str], typer.Argument(metavar="NAME=VALUE...", help="In the parameter's own unit.")],
+    connect: options.Connect = options.DEFAULT_ENDPOINT,
+    match: options.Match = options.DEFAULT_MATCH,
+    json: options.Json = False,
+) -> None:
+    """Change parameters between two ticks: all that are named, or none.
+
+    Example: touchline parameters set radio.loss=0.3 noise.preset=perfect
+    """
+    from schemas.parameters import ParameterDeed
+
+    _show(_ask(connect, match, _request(deed=ParameterDeed.SET, values=dict(map(_setting, settings)))), json=json)
+
+
+@app.command("reset")
+def reset(
+    names: Annotated[
+        list[str] | None, typer.Argument(metavar="[NAME...]", help="Parameters or sections; none for all.")
+    ] = None,
+    connect: options.Connect = options.DEFAULT_ENDPOINT,
+    match: options.Match = options.DEFAULT_MATCH,
+    json: options.Json = False,
+) -> None:
+    """Bring parameters back to what the match began with.
+
+    Example: touchline parameters reset ball
+    """
+    from schemas.parameters import ParameterDeed
+
+    _show(_ask(connect, match, _request(deed=ParameterDeed.RESET, names=names or [])), json=json)
+
+
+def _setting(word: str) -> "tuple[str, Value]":
+    name, equals, text = word.partition("=")
+    if not equals:
+        raise TouchlineError(f'"{word}" sets nothing; write it as NAME=VALUE, like ball.rolling_deceleration=1.2')
+    return name.strip(), _value(text.strip())
+
+
+def _value(text: str) -> "Value":
+    """A number or a list of numbers where the text is one, else the word itself."""
+    try:
+        value = json_text.loads(text)
+    except ValueError:
+        return text
+    items = value if isinstance(value, list) else [value]
+    are_numbers = all(isinstance(item, int | float) and not isinstance(item, bool) for item in items)
+    return value if are_numbers and all(math.isfinite(item) for item in items) else text
+
+
+def _request(**content: object) -> "ParametersRequest":
+    from pydantic import ValidationError
+
+    from schemas.parameters import ParametersRequest
+
+    try:
+        return ParametersRequest.model_validate(content)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        raise TouchlineError(
+            f"{first['input']!r} is no name of a parameter; touchline parameters list shows them"
+        ) from None
+
+
+def _ask(connect: str, match: str, request: "ParametersRequest") -> "ParametersReply":
+    from coach_gateway.gateway import Gateway
+
+    with _seat(connect, match) as bus:
+        reply = Gateway(bus).parameters(request)
+    if not reply.accepted:
+        raise MatchFailedError(f"refused: {reply.reason}")
+    return reply
+
+
+def _show(reply: "ParametersReply", *, json: bool) -> None:
+    if json:
+        fields = [parameter.model_dump(mode="json") for parameter in reply.parameters]
+        typer.echo(json_text.dumps(fields, ensure_ascii=False, indent=2))
+        return
+    lines = [_line(parameter) for parameter in reply.parameters]
+    widths = [max(len(line[place]) for line in lines) for place in range(4)]
+    for line in lines:
+        cells = [cell.ljust(width) for cell, width in zip(line, widths, strict=False)]
+        typer.echo("  ".join([*cells, line[4]]).rstrip())
+
+
+def _line(parameter: "Parameter") -> tuple[str, str, str, str, str]:
+    """Name, value with unit, range, what it was, what it means."""
+    unit = "" if parameter.unit in ("", "1") else f" {parameter.unit}"
+    limits = ", ".join(parameter.words) if parameter.words else f"{_bound(parameter.low)} to {_bound(parameter.high)}"
+    before = "" if parameter.value == parameter.initial else f"was {_said(parameter.initial)}"
+    says = parameter.says if parameter.live else f"{parameter.says} (fixed)"
+    return parameter.name, f"{_said(parameter.value)}{unit}", limits, before, says
+
+
+def _said(value: "Value") -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _bound(limit: float | None) -> str:
+    return "any" if limit is None else f"{limit:g}"

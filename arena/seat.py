@@ -1,0 +1,25 @@
+"""A seat on the bus of a running match, for a command that asks one thing and leaves."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from schemas.bus.contract import Bus
+
+PATIENCE = 3.0
+"""s of wall time to find a host that should be there."""
+
+
+@contextmanager
+def seat(connect: str, match: str) -> "Iterator[Bus]":
+    """A client of the match at an endpoint, for as long as the block lasts.
+
+    Raises:
+        TouchlineError: no host answers there.
+    """
+    from schemas.bus.zenoh_bus import open_client
+    from schemas.clock import WallClock
+
+    with open_client(match, WallClock(), connect, PATIENCE) as bus:
+        yield bus

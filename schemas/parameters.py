@@ -1,0 +1,70 @@
+"""Live parameters: the numbers of a match's profile, asked for, set and reset while it runs."""
+
+from enum import StrEnum
+from typing import Annotated
+
+from pydantic import Field, StrictFloat, StrictInt, StringConstraints
+
+from schemas.message import Message, Part
+
+ParameterName = Annotated[str, StringConstraints(pattern=r"^[a-z_0-9]+(\.[a-z_0-9]+)*$", max_length=120)]
+"""As the profile names it, `ball.rolling_deceleration`; a section's name alone stands for all that is in it."""
+
+Value = StrictInt | StrictFloat | str | list[StrictFloat | StrictInt]
+"""A number in the parameter's unit, a word, or a list of numbers."""
+
+
+class ParameterDeed(StrEnum):
+    """What is asked for."""
+
+    LIST = "list"
+    GET = "get"
+    SET = "set"
+    RESET = "reset"
+
+
+class ParametersRequest(Message):
+    """Asks for parameters, or changes them between two ticks: all that are named, or none."""
+
+    deed: ParameterDeed
+    names: Annotated[list[ParameterName], Field(max_length=200)] = []
+    """Parameters or whole sections; for `reset` none stands for all that can be changed."""
+    values: Annotated[dict[ParameterName, Value], Field(max_length=200)] = {}
+    """For `set`: parameter → its new value."""
+    source: Annotated[str, StringConstraints(max_length=80)] = "operator"
+    """Who asks."""
+
+
+class Parameter(Part):
+    """One parameter as it is now."""
+
+    name: ParameterName
+    says: str
+    """What it means."""
+    unit: str
+    """`1` for a pure number; empty for a word."""
+    low: float | None = None
+    """The least value that makes sense, in its unit; nothing where there is no bound."""
+    high: float | None = None
+    """The greatest, likewise."""
+    words: list[str] = []
+    """What a parameter that is a word may be."""
+    origin: str = ""
+    """Where the first value comes from."""
+    value: Value
+    """In force from the next tick on."""
+    initial: Value
+    """What the match began with: the profile's value, or the match file's in its place."""
+    live: bool = True
+    """It can be changed while the match runs."""
+    why_not: str = ""
+    """Why it cannot."""
+
+
+class ParametersReply(Message):
+    """The host's answer: the parameters that were named, as they are from the next tick on."""
+
+    accepted: bool
+    reason: str = ""
+    """Why it was refused; then nothing was changed."""
+    parameters: list[Parameter] = []

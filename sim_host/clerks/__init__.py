@@ -1,0 +1,1 @@
+"""Who answers at the desk: one clerk for each kind of question."""
