@@ -25,7 +25,9 @@ MatchFile = Annotated[
 Seed = Annotated[int | None, typer.Option(help="Whole number that all randomness comes from.")]
 Pace = Annotated[str | None, typer.Option(help="lockstep, realtime, or x4 for four times real time.")]
 Duration = Annotated[float | None, typer.Option(help="Playing time of all halves in s.")]
-Profile = Annotated[str | None, typer.Option(help="Field, bodies and limits: msl, paper, or the path of a file.")]
+Profile = Annotated[
+    str | None, typer.Option(help="Field, bodies and limits: msl, omni, omni3, paper, or the path of a file.")
+]
 Rules = Annotated[str | None, typer.Option(help="Rule book: friendly, msl or paper.")]
 MatchName = Annotated[str | None, typer.Option("--match", "--name", help="Name of the match on the bus.")]
 Listen = Annotated[str, typer.Option(help="Endpoint of the host; port 0 picks a free one.")]

@@ -1,6 +1,6 @@
 """A profile: pitch, bodies, motion, ball handling, sensing and radio as frozen data, read from TOML.
 
-`msl` and `paper` ship; any TOML file may `extends = "msl"` and change what it likes. Every number has a unit
+Those of `SHIPPED` come along; any TOML file may `extends = "msl"` and change what it likes. Every number has a unit
 (declared here) and an origin (written in the file, kept in `Profile.origins`).
 """
 
@@ -15,7 +15,7 @@ from typing import Annotated, Any
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.quantity import Choice, Quantity, extend, read_section
 
-SHIPPED = ("msl", "paper")
+SHIPPED = ("msl", "omni", "omni3", "paper")
 """The profiles that come with the package."""
 
 
@@ -114,6 +114,35 @@ class Drive:
     acceleration: Annotated[float, Quantity("m/s²", "change of velocity that gains speed", 0.1, 50)]
     deceleration: Annotated[float, Quantity("m/s²", "change of velocity that loses speed", 0.1, 50)]
     turn_acceleration: Annotated[float, Quantity("rad/s²", "change of the turn rate", 0.1, 200)]
+    model: Annotated[
+        str, Choice("velocity sets what the limits allow, omni drives wheels toward it", ("velocity", "omni"))
+    ] = "velocity"
+
+
+@dataclass(frozen=True, slots=True)
+class Wheels:
+    """The wheels of a robot whose drive is `omni`: evenly spaced, axles toward the centre, rollers that roll freely."""
+
+    count: Annotated[int, Quantity("1", "number of wheels", 3, 4)]
+    angle: Annotated[float, Quantity("rad", "kick axis to the first wheel; the others follow evenly", -3.2, 3.2)]
+    arm: Annotated[float, Quantity("m", "centre of the robot to the wheels", 0.05, 0.6)]
+    radius: Annotated[float, Quantity("m", "radius of a wheel", 0.01, 0.2)]
+    inertia: Annotated[float, Quantity("kg·m²", "moment of inertia of a wheel about its axle", 0, 0.1)]
+    gear: Annotated[float, Quantity("1", "turns of the motor for one of the wheel", 0.5, 200)]
+    stall_torque: Annotated[
+        float, Quantity("N·m", "torque of a motor at rest; it falls linearly with speed", 1e-3, 100)
+    ]
+    no_load_speed: Annotated[float, Quantity("rad/s", "speed of a motor at which no torque is left", 1, 1e4)]
+    rotor_inertia: Annotated[float, Quantity("kg·m²", "moment of inertia of a motor's rotor", 1e-7, 0.01)]
+    max_speed: Annotated[float, Quantity("m/s", "rim speed that a wheel is told at most", 0.1, 30)]
+    gain: Annotated[float, Quantity("N·m·s/rad", "motor torque for each rad/s that the motor is too slow", 1e-4, 10)]
+    traction: Annotated[float, Quantity("1", "grip: largest force along the rim by weight on the wheel", 0, 3)]
+    slip_stiffness: Annotated[float, Quantity("s/m", "grip in use for each m/s of slip, until all is", 0.1, 1000)]
+
+    @property
+    def no_load_rim_speed(self) -> float:
+        """Rim speed in m/s at which the motors have no torque left."""
+        return self.no_load_speed * self.radius / self.gear
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,6 +200,7 @@ SECTIONS: dict[str, type] = {
     "robot": RobotBody,
     "ball": Ball,
     "drive": Drive,
+    "wheels": Wheels,
     "dribble": Dribble,
     "kicker": Kicker,
     "sensing": Sensing,
@@ -190,6 +220,7 @@ class Profile:
     robot: RobotBody
     ball: Ball
     drive: Drive
+    wheels: Wheels
     dribble: Dribble
     kicker: Kicker
     sensing: Sensing
@@ -256,4 +287,10 @@ def check_consistent(profile: Profile) -> None:
     if profile.dribble.gap < touching - 0.05:
         raise TouchlineError(
             f"{profile.name}: dribble.gap is {profile.dribble.gap} m; robot and ball touch at {touching:.3f} m already"
+        )
+    wheels = profile.wheels
+    if wheels.max_speed > wheels.no_load_rim_speed:
+        raise TouchlineError(
+            f"{profile.name}: wheels.max_speed is {wheels.max_speed} m/s; no_load_speed, radius and gear let a rim "
+            f"reach {wheels.no_load_rim_speed:.2f} m/s at most"
         )

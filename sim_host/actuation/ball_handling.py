@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from schemas.host import AppliedInput
 from schemas.profile import Dribble, Profile
 from schemas.robot_model import RobotModel
-from sim_host.actuation.chassis import FieldDrive
+from sim_host.actuation.drive import FieldDrive
 from sim_host.actuation.kick import KickRefusedError, launch
 from sim_host.actuation.possession import can_hold, holder
 from sim_host.snapshot import BallState, RobotState

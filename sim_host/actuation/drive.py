@@ -16,6 +16,9 @@ Floats = NDArray[np.float64]
 Vectors = NDArray[np.complex128]
 Flags = NDArray[np.bool_]
 
+FieldDrive = tuple[float, float, float]
+"""vx, vy in m/s and omega in rad/s, field frame."""
+
 _TINY = 1e-12
 """m/s; keeps directions of nothing finite."""
 
@@ -34,14 +37,23 @@ class DrivePlanner:
         self._turn = np.array([drive.turn_acceleration for drive in drives]) * elapsed
         self._kept = 1.0 - acceleration / deceleration
 
+    def within_limits(self, demand: Vectors) -> Vectors:
+        """Demanded velocities, in m/s, shortened to top speed."""
+        shortened: Vectors = demand * np.minimum(1.0, self._top_speed / (np.abs(demand) + _TINY))
+        return shortened
+
+    def turn_within_limits(self, demand: Floats) -> Floats:
+        """Demanded turn rates, in rad/s, cut off at the top one."""
+        cut: Floats = np.minimum(np.maximum(demand, -self._top_turn_rate), self._top_turn_rate)
+        return cut
+
     def velocities(self, now: Vectors, demand: Vectors) -> Vectors:
         """Body velocities after each step, shape (steps, n), from those now toward the demanded ones; all in m/s.
 
         A demand beyond top speed is shortened. Speed against the direction of the change is lost at the deceleration
         limit, and only then speed is gained at the acceleration limit.
         """
-        wanted = demand * np.minimum(1.0, self._top_speed / (np.abs(demand) + _TINY))
-        change = wanted - now
+        change = self.within_limits(demand) - now
         size = np.abs(change)
         direction = change / (size + _TINY)
         to_lose = np.maximum(-(now * direction.conj()).real, 0.0)
@@ -51,7 +63,6 @@ class DrivePlanner:
 
     def turn_rates(self, now: Floats, demand: Floats) -> Floats:
         """Turn rates after each step, shape (steps, n), from those now toward the demanded ones; all in rad/s."""
-        top = self._top_turn_rate
-        change = np.minimum(np.maximum(demand, -top), top) - now
+        change = self.turn_within_limits(demand) - now
         after: Floats = now + np.minimum(np.maximum(change, -self._turn), self._turn)
         return after

@@ -32,7 +32,7 @@ class World:
         self._roster = roster
         self._tick_s = profile.time.tick
         self._engine = Engine(profile, roster)
-        self._chassis = Chassis(profile.time, roster.models)
+        self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
         self._ball = BallHandling(profile, roster.models, self._engine)
         self.tick = 0
         self._chain = b""

@@ -87,6 +87,10 @@ def test_nine_restart_spots_are_marked() -> None:
         ("[field]\nlength = 22", "field.length is 22; write { value"),
         ('[time]\nsteps_per_tick = { value = 2.5, unit = "1", origin = "x" }', "write a whole number"),
         ('[dribble]\nmethod = { value = "glue", origin = "x" }', "dribble.method is 'glue'; known: pose, velocity"),
+        (
+            '[wheels]\nmax_speed = { value = 7, unit = "m/s", origin = "x" }',
+            "wheels.max_speed is 7.0 m/s; no_load_speed, radius and gear let a rim reach 6.62 m/s at most",
+        ),
         ("[feild]\nlength = 3", 'section [feild] is not known; did you mean "field"?'),
         ('[dribble]\ngap = { value = 0.6, unit = "m", origin = "x" }', "a held ball must stay within dribble.distance"),
         ("[field", "not TOML"),

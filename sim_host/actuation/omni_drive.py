@@ -1,0 +1,77 @@
+"""The drive `omni`: wheels are told what the limits allow, and push the robot as far as motors and grip let them.
+
+The controller of the robot plans as `velocity` does, but from what it told last, not from what came of it: a robot
+that is held back goes on pushing. The velocity of the body is the engine's own, to which each physics step adds what
+the wheels' forces change in it.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from schemas.profile import TimeSteps
+from schemas.robot_model import RobotModel
+from sim_host.actuation.drive import DrivePlanner, FieldDrive, Flags, Floats
+from sim_host.actuation.stuck import MOVING, SHARE, TURNING
+from sim_host.actuation.wheels import WheelSets
+from sim_host.snapshot import RobotState
+
+
+class OmniDrive:
+    """Some robots of this drive, each with its own memory: rim speeds, and the twist that was told last."""
+
+    def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:
+        self._planner = DrivePlanner([model.drive for model in models], time.physics_step, time.steps_per_tick)
+        self._wheels = WheelSets(models, time.physics_step)
+        self._remembers = False
+        self._told = np.zeros((3, len(models)))
+        self._speeds = np.zeros((4, len(models)))
+        self._plan: list[Floats] = []
+        self.held: Flags = np.zeros(len(models), dtype=bool)
+        """Per robot, as the tick begins: it is well below what it was told last."""
+
+    def forget(self) -> None:
+        """Remember nothing: in the next tick the wheels roll without slip at the twists that are measured."""
+        self._remembers = False
+
+    def plan(self, robots: Sequence[RobotState], told: Floats) -> None:
+        """Begin a tick of robots told vx, vy and omega each, in their body frames."""
+        twist, _ = _twist(robots)
+        if not self._remembers:
+            self._told, self._speeds = twist, self._wheels.rolling(twist)
+            self._remembers = True
+        self.held = _held(twist, self._told)
+        demand = self._planner.within_limits(told[:, 0] + 1j * told[:, 1])
+        turn = self._planner.turn_within_limits(told[:, 2])
+        vx, vy, omega = self._wheels.within_limit(np.stack([demand.real, demand.imag, turn]))
+        velocities = self._planner.velocities(self._told[0] + 1j * self._told[1], vx + 1j * vy)
+        turn_rates = self._planner.turn_rates(self._told[2], omega)
+        steps = zip(velocities.real, velocities.imag, turn_rates, strict=True)
+        self._plan = [self._wheels.within_limit(np.stack(step)) for step in steps]
+        self._told = self._plan[-1]
+
+    def step(self, number: int, robots: Sequence[RobotState]) -> list[FieldDrive]:
+        """The velocities with which the robots, as they are now, begin one physics step of the tick."""
+        twist, turned = _twist(robots)
+        wheels = self._wheels.step(twist, self._speeds, self._wheels.rolling(self._plan[number]))
+        self._speeds = wheels.speeds
+        vx, vy, omega = wheels.twist
+        in_field = (vx + 1j * vy) * turned
+        return list(zip(in_field.real.tolist(), in_field.imag.tolist(), omega.tolist(), strict=True))
+
+
+def _twist(robots: Sequence[RobotState]) -> tuple[Floats, Floats]:
+    """Twists in the body frame, (3, n), and for each robot the complex number that turns into the field frame."""
+    state = np.array(robots)
+    turned = np.exp(1j * state[:, 3])
+    body = (state[:, 4] + 1j * state[:, 5]) * turned.conj()
+    return np.stack([body.real, body.imag, state[:, 6]]), turned
+
+
+def _held(twist: Floats, told: Floats) -> Flags:
+    """Robots whose speed along what they were told is well below it: in moving, or in turning if that is all."""
+    wanted, wanted_turn = np.hypot(told[0], told[1]), np.abs(told[2])
+    slow = twist[0] * told[0] + twist[1] * told[1] < SHARE * wanted**2
+    slow_turn = (wanted_turn > TURNING) & (twist[2] * told[2] < SHARE * wanted_turn**2)
+    held: Flags = np.where(wanted > MOVING, slow, slow_turn)
+    return held

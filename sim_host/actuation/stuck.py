@@ -1,0 +1,36 @@
+"""Which robots are stuck: each has its own clock, which runs while that robot is held back."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+SHARE = 0.5
+"""A robot is held back below this share of the speed it should have (simatch)."""
+MOVING = 0.2
+"""m/s; a smaller speed cannot tell a stuck robot from a careful one."""
+TURNING = 0.8
+"""rad/s; the same for a robot that only turns: 0.2 m/s at its hull."""
+_AFTER = 0.2
+"""s of being held back that make a robot stuck (simatch: 40 checks at 5 ms)."""
+
+
+class StuckWatch:
+    """Times of all robots, in the order of the roster."""
+
+    def __init__(self, count: int, tick: float) -> None:
+        self._tick = tick
+        self._held_for = np.zeros(count)
+
+    def forget(self) -> None:
+        """Nobody has been held back."""
+        self._held_for = np.zeros_like(self._held_for)
+
+    def note(self, places: Sequence[int], held: NDArray[np.bool_]) -> None:
+        """Whether the robots at these places are held back in this tick."""
+        self._held_for[places] = np.where(held, self._held_for[places] + self._tick, 0.0)
+
+    def stuck(self) -> list[bool]:
+        """Per robot: it has long been held back."""
+        stuck: list[bool] = (self._held_for >= _AFTER).tolist()
+        return stuck

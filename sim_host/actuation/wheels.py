@@ -1,0 +1,119 @@
+"""Omnidirectional wheels of many robots: what they were told becomes forces, within motors and grip.
+
+A wheel is told a rim speed. Its controller asks the motor for torque in proportion to what is missing, the motor
+gives what its torque-speed line leaves, and the ground gives back what the grip allows: a force along the rim that
+grows with the slip until traction × weight on the wheel. Across the rim the rollers roll freely. The weight is spread
+evenly over the wheels. Motor quantities are seen from the rim: torque × gear / radius is a force, inertia ×
+gear² / radius² a mass.
+
+The step is implicit, since controller and grip are stiff against milliseconds: forces fit the speeds that they lead to.
+
+Arrays have the robots last: twists are (3, n), vx and vy in m/s and omega in rad/s in the body frame; wheels are
+(4, n), of which a robot on three wheels has one that touches nothing. All is elementwise arithmetic, which gives the
+same bits on every machine.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from schemas.profile import Wheels
+from schemas.robot_model import RobotModel
+from sim_host.actuation.kick import GRAVITY
+
+Floats = NDArray[np.float64]
+
+_MOST = 4
+_ROUNDS = 4
+"""Rounds in which the forces of a robot's wheels find each other; two are exact while no wheel is at a limit."""
+
+
+class WheelStep(NamedTuple):
+    """What one step brings."""
+
+    push: Floats
+    """(3, n): force along x and y in N, torque about z in N·m, in the body frame at the beginning of the step."""
+    twist: Floats
+    """(3, n): the twist that this push alone leads to, in the same frame."""
+    speeds: Floats
+    """(4, n): rim speeds after the step, m/s."""
+    traction: Floats
+    """(4, n): force of the ground on each wheel along its rim, N."""
+
+
+class WheelSets:
+    """The wheels of some robots, without memory: rim speeds come in and go out."""
+
+    def __init__(self, models: Sequence[RobotModel], step: float) -> None:
+        def each(number: Callable[[Wheels], float]) -> Floats:
+            return np.array([number(model.wheels) for model in models])
+
+        bodies = [model.body for model in models]
+        load = np.array([model.body.mass * GRAVITY / model.wheels.count for model in models])
+        creep = 1 / (load * each(lambda w: w.slip_stiffness))
+        gain = each(lambda w: w.gain * w.gear**2 / w.radius**2)
+        stall = each(lambda w: w.stall_torque * w.gear / w.radius)
+        line = stall / each(lambda w: w.no_load_rim_speed)
+        self._step = step
+        self._limit = each(lambda w: w.max_speed)
+        self._rim_mass = each(lambda w: (w.inertia + w.rotor_inertia * w.gear**2) / w.radius**2)
+        self._geometry = _robots_last([_geometry(model.wheels) for model in models], (_MOST, 3))
+        self._grip = load * each(lambda w: w.traction) * (self._geometry != 0).any(axis=1)
+        self._full, self._asking = step * stall, step * gain
+        self._asked_mass, self._most_mass = self._rim_mass + step * gain, self._rim_mass + step * line
+        self._asked_slope, self._most_slope = (
+            1 / (creep + step / self._asked_mass),
+            1 / (creep + step / self._most_mass),
+        )
+        masses = _robots_last([(body.mass, body.mass, body.inertia_zz) for body in bodies], (3,))
+        self._gain_of_push = step / masses
+        self._damping = 1 / (1 + self._gain_of_push * self._asked_slope * (self._geometry**2).sum(axis=0))
+
+    def rolling(self, twist: Floats) -> Floats:
+        """Rim speeds, (4, n), of wheels that roll without slip at a twist."""
+        speeds: Floats = (self._geometry * twist).sum(axis=1)
+        return speeds
+
+    def within_limit(self, twist: Floats) -> Floats:
+        """The twist, shortened as a whole until its fastest wheel keeps its limit: the direction stays."""
+        fastest = np.abs(self.rolling(twist)).max(axis=0)
+        shortened: Floats = twist * (self._limit / np.maximum(fastest, self._limit))
+        return shortened
+
+    def step(self, twist: Floats, speeds: Floats, told: Floats) -> WheelStep:
+        """One physics step of robots that move at a twist, on wheels with these rim speeds, told others.
+
+        A wheel's force falls with the speed of the ground under it, and is known in closed form: what the controller
+        asks for, within what the motor has in either direction, within the grip. The twist that fits the forces of
+        all wheels is found in a few rounds of a Newton iteration with the steepest slope, which cannot overshoot.
+        """
+        momentum = self._rim_mass * speeds
+        asked = (momentum + self._asking * told) / self._asked_mass
+        most, least = (momentum + self._full) / self._most_mass, (momentum - self._full) / self._most_mass
+        after = twist
+        for _ in range(_ROUNDS):
+            ground = self.rolling(after)
+            force = np.maximum((asked - ground) * self._asked_slope, (least - ground) * self._most_slope)
+            force = np.minimum(force, (most - ground) * self._most_slope)
+            force = np.minimum(np.maximum(force, -self._grip), self._grip)
+            push = (self._geometry * force[:, None]).sum(axis=0)
+            reached = twist + self._gain_of_push * push
+            after = after + (reached - after) * self._damping
+        lost = self._step * force
+        rims = np.maximum(asked - lost / self._asked_mass, least - lost / self._most_mass)
+        return WheelStep(push, reached, np.minimum(rims, most - lost / self._most_mass), force)
+
+
+def _robots_last(each: Sequence[ArrayLike], shape: tuple[int, ...]) -> Floats:
+    """One array of an array of this shape for each robot, of whom there may be none."""
+    return np.ascontiguousarray(np.moveaxis(np.array(each, dtype=float).reshape(len(each), *shape), 0, -1))
+
+
+def _geometry(wheels: Wheels) -> Floats:
+    """(4, 3): the rim speed of each wheel for a unit of vx, vy and omega; zeros for a wheel that is not there."""
+    angles = wheels.angle + 2 * np.pi / wheels.count * np.arange(wheels.count)
+    rows = np.zeros((_MOST, 3))
+    rows[: wheels.count] = np.stack([-np.sin(angles), np.cos(angles), np.full(wheels.count, wheels.arm)], axis=1)
+    return rows
