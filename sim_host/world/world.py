@@ -71,7 +71,7 @@ class World:
         self._engine = Engine(profile, roster)
         aside = self._engine.robot_states(None)
         self._roster = roster
-        self._chassis = Chassis(profile.time, roster.models)
+        self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
         self._ball = BallHandling(profile, roster.models, self._engine)
         robots = [stays.get(name, state) for name, state in zip(roster.names, aside, strict=True)]
         self._engine.rebuild(robots, ball)
