@@ -39,7 +39,7 @@ def commands(simulation: Simulation) -> dict[str, Command]:
             dribble=True,
             radio=word if (tick + place) % 5 == 0 else None,
         )
-        for place, name in enumerate(simulation.roster)
+        for place, name in enumerate(simulation.roster.names)
     }
 
 

@@ -43,9 +43,10 @@ _THREADS = "ZENOH_RUNTIME"
 """Environment variable that Zenoh reads its threads from."""
 _CLIENT_THREADS = "(app: (worker_threads: 1), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
 """A field of many small processes has fewer cores than Zenoh would take threads."""
-_HOST_THREADS = "(app: (worker_threads: 2), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
+_HOST_THREADS = "(app: (worker_threads: 4), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
 """Whoever waits for room in a link's queue, as an answer from a cache does, must not wait on the thread that makes the
-room, and must not be the only one who reads."""
+room. Zenoh closes a link that makes no room on the threads that read: were they few, all of them could be waiting for
+room in the dead link, and the host would stand still for good (eclipse-zenoh/zenoh, issue 1876)."""
 _RETRY = {"period_init_ms": 100, "period_max_ms": 500, "period_increase_factor": 1.5}
 _TRY_S = 0.5
 """One attempt to connect; between attempts Ctrl-C is heard."""
