@@ -7,6 +7,7 @@ All keys stand below `touchline/{match}/`.
 import re
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cache
 
 from schemas.coach import CoachOrder
 from schemas.command import Command
@@ -81,8 +82,14 @@ class Topic:
 
     def match(self, key: str) -> dict[str, str] | None:
         """The chunks of a filled-in key, or nothing when the key belongs to another topic."""
-        found = re.fullmatch(re.sub(r"{(\w+)}", r"(?P<\1>[^/]+)", self.key), key)
+        found = _pattern(self.key).fullmatch(key)
         return found.groupdict() if found else None
+
+
+@cache
+def _pattern(key: str) -> re.Pattern[str]:
+    """What a filled-in key looks like."""
+    return re.compile(re.sub(r"{(\w+)}", r"(?P<\1>[^/]+)", key))
 
 
 _WATCHERS = (Party.COACH, Party.REFEREE, Party.RECORDER, Party.VIEWER)

@@ -14,8 +14,10 @@ from schemas.sight import Sight
 
 SPEAKS_EVERY = 5
 """Ticks between two words on the radio: 10 Hz at a tick of 20 ms."""
-FAR = 3.0
-"""m along x and y together; a robot farther from the ball decides in every second tick, and goes on in between."""
+FAR = 2.0
+"""m along x and y together; a robot farther from the ball than it can come in `NOTICE` decides only when it speaks."""
+NOTICE = 0.5
+"""s."""
 LETS_GO = 0.4
 """s without the dribbler after a kick: a soft one would be caught again before it has left."""
 STILL = frozenset({TeamPhase.PRE_GAME, TeamPhase.STOPPED, TeamPhase.HALF_TIME, TeamPhase.FULL_TIME})
@@ -59,21 +61,21 @@ class Player(ABC):
     def act(self, sight: Sight) -> Command:
         """The answer to one sight."""
         if self._last is not None and self._may_go_on(sight, self._last):
-            return self._last.model_copy(update={"answers_tick": sight.tick, "radio": None})
-        self._last = command = self._decide(sight)
-        self._game = sight.game
-        return command
+            self._last = self._last.model_copy(update={"answers_tick": sight.tick, "radio": None})
+        else:
+            self._last = self._decide(sight)
+            self._game = sight.game
+        return self._last
 
     def _may_go_on(self, sight: Sight, last: Command) -> bool:
         """Whether nothing asks for a decision: far from the ball, nothing to say, the same game, the same order."""
-        beat, ball, me, game, before = sight.tick + self.briefing.number, sight.ball, sight.self, sight.game, self._game
+        ball, me, game, before = sight.ball, sight.self, sight.game, self._game
         return (
-            beat % 2 == 1
-            and beat % SPEAKS_EVERY != 0
+            (sight.tick + self.briefing.number) % SPEAKS_EVERY != 0
             and sight.tick == last.answers_tick + 1
             and last.kick is None
             and ball is not None
-            and abs(ball.x - me.x) + abs(ball.y - me.y) > FAR
+            and abs(ball.x - me.x) + abs(ball.y - me.y) > FAR + NOTICE * (abs(ball.vx) + abs(ball.vy))
             and before is not None
             and game.phase is before.phase
             and game.running == before.running
