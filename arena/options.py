@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from schemas.bus import endpoint as endpoints
 from schemas.bus.contract import BusError
 from schemas.bus.endpoint import is_loopback, parse_endpoint, with_port
 from schemas.errors import TouchlineError
@@ -15,8 +16,7 @@ from schemas.match_config import MatchConfig, load_match
 from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
 
-# The same value as zenoh_bus.DEFAULT_ENDPOINT, which cannot be read without loading Zenoh; a test compares them.
-DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
+DEFAULT_ENDPOINT = endpoints.DEFAULT_ENDPOINT
 DEFAULT_MATCH = "friendly"
 
 MatchFile = Annotated[

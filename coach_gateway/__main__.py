@@ -7,7 +7,8 @@ import sys
 import threading
 
 from coach_gateway.watching import watch
-from schemas.bus.zenoh_bus import DEFAULT_ENDPOINT, open_client
+from schemas.bus.endpoint import DEFAULT_ENDPOINT
+from schemas.bus.zenoh_bus import open_client
 from schemas.clock import WallClock
 from schemas.errors import TouchlineError
 

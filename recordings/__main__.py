@@ -8,7 +8,7 @@ from pathlib import Path
 
 from recordings.record import read_config, record
 from recordings.recorder import RecordingSummary
-from schemas.bus.zenoh_bus import DEFAULT_ENDPOINT
+from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.errors import TouchlineError
 
 

@@ -5,7 +5,8 @@ from pathlib import Path
 
 from recordings.recorder import Recorder, RecordingSummary
 from recordings.writer import RecordingWriter
-from schemas.bus.zenoh_bus import DEFAULT_ENDPOINT, open_client
+from schemas.bus.endpoint import DEFAULT_ENDPOINT
+from schemas.bus.zenoh_bus import open_client
 from schemas.clock import WallClock
 from schemas.errors import TouchlineError
 from schemas.match_config import MatchConfig

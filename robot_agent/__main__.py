@@ -14,7 +14,8 @@ from types import FrameType
 
 from robot_agent.contract import Brain, Briefing, load_brain
 from robot_agent.runner import serve
-from schemas.bus.zenoh_bus import DEFAULT_ENDPOINT, open_client
+from schemas.bus.endpoint import DEFAULT_ENDPOINT
+from schemas.bus.zenoh_bus import open_client
 from schemas.clock import WallClock
 from schemas.errors import TouchlineError
 from schemas.host import Setup

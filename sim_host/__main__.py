@@ -6,8 +6,8 @@ import signal
 import sys
 from pathlib import Path
 
-from schemas.bus.endpoint import is_loopback, with_port
-from schemas.bus.zenoh_bus import DEFAULT_ENDPOINT, open_host
+from schemas.bus.endpoint import DEFAULT_ENDPOINT, is_loopback, with_port
+from schemas.bus.zenoh_bus import open_host
 from schemas.clock import WallClock
 from schemas.errors import TouchlineError
 from schemas.match_config import MatchConfig

@@ -6,6 +6,9 @@ import socket
 
 from schemas.bus.contract import BusError
 
+DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
+"""Where a host listens and everyone else connects when nobody says otherwise: this machine alone."""
+
 
 def parse_endpoint(endpoint: str) -> tuple[str, str, int]:
     """Protocol, host and port of an endpoint.

@@ -1,11 +1,9 @@
 """The bus over Zenoh: the host is the router, everyone else a client with one explicit endpoint.
 
-The only module that knows Zenoh. Multicast scouting, gossip and shared memory are off; a process listens on the
-address it was told and on nothing else. Samples wait in channels of Zenoh's own until they are read.
+With `session`, which opens what this is built on, the only module that knows Zenoh. Samples wait in channels of Zenoh's
+own until they are read.
 """
 
-import json
-import os
 import struct
 import threading
 import weakref
@@ -30,28 +28,13 @@ from schemas.bus.contract import (
     check_publishable,
     full_key,
 )
+from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.mailbox import EveryMailbox
+from schemas.bus.session import first_line, open_connection, open_router
 from schemas.clock import Clock
 from schemas.message import Message
 from schemas.topics import TOPICS, Delivery, Topic, root
 
-DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
-"""Where a host listens and everyone else connects when nobody says otherwise: this machine alone."""
-
-_LEASE_MS = 2000
-_THREADS = "ZENOH_RUNTIME"
-"""Environment variable that Zenoh reads its threads from."""
-_CLIENT_THREADS = "(app: (worker_threads: 1), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
-"""A field of many small processes has fewer cores than Zenoh would take threads."""
-_HOST_THREADS = "(app: (worker_threads: 4), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
-"""Whoever waits for room in a link's queue, as an answer from a cache does, must not wait on the thread that makes the
-room. Zenoh closes a link that makes no room on the threads that read: were they few, all of them could be waiting for
-room in the dead link, and the host would stand still for good (eclipse-zenoh/zenoh, issue 1876)."""
-_RETRY = {"period_init_ms": 100, "period_max_ms": 500, "period_increase_factor": 1.5}
-_TRY_S = 0.5
-"""One attempt to connect; between attempts Ctrl-C is heard."""
-_ROOM_US = 1_000_000
-"""Wall time that a client has to make room for what must not be dropped; then its link is cut and it may come again."""
 _CACHE = 1500
 """Samples a writer keeps for recovery, per key: 30 s of ticks in real time."""
 _STAMP = struct.Struct("<QQq")
@@ -71,19 +54,7 @@ def open_host(match: str, clock: Clock, listen: str = DEFAULT_ENDPOINT) -> "Zeno
     Raises:
         BusError: the endpoint cannot be listened on.
     """
-    config = _config(
-        "router",
-        {
-            "listen/endpoints": [listen],
-            "transport/link/tx/queue/congestion_control/block/wait_before_close": _ROOM_US,
-        },
-    )
-    try:
-        return ZenohBus(match, clock, _open(config, _HOST_THREADS), is_client=False)
-    except zenoh.ZError as error:
-        busy = "ddress already in use" in str(error)
-        why = "is in use by another process" if busy else f"cannot be listened on ({error})"
-        raise BusError(f"--listen {listen} {why}; choose another port, or tcp/127.0.0.1:0 for a free one") from None
+    return ZenohBus(match, clock, open_router(listen), is_client=False)
 
 
 def open_client(match: str, clock: Clock, connect: str = DEFAULT_ENDPOINT, patience: float = 10.0) -> "ZenohBus":
@@ -92,62 +63,7 @@ def open_client(match: str, clock: Clock, connect: str = DEFAULT_ENDPOINT, patie
     Raises:
         BusError: no host answers at that endpoint.
     """
-    config = _config(
-        "client",
-        {
-            "connect/endpoints": [connect],
-            "connect/timeout_ms": round(_TRY_S * 1000),
-            "connect/retry": _RETRY,
-        },
-    )
-    deadline = clock.now() + patience
-    while True:
-        try:
-            return ZenohBus(match, clock, _open(config, _CLIENT_THREADS), is_client=True)
-        except zenoh.ZError as error:
-            if clock.now() >= deadline:
-                raise BusError(
-                    f"--connect {connect}: no host answers there; start one with `touchline host`, or name its endpoint"
-                ) from error
-            clock.sleep_until(clock.now() + 0.1)
-
-
-def _open(config: zenoh.Config, threads: str) -> zenoh.Session:
-    """Open a session in a process with these threads, unless its environment names others.
-
-    Zenoh looks once, when its first session is opened; the variable must not reach processes launched from here, which
-    may play another part.
-    """
-    if _THREADS in os.environ:
-        return zenoh.open(config)
-    os.environ[_THREADS] = threads
-    try:
-        return zenoh.open(config)
-    finally:
-        del os.environ[_THREADS]
-
-
-def _config(mode: str, more: dict[str, object]) -> zenoh.Config:
-    config = zenoh.Config()
-    settings: dict[str, object] = {
-        "mode": mode,
-        "scouting/multicast/enabled": False,
-        "scouting/gossip/enabled": False,
-        "scouting/delay": 0,
-        "transport/shared_memory/enabled": False,
-        "transport/link/tx/lease": _LEASE_MS,
-        **more,
-    }
-    for key, value in settings.items():
-        try:
-            config.insert_json5(key, json.dumps(value))
-        except zenoh.ZError as error:
-            raise BusError(f"{key.split('/')[0]} is {value!r}: {_first_line(error)}") from None
-    return config
-
-
-def _first_line(error: Exception) -> str:
-    return str(error).splitlines()[0].partition(" at /")[0][:200]  # without the place in Zenoh's own source
+    return ZenohBus(match, clock, open_connection(connect, clock, patience), is_client=True)
 
 
 class _Publisher(Publisher):
@@ -178,7 +94,7 @@ class _Publisher(Publisher):
         try:
             self._writer.put(payload, attachment=_STAMP.pack(self._sequence, clock.unix_ns(), clock.sim_ns))
         except zenoh.ZError as error:
-            raise BusError(f"this bus is closed ({_first_line(error)})") from None
+            raise BusError(f"this bus is closed ({first_line(error)})") from None
         self._sequence += 1
 
     def wanted(self) -> bool:

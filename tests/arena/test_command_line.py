@@ -9,7 +9,7 @@ from typer.testing import CliRunner, Result
 
 from arena import options
 from arena.__main__ import app
-from schemas.bus.zenoh_bus import DEFAULT_ENDPOINT
+from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.match_config import MatchConfig
 from schemas.topics import TOPICS
 

@@ -9,7 +9,7 @@ import pytest
 
 from arena.processes import PROCESSES, Kind
 from arena.supervisor import AFTER_THE_MATCH
-from schemas.bus import zenoh_bus
+from schemas.bus import session, zenoh_bus
 from schemas.command import Command
 from schemas.message import BadMessageError, Message
 from schemas.profile import load_profile
@@ -81,9 +81,9 @@ def test_the_attachment_is_the_one_that_is_sent(text: str) -> None:
 
 def test_the_settings_are_those_of_a_client(text: str, fenced: Callable[[str, str], list[str]]) -> None:
     (settings,) = fenced(text, "json5")
-    for name, value in zenoh_bus._RETRY.items():
+    for name, value in session._RETRY.items():
         assert f"{name}: {value}" in settings
-    assert f"lease: {zenoh_bus._LEASE_MS}" in settings
+    assert f"lease: {session._LEASE_MS}" in settings
 
 
 def test_the_times_that_it_names_are_those_of_the_host(text: str) -> None:
