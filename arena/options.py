@@ -14,6 +14,7 @@ from schemas.bus.endpoint import is_loopback, parse_endpoint, with_port
 from schemas.errors import TouchlineError
 from schemas.match_config import MatchConfig, load_match
 from schemas.profile import load_profile
+from schemas.robot_model import models_of
 from schemas.rule_book import load_rule_book
 
 DEFAULT_ENDPOINT = endpoints.DEFAULT_ENDPOINT
@@ -65,7 +66,7 @@ def read_match(file: Path | None, **flags: Any) -> MatchConfig:
     """
     given = {key.replace("__", "."): value for key, value in flags.items() if value is not None}
     config = load_match(file, given)
-    load_profile(config.profile)
+    models_of(config, load_profile(config.profile))
     load_rule_book(config.rules)
     if importlib.util.find_spec("pybullet") is None:
         raise TouchlineError(NO_PYBULLET)

@@ -62,7 +62,7 @@ class Limits(NamedTuple):
 
     @classmethod
     def of(cls, setup: Setup) -> "Limits":
-        """Those of the match."""
+        """Those of the robot whose numbers the setup has: a briefing's has its own."""
         drive = setup.drive
         return cls(
             drive.max_speed,

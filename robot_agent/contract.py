@@ -36,6 +36,7 @@ class Briefing:
     teammates: tuple[str, ...]
     """The others of the team, in the order of the list."""
     setup: Setup
+    """The match, with the numbers of this robot's own model: body, drive, dribbler, kicker."""
 
     @classmethod
     def of(cls, robot: str, setup: Setup) -> "Briefing":
@@ -47,7 +48,7 @@ class Briefing:
         for side, team in setup.teams.items():
             if robot in team.robots:
                 mates = tuple(name for name in team.robots if name != robot)
-                return cls(robot, side, team.robots.index(robot) + 1, mates, setup)
+                return cls(robot, side, team.robots.index(robot) + 1, mates, setup.seen_by(robot))
         names = [name for team in setup.teams.values() for name in team.robots]
         raise TouchlineError(
             f'robot is "{robot}", who does not play in match "{setup.match}"; {did_you_mean(robot, names)}'

@@ -1,18 +1,23 @@
 """What the host says of itself: how the match is set up, what it applied, how it is doing."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any, Self
 
 from pydantic import Field
 
 from schemas.command import Drive, Kick, Radio
+from schemas.match_config import MatchConfig
 from schemas.message import Message, Name, Part
 from schemas.parameters import ParameterName, Value
-from schemas.profile import Ball, Dribble, Kicker, RobotBody, TimeSteps
+from schemas.profile import STANDARD, Ball, Dribble, Kicker, Profile, RobotBody, TimeSteps
 from schemas.profile import Drive as DriveLimits
 from schemas.profile import Field as Pitch
-from schemas.rule_book import Periods, Restarts
+from schemas.robot_model import RobotModel, types_of
+from schemas.rule_book import Periods, Restarts, RuleBook
 from schemas.side import Side
+
+_NOTHING: Mapping[str, Any] = {}
 
 
 class SetupRequest(Message):
@@ -24,10 +29,15 @@ class TeamSetup(Part):
 
     name: str
     robots: list[Name]
+    types: dict[Name, Name] = {}
+    """Robot → its type; a robot that is not named here is a standard one."""
 
 
 class Setup(Message):
-    """Everything a robot or a viewer must know of a match before its first tick."""
+    """Everything a robot or a viewer must know of a match before its first tick.
+
+    `robot`, `drive`, `dribble` and `kicker` are those of the standard robot.
+    """
 
     match: Name
     pace: str
@@ -44,10 +54,59 @@ class Setup(Message):
     periods: Periods
     restarts: Restarts
     teams: dict[Side, TeamSetup]
+    models: dict[Name, RobotModel] = {}
+    """Type → model; `standard` for every robot that no type is given for."""
     engine: dict[str, str] = {}
     """Fingerprint of what computes the world: engine version, the maths library's answers."""
     parameters: dict[ParameterName, Value] = {}
     """Live parameters that are not what the match began with, and their values; the numbers above have them already."""
+
+    @classmethod
+    def of(
+        cls,
+        config: MatchConfig,
+        profile: Profile,
+        book: RuleBook,
+        engine: Mapping[str, str] = _NOTHING,
+        parameters: Mapping[str, Value] = _NOTHING,
+    ) -> Self:
+        """The setup of a match that runs with the numbers of `profile`."""
+        return cls(
+            match=config.name,
+            pace=config.pace,
+            profile=profile.name,
+            rules=book.name,
+            time=profile.time,
+            pitch=profile.field,
+            robot=profile.robot,
+            ball=profile.ball,
+            drive=profile.drive,
+            dribble=profile.dribble,
+            kicker=profile.kicker,
+            periods=book.periods,
+            restarts=book.restarts,
+            teams={side: _team(config, side) for side in Side},
+            models=types_of(profile.with_types(config.types, f'match "{config.name}"')),
+            engine=dict(engine),
+            parameters=dict(parameters),
+        )
+
+    def seen_by(self, robot: str) -> Self:
+        """The same setup with this robot's own body, drive, dribbler and kicker in place of the standard robot's.
+
+        In a recording that is older than types all robots are alike.
+        """
+        types = {name: chosen for team in self.teams.values() for name, chosen in team.types.items()}
+        model = self.models.get(types.get(robot, STANDARD))
+        if model is None:
+            return self
+        own = {"robot": model.body, "drive": model.drive, "dribble": model.dribble, "kicker": model.kicker}
+        return self.model_copy(update=own)
+
+
+def _team(config: MatchConfig, side: Side) -> TeamSetup:
+    team = config.team(side)
+    return TeamSetup(name=team.name or side.value, robots=config.robots(side), types=team.types)
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,13 +4,14 @@ import json
 import re
 import tomllib
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, get_args, get_origin
 
 from pydantic import Field, ValidationError, field_validator, model_validator
 
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.message import Name, Part
 from schemas.noise import PRESETS
+from schemas.obstacle import Shape, StaticObstacle
 from schemas.side import Side
 
 MAX_ROBOTS = 5
@@ -29,6 +30,11 @@ REMEDIES = {
     "teams.magenta.robots": f"1 to {MAX_ROBOTS} different names of small letters, digits and _",
     "teams.cyan.brain": 'write "module:Class"',
     "teams.magenta.brain": 'write "module:Class"',
+    "teams.cyan.types": 'write robot = "type", as in { cyan1 = "keeper" }',
+    "teams.magenta.types": 'write robot = "type", as in { magenta1 = "keeper" }',
+    "obstacles.shape": f"one of {', '.join(Shape)}",
+    "obstacles.place": "x and y of the centre in m",
+    "obstacles.size": "x, y and z of a box in m",
     "noise.preset": f"one of {', '.join(PRESETS)}",
 }
 """What to do about a wrong value, by key; a message of the validator's stands where there is none."""
@@ -45,6 +51,8 @@ class Team(Part):
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = MAX_ROBOTS
     robots: Annotated[list[Name], Field(max_length=MAX_ROBOTS)] = []
     """Names of the robots, the goalkeeper first; when none are given, colour and number."""
+    types: dict[Name, Name] = {}
+    """Robot → its type, of the profile or of `[types.NAME]`; a robot that is not named here is a standard one."""
 
     @model_validator(mode="after")
     def _one_mind(self) -> "Team":
@@ -126,6 +134,10 @@ class MatchConfig(Part):
     profile: str = "msl"
     rules: str = "friendly"
     teams: Teams = Field(default_factory=Teams)
+    types: dict[Name, dict[str, Any]] = {}
+    """Types of robots that are added to the profile's, or change them: sections of numbers, as in a profile."""
+    obstacles: list[StaticObstacle] = []
+    """What else stands on the pitch when the match begins."""
     noise: Noise = Noise()
     radio: RadioOverride = RadioOverride()
     referee: Officiating = Officiating()
@@ -140,6 +152,21 @@ class MatchConfig(Part):
                 raise ValueError(f'a robot is named "{name}", which means something else in a key; rename it')
             if names.count(name) > 1:
                 raise ValueError(f'two robots are named "{name}"; every robot of a match has its own name')
+        bodies = [*names, *RESERVED]
+        for obstacle in self.obstacles:
+            if obstacle.name in bodies:
+                raise ValueError(f'two bodies are named "{obstacle.name}"; every obstacle has a name of its own')
+            bodies.append(obstacle.name)
+        return self
+
+    @model_validator(mode="after")
+    def _types_of_robots_that_play(self) -> "MatchConfig":
+        for side in Side:
+            names = self.robots(side)
+            for robot in self.team(side).types:
+                if robot not in names:
+                    at = f"teams.{side.value}.types.{robot}"
+                    raise ValueError(f"{at}: no robot of the side has that name; {did_you_mean(robot, names)}")
         return self
 
     def team(self, side: Side) -> Team:
@@ -211,14 +238,17 @@ def _sentence(error: Any) -> str:
     said = re.sub(r"^Value error, ", "", error["msg"])
     if not key:
         return said
-    remedy = REMEDIES.get(re.sub(r"\.\d+$", "", key))
+    remedy = REMEDIES.get(re.sub(r"\.\d+(?=\.|$)", "", key))
     return f"{key} is {value!r}; {remedy or said}"
 
 
 def _model_at(path: tuple[Any, ...]) -> type[Part] | None:
     model: type[Part] | None = MatchConfig
     for step in path:
+        if isinstance(step, int):
+            continue  # a place in a list of the model that was found last
         field = model.model_fields.get(str(step)) if model is not None else None
-        kind = field.annotation if field is not None else None
+        kind: Any = field.annotation if field is not None else None
+        kind = get_args(kind)[0] if get_origin(kind) is list else kind
         model = kind if isinstance(kind, type) and issubclass(kind, Part) else None
     return model

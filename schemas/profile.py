@@ -5,6 +5,7 @@ Those of `SHIPPED` come along; any TOML file may `extends = "msl"` and change wh
 """
 
 import dataclasses
+import math
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,7 +14,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.quantity import Choice, Quantity, extend, read_section
+from schemas.quantity import Choice, Quantity, extend, read_changes, read_section
 
 SHIPPED = ("msl", "omni", "omni3", "paper")
 """The profiles that come with the package."""
@@ -81,7 +82,10 @@ class Field:
 
 @dataclass(frozen=True, slots=True)
 class RobotBody:
-    """The rigid body of a robot: a cylinder."""
+    """The rigid body of a robot: an upright cylinder, and perhaps a box-shaped frame as high, flush with its front.
+
+    The frame's front face touches the cylinder where the kick axis leaves it, so that ball and gap lie as without.
+    """
 
     radius: Annotated[float, Quantity("m", "radius of the cylinder", 0.05, 0.6)]
     height: Annotated[float, Quantity("m", "height of the cylinder", 0.1, 1.5)]
@@ -90,6 +94,15 @@ class RobotBody:
     inertia_zz: Annotated[float, Quantity("kg·m²", "moment of inertia about z", 1e-3, 50)]
     friction: Annotated[float, Quantity("1", "Coulomb coefficient of the hull", 0, 2)]
     restitution: Annotated[float, Quantity("1", "share of the normal speed a ball keeps that hits the hull", 0, 1)]
+    frame_width: Annotated[float, Quantity("m", "width of the frame across the front; 0 without one", 0, 2)] = 0.0
+    frame_depth: Annotated[float, Quantity("m", "depth of the frame, from the front backward", 0, 1)] = 0.0
+
+    @property
+    def reach(self) -> float:
+        """The largest distance of the hull from the body's axis, on the ground, m."""
+        if not self.frame_width:
+            return self.radius
+        return math.hypot(max(self.radius, self.frame_depth - self.radius), self.frame_width / 2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,6 +221,13 @@ SECTIONS: dict[str, type] = {
     "safety": Safety,
 }
 """Section name in the file → the dataclass that holds it."""
+TYPE_SECTIONS: dict[str, type] = {name: SECTIONS[name] for name in ("robot", "drive", "wheels", "dribble", "kicker")}
+"""The sections whose numbers a type of robot may change."""
+STANDARD = "standard"
+"""The type whose numbers stand in the profile's own sections."""
+
+Changes = Mapping[str, Mapping[str, Any]]
+"""Section → key → value: what makes a type of robot different from the standard one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,7 +246,30 @@ class Profile:
     sensing: Sensing
     radio: Radio
     safety: Safety
+    types: Mapping[str, Changes]
+    """Type of robot → what is different about it; `schemas.robot_model` makes models of them."""
     origins: Mapping[str, str] = dataclasses.field(repr=False, compare=False)
+
+    def robot_of_type(self, name: str) -> dict[str, Any]:
+        """Section → its numbers for a type of robot, for each of `TYPE_SECTIONS`."""
+        changes = self.types[name] if name != STANDARD else {}
+        return {
+            section: dataclasses.replace(getattr(self, section), **changes.get(section, {}))
+            for section in TYPE_SECTIONS
+        }
+
+    def with_types(self, tables: Mapping[str, Any], where: str) -> "Profile":
+        """The same with more types of robots, or other numbers for those it has, as a match file gives them.
+
+        Raises:
+            TouchlineError: a number is wrong, or does not fit the others.
+        """
+        origins: dict[str, str] = {}
+        types = extend(dict(self.types), read_types(tables, where, origins))
+        origins = {key.removeprefix(f"{where}: "): origin for key, origin in origins.items()}
+        profile = dataclasses.replace(self, types=types, origins={**self.origins, **origins})
+        check_consistent(profile)
+        return profile
 
 
 def load_profile(name: str) -> Profile:
@@ -240,13 +283,40 @@ def load_profile(name: str) -> Profile:
     sections: dict[str, Any] = {
         key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins) for key, cls in SECTIONS.items()
     }
-    unknown = set(tables) - set(SECTIONS)
-    for section in sorted(unknown):
-        raise TouchlineError(f"{name}: section [{section}] is not known; {did_you_mean(section, SECTIONS)}")
+    types = read_types(tables.get("types", {}), name, origins)
+    known = (*SECTIONS, "types")
+    for section in sorted(set(tables) - set(known)):
+        raise TouchlineError(f"{name}: section [{section}] is not known; {did_you_mean(section, known)}")
     origins = {key.removeprefix(f"{name}: "): origin for key, origin in origins.items()}
-    profile = Profile(name=name, origins=origins, **sections)
+    profile = Profile(name=name, types=types, origins=origins, **sections)
     check_consistent(profile)
     return profile
+
+
+def read_types(tables: Any, where: str, origins: dict[str, str]) -> dict[str, Changes]:
+    """The types of robots in the tables `[types.NAME.<section>]` of a profile or a match file.
+
+    Raises:
+        TouchlineError: an unknown section or key, a wrong number, or a type named as the standard one.
+    """
+    types: dict[str, Changes] = {}
+    for name, sections in _table(tables, f"{where}: types").items():
+        at = f"{where}: types.{name}"
+        if name == STANDARD:
+            raise TouchlineError(f"{at} is the profile's own robot; change the profile's sections, or rename the type")
+        changes = {}
+        for section, table in _table(sections, at).items():
+            if section not in TYPE_SECTIONS:
+                raise TouchlineError(f"{at}.{section} is not known; {did_you_mean(section, TYPE_SECTIONS)}")
+            changes[section] = read_changes(TYPE_SECTIONS[section], table, f"{at}.{section}", origins)
+        types[name] = changes
+    return types
+
+
+def _table(content: Any, at: str) -> dict[str, Any]:
+    if not isinstance(content, dict):
+        raise TouchlineError(f"{at} is {content!r}; write tables, as [types.NAME.drive]")
+    return content
 
 
 def _tables(name: str, below: tuple[str, ...] = ()) -> dict[str, Any]:
@@ -273,24 +343,35 @@ def profile_text(name: str) -> str:
 
 
 def check_consistent(profile: Profile) -> None:
-    """Make sure of the numbers that only make sense together.
+    """Make sure of the numbers that only make sense together, of every type of robot.
 
     Raises:
         TouchlineError: two that do not.
     """
-    touching = profile.robot.radius + profile.ball.radius
-    if profile.dribble.gap > profile.dribble.distance:
+    for name in (STANDARD, *profile.types):
+        where = profile.name if name == STANDARD else f"{profile.name}: types.{name}"
+        _check_robot(where, profile.robot_of_type(name), profile.ball)
+
+
+def _check_robot(where: str, numbers: Mapping[str, Any], ball: Ball) -> None:
+    robot, wheels, dribble = numbers["robot"], numbers["wheels"], numbers["dribble"]
+    touching = robot.radius + ball.radius
+    if dribble.gap > dribble.distance:
         raise TouchlineError(
-            f"{profile.name}: dribble.gap is {profile.dribble.gap} m; a held ball must stay within "
-            f"dribble.distance, {profile.dribble.distance} m"
+            f"{where}: dribble.gap is {dribble.gap} m; a held ball must stay within dribble.distance, "
+            f"{dribble.distance} m"
         )
-    if profile.dribble.gap < touching - 0.05:
+    if dribble.gap < touching - 0.05:
         raise TouchlineError(
-            f"{profile.name}: dribble.gap is {profile.dribble.gap} m; robot and ball touch at {touching:.3f} m already"
+            f"{where}: dribble.gap is {dribble.gap} m; robot and ball touch at {touching:.3f} m already"
         )
-    wheels = profile.wheels
+    if (robot.frame_width > 0) != (robot.frame_depth > 0):
+        raise TouchlineError(
+            f"{where}: robot.frame_width is {robot.frame_width} m, robot.frame_depth {robot.frame_depth} m; "
+            "a frame has both, a robot without one neither"
+        )
     if wheels.max_speed > wheels.no_load_rim_speed:
         raise TouchlineError(
-            f"{profile.name}: wheels.max_speed is {wheels.max_speed} m/s; no_load_speed, radius and gear let a rim "
+            f"{where}: wheels.max_speed is {wheels.max_speed} m/s; no_load_speed, radius and gear let a rim "
             f"reach {wheels.no_load_rim_speed:.2f} m/s at most"
         )

@@ -44,7 +44,21 @@ def read_section(section: type[T], table: dict[str, Any], where: str, origins: d
     Raises:
         TouchlineError: an unknown or missing key, a wrong unit, type or range; names place, value and remedy.
     """
+    for key in meanings(section):
+        if key not in table:
+            raise TouchlineError(f"{where}.{key} is missing; add it, or extend a profile that has it")
+    return section(**read_changes(section, table, where, origins))
+
+
+def read_changes(section: type, table: dict[str, Any], where: str, origins: dict[str, str]) -> dict[str, Any]:
+    """The values of those keys of a section that a TOML table gives, checked, in the section's order.
+
+    Raises:
+        TouchlineError: an unknown key, a wrong unit, type or range; names place, value and remedy.
+    """
     known = meanings(section)
+    if not isinstance(table, dict):
+        raise TouchlineError(f"{where} is {table!r}; write a table of numbers")
     for key in table:
         if key not in known:
             raise TouchlineError(f"{where}.{key} is not known; {did_you_mean(key, known)}")
@@ -52,14 +66,14 @@ def read_section(section: type[T], table: dict[str, Any], where: str, origins: d
     values = {}
     for key, meaning in known.items():
         if key not in table:
-            raise TouchlineError(f"{where}.{key} is missing; add it, or extend a profile that has it")
+            continue
         at = f"{where}.{key}"
         entry = table[key]
         if not isinstance(entry, dict) or set(entry) - {"value", "unit", "origin"} or "origin" not in entry:
             raise TouchlineError(f'{at} is {entry!r}; write {{ value = …, unit = "…", origin = "…" }}')
         origins[at] = str(entry["origin"])
         values[key] = _checked(entry, meaning, hints[key], at)
-    return section(**values)
+    return values
 
 
 def _checked(entry: dict[str, Any], meaning: Quantity | Choice, kind: Any, at: str) -> Any:
@@ -100,11 +114,10 @@ def _number(value: Any, meaning: Quantity, at: str) -> float:
 
 
 def extend(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
-    """A file's tables laid over those it extends, key by key, one level deep."""
+    """A file's tables laid over those it extends, key by key, down to the numbers, which are replaced whole."""
     merged: dict[str, Any] = dict(base)
     for name, part in changes.items():
-        if isinstance(part, dict) and isinstance(merged.get(name), dict):
-            merged[name] = typing.cast("dict[str, Any]", merged[name]) | part
-        else:
-            merged[name] = part
+        below = merged.get(name)
+        is_table = isinstance(part, dict) and isinstance(below, dict) and "value" not in below
+        merged[name] = extend(typing.cast("dict[str, Any]", below), part) if is_table else part
     return merged

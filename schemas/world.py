@@ -1,6 +1,7 @@
 """The truth of one tick, in the field frame."""
 
 from schemas.message import Message, Name, Part
+from schemas.obstacle import Shape
 from schemas.side import Side
 
 
@@ -33,6 +34,23 @@ class BallTruth(Part):
     vz: float
 
 
+class ObstacleTruth(Part):
+    """A body that nothing moves: position of its centre in m, heading in rad, in the field frame."""
+
+    x: float
+    y: float
+    heading: float
+    radius: float
+    """Of the circle around it on the ground, m."""
+    height: float
+    """m above the ground."""
+    shape: Shape
+    size_x: float
+    """Of a box along its heading, m; a cylinder's diameter."""
+    size_y: float
+    """Of a box across, m; a cylinder's diameter."""
+
+
 class World(Message):
     """Everything there is on the field at one tick."""
 
@@ -45,6 +63,8 @@ class World(Message):
     """The robot that holds the ball."""
     clock: float = 0.0
     """Game clock in s."""
+    obstacles: dict[Name, ObstacleTruth] = {}
+    """What else stands on the pitch; not said while there is nothing."""
 
 
 class RobotFrame(Message):

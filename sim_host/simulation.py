@@ -11,7 +11,7 @@ from schemas.coach import CoachOrder
 from schemas.command import Command
 from schemas.errors import TouchlineError
 from schemas.game import ActionReply, EventKind, GameEvent, Phase, RefereeAction
-from schemas.host import AppliedInput, Placement, Setup, TeamSetup
+from schemas.host import AppliedInput, Placement, Setup
 from schemas.match_config import MatchConfig
 from schemas.parameters import ParameterDeed, ParametersReply, ParametersRequest, Value
 from schemas.profile import Profile
@@ -23,7 +23,7 @@ from sim_host.referee.core import Referee, Ruling
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.streams import Streams
 from sim_host.sights import Send, Sights
-from sim_host.snapshot import Roster, Snapshot
+from sim_host.snapshot import ObstacleState, Roster, Snapshot
 from sim_host.start import start_poses
 from sim_host.tuning import Tuning
 from sim_host.world.engine import fingerprint
@@ -88,7 +88,6 @@ class Simulation:
             self.book,
             p.field,
             p.ball,
-            p.robot,
             self.roster,
             duration=config.duration,
             kick_off=config.referee.kick_off,
@@ -97,6 +96,8 @@ class Simulation:
         )
         self.state = self.referee.begin()
         self.world = World(p, self.roster)
+        for obstacle in config.obstacles:
+            self.world.put_obstacle(obstacle)
         self.orders: dict[Side, CoachOrder] = {}
         self._commands = Commands(self.roster.names, p.safety.watchdog / p.time.tick)
         self._radio = RadioAir(p.radio, self.roster, p.time.tick, self._streams)
@@ -168,27 +169,8 @@ class Simulation:
 
     def setup(self) -> Setup:
         """What agents and viewers must know before the first tick."""
-        p, config = self.profile, self.config
-        return Setup(
-            match=config.name,
-            pace=config.pace,
-            profile=p.name,
-            rules=self.book.name,
-            time=p.time,
-            pitch=p.field,
-            robot=p.robot,
-            ball=p.ball,
-            drive=p.drive,
-            dribble=p.dribble,
-            kicker=p.kicker,
-            periods=self.book.periods,
-            restarts=self.book.restarts,
-            teams={
-                side: TeamSetup(name=config.team(side).name or side.value, robots=config.robots(side)) for side in Side
-            },
-            engine=self._engine,
-            parameters=self.tuning.since(self.tuning.at_start),
-        )
+        p, changed = self.profile, self.tuning.since(self.tuning.at_start)
+        return Setup.of(self.config, p, self.book, self._engine, changed)
 
     def _begin(self) -> Tick:
         """Tick 0: everybody has been set down, nobody has moved."""
@@ -276,9 +258,15 @@ def _in_words(value: Value) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
+def _obstacle_fields(obstacle: ObstacleState) -> Fields:
+    fields = obstacle._asdict()
+    del fields["name"]
+    return fields
+
+
 def _world_fields(snapshot: Snapshot, stuck: list[bool], clock: float) -> Fields:
     ball = snapshot.ball
-    return {
+    fields = {
         "tick": snapshot.tick,
         "time": snapshot.time,
         "robots": {
@@ -300,3 +288,6 @@ def _world_fields(snapshot: Snapshot, stuck: list[bool], clock: float) -> Fields
         "possession": snapshot.possession,
         "clock": clock,
     }
+    if snapshot.obstacles:
+        fields["obstacles"] = {obstacle.name: _obstacle_fields(obstacle) for obstacle in snapshot.obstacles}
+    return fields

@@ -4,8 +4,9 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from schemas.match_config import MatchConfig
+from schemas.obstacle import Shape, StaticObstacle
 from schemas.profile import Profile
-from schemas.robot_model import RobotModel
+from schemas.robot_model import RobotModel, models_of
 from schemas.side import Side
 
 
@@ -33,6 +34,30 @@ class BallState(NamedTuple):
     vz: float
 
 
+class ObstacleState(NamedTuple):
+    """A body that nothing moves: centre in m, heading in rad."""
+
+    name: str
+    x: float
+    y: float
+    heading: float
+    radius: float
+    """m; of the circle around it on the ground, which for a cylinder is its own."""
+    height: float
+    """m above the ground."""
+    shape: Shape
+    size_x: float
+    """m; of the box along its heading; a cylinder's diameter."""
+    size_y: float
+    """m; of the box across; a cylinder's diameter."""
+
+    @classmethod
+    def of(cls, obstacle: StaticObstacle) -> "ObstacleState":
+        """An obstacle as it stands."""
+        (x, y), (size_x, size_y, height) = obstacle.place, obstacle.extents
+        return cls(obstacle.name, x, y, obstacle.heading, obstacle.reach, height, obstacle.shape, size_x, size_y)
+
+
 @dataclass(frozen=True, slots=True)
 class Roster:
     """Who takes part, in one fixed order that every array and tuple of robots follows."""
@@ -44,18 +69,22 @@ class Roster:
 
     @classmethod
     def of(cls, config: MatchConfig, profile: Profile) -> "Roster":
-        """The robots of a match: cyan's, then magenta's, each side's goalkeeper first."""
-        members = [(name, side) for side in Side for name in config.robots(side)]
+        """The robots of a match: cyan's, then magenta's, each side's goalkeeper first.
+
+        Raises:
+            TouchlineError: a robot has a type that nobody knows, or a type a wrong number.
+        """
+        members, models = [(name, side) for side in Side for name in config.robots(side)], models_of(config, profile)
         return cls(
             names=tuple(name for name, _ in members),
             sides=tuple(side for _, side in members),
             keepers={side: config.robots(side)[0] for side in Side},
-            models=(RobotModel.standard(profile),) * len(members),
+            models=tuple(models[name] for name, _ in members),
         )
 
     def tuned(self, profile: Profile) -> "Roster":
-        """The same robots with the numbers of a profile."""
-        return replace(self, models=(RobotModel.standard(profile),) * len(self.names))
+        """The same robots with the numbers of a profile that knows their types."""
+        return replace(self, models=tuple(RobotModel.of_type(profile, model.type) for model in self.models))
 
     def side_of(self, name: str) -> Side:
         """The side of a robot."""
@@ -77,3 +106,5 @@ class Snapshot:
     """Robots that touched, held or kicked the ball since the tick before, in order of time, from contacts and kicks."""
     kicked: str | None = None
     """The robot whose kick was carried out in this tick."""
+    obstacles: tuple[ObstacleState, ...] = ()
+    """Bodies that nothing moves, in the order in which they were put down."""

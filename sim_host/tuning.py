@@ -25,6 +25,8 @@ FIXED: Mapping[str, str] = {
     "field": _SIZE,
     "robot.radius": _SIZE,
     "robot.height": _SIZE,
+    "robot.frame_width": _SIZE,
+    "robot.frame_depth": _SIZE,
     "ball.radius": _SIZE,
 }
 """Section or parameter → why it cannot be changed while the match runs; all others can."""
@@ -65,9 +67,9 @@ class Tuning:
         """What a match begins with.
 
         Raises:
-            TouchlineError: the profile cannot be read.
+            TouchlineError: the profile or a type of robots cannot be read.
         """
-        profile = load_profile(config.profile)
+        profile = load_profile(config.profile).with_types(config.types, f'match "{config.name}"')
         given = {key: value for key, value in config.radio.model_dump().items() if value is not None}
         origins = {**profile.origins, **{f"radio.{key}": _MATCH_FILE for key in given}}
         profile = dataclasses.replace(profile, radio=dataclasses.replace(profile.radio, **given), origins=origins)

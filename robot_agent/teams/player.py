@@ -115,7 +115,7 @@ class Player(ABC):
 
     def _park(self, scene: Scene) -> Drive:
         """To the right touch line of the own half, beside each other (simatch: 1.5 m apart)."""
-        pitch, radius = self.setup.pitch, self.setup.robot.radius
+        pitch, radius = self.setup.pitch, self.setup.robot.reach
         x = -pitch.goal_line + 1.5 * self.briefing.number
         y = -pitch.touch_line + radius + 0.1
         return go_to(scene.me, x, y, 0.0, self.limits.capped(_PARKING_SPEED))

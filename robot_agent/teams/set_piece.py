@@ -37,7 +37,7 @@ def asked_distance(phase: TeamPhase, restarts: Restarts) -> float:
 
 def legal_place(x: float, y: float, game: GameView, spot: tuple[float, float], setup: Setup) -> tuple[float, float]:
     """The place nearest to the wanted one where a robot that does not take the restart may stand."""
-    pitch, radius, phase = setup.pitch, setup.robot.radius, game.phase
+    pitch, radius, phase = setup.pitch, setup.robot.reach, game.phase
     if phase in KICK_OFFS:
         x = min(x, -radius - MARGIN)
     if phase in PENALTIES:
@@ -58,7 +58,7 @@ def stand(
     limits: Limits,
 ) -> Drive:
     """Go to a place and face the spot, around everybody and around the circle that the rules draw."""
-    radius = setup.robot.radius
+    radius = setup.robot.reach
     x, y = legal_place(*place, game, spot, setup)
     facing = math.atan2(spot[1] - me.y, spot[0] - me.x)
     blocked = circles(others, 2.0 * radius + 0.1)
@@ -87,7 +87,7 @@ def wait_behind(
 ) -> Drive:
     """Before START: behind the ball for the target, without touching it."""
     distance = setup.robot.radius + setup.ball.radius + LINE_UP
-    return line_up(me, spot, target, distance, circles(others, 2.0 * setup.robot.radius + 0.1), limits)
+    return line_up(me, spot, target, distance, circles(others, 2.0 * setup.robot.reach + 0.1), limits)
 
 
 def step_in(me: Body, ball: tuple[float, float], target: tuple[float, float], setup: Setup, limits: Limits) -> Drive:

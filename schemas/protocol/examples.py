@@ -25,7 +25,6 @@ from schemas.host import (
     RobotHealth,
     Setup,
     SetupRequest,
-    TeamSetup,
 )
 from schemas.match_config import MatchConfig
 from schemas.message import Message
@@ -186,20 +185,4 @@ def _setup() -> Setup:
     """The setup of the match that is played when nobody names a file."""
     config = MatchConfig()
     profile, book = load_profile(config.profile), load_rule_book(config.rules)
-    return Setup(
-        match=config.name,
-        pace=config.pace,
-        profile=profile.name,
-        rules=book.name,
-        time=profile.time,
-        pitch=profile.field,
-        robot=profile.robot,
-        ball=profile.ball,
-        drive=profile.drive,
-        dribble=profile.dribble,
-        kicker=profile.kicker,
-        periods=book.periods,
-        restarts=book.restarts,
-        teams={side: TeamSetup(name=config.team(side).name, robots=config.robots(side)) for side in Side},
-        engine={"engine": "pybullet 3.2.7, api 202010061"},
-    )
+    return Setup.of(config, profile, book, {"engine": "pybullet 3.2.7, api 202010061"})

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from schemas.frames import Pose
 from schemas.game import ActionReply, GameEvent, Phase, RefereeAction
 from schemas.host import Placement
-from schemas.profile import Ball, Field, RobotBody
+from schemas.profile import Ball, Field
 from schemas.rule_book import RuleBook
 from schemas.side import Side
 from sim_host.referee.actions import obey
@@ -42,7 +42,6 @@ class Referee:
         book: RuleBook,
         pitch: Field,
         ball: Ball,
-        robot: RobotBody,
         roster: Roster,
         *,
         duration: float | None,
@@ -63,7 +62,7 @@ class Referee:
         """
         periods = book.periods
         half = periods.half_duration if duration is None else duration / periods.halves
-        self._match = Match(book, pitch, ball, robot, roster, half, kick_off, automatic, starts)
+        self._match = Match(book, pitch, ball, roster, half, kick_off, automatic, starts)
 
     def begin(self) -> RefereeState:
         """The state before the first tick."""

@@ -74,7 +74,7 @@ def _free_defenders(line_up: LineUp) -> tuple[int, ...]:
 def _from_ball(line_up: LineUp, index: int) -> float:
     """m between the ball's spot and the robot's hull."""
     robot = line_up.snapshot.robots[index]
-    return math.dist(line_up.restart.spot, (robot.x, robot.y)) - line_up.match.robot.radius
+    return math.dist(line_up.restart.spot, (robot.x, robot.y)) - line_up.match.reaches[index]
 
 
 def _near_ball(line_up: LineUp, index: int) -> str | None:
@@ -96,7 +96,7 @@ def _nearer_than(line_up: LineUp, index: int, asked: float) -> str | None:
 
 def _in_other_half(line_up: LineUp, index: int) -> str | None:
     """The whole robot stays in its own half, of the kicker its centre."""
-    hull = 0.0 if index == line_up.kicker else line_up.match.robot.radius
+    hull = 0.0 if index == line_up.kicker else line_up.match.reaches[index]
     over = hull - line_up.snapshot.robots[index].x * line_up.own_end(index)
     return f"{over:.2f} m in the other half" if over > 0 else None
 
@@ -109,7 +109,7 @@ def _wrong_at_penalty(line_up: LineUp, index: int) -> str | None:
     end = 1 if line_up.restart.spot[0] > 0 else -1
     if line_up.is_keeper(index) and line_up.own_end(index) == end:
         return None if in_goal_area(pitch, end, robot.x, robot.y) else "outside its goal area"
-    if in_penalty_area(pitch, end, robot.x, robot.y, line_up.match.robot.radius):
+    if in_penalty_area(pitch, end, robot.x, robot.y, line_up.match.reaches[index]):
         return "in the penalty area"
     return _nearer_than(line_up, index, line_up.match.book.restarts.opponent_distance)
 

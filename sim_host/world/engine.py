@@ -1,8 +1,8 @@
 """The physics engine behind one door: bodies, velocities, steps and contacts; the only module that knows PyBullet.
 
-Robots are upright cylinders that roll on wheels no ground contact could stand for: the engine does not collide them
-with the ground, their weight is carried, and what drives them is set as velocity. They collide with each other,
-the ball, the goals and the boundary.
+Robots are upright cylinders, some with a frame across their front, that roll on wheels no ground contact could stand
+for: the engine does not collide them with the ground, their weight is carried, and what drives them is set as
+velocity. They collide with each other, the ball, the goals, the boundary and the obstacles.
 """
 
 import importlib.metadata
@@ -15,10 +15,11 @@ import pybullet
 
 from schemas.frames import wrap
 from schemas.host import Placement
-from schemas.profile import Profile
+from schemas.obstacle import Shape
+from schemas.profile import Profile, RobotBody
 from schemas.robot_model import RobotModel
 from sim_host.actuation.kick import GRAVITY
-from sim_host.snapshot import BallState, RobotState, Roster
+from sim_host.snapshot import BallState, ObstacleState, RobotState, Roster
 from sim_host.world.pitch import Box, boundary, goals
 
 _WALL_RESTITUTION = 0.5
@@ -29,6 +30,7 @@ _NO_BOUNCE = 0.2
 _UPRIGHT = 1e-3
 """Half the sine of the tilt, and the m of lift, from which a robot is put upright again."""
 _STATE = struct.Struct("<13d")
+_OBSTACLE = struct.Struct("<7d")
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -56,6 +58,8 @@ class Engine:
         self._heights = [model.body.height / 2 for model in roster.models]
         self.client = pybullet.connect(pybullet.DIRECT)
         self._lift = GRAVITY * profile.time.physics_step
+        self._obstacles: dict[str, tuple[ObstacleState, int]] = {}
+        """Name → the obstacle and its body, in the order in which they were put down."""
         self._build()
 
     def close(self) -> None:
@@ -86,11 +90,15 @@ class Engine:
                 self._surface(self._box(box), friction=0.0, restitution=_NET_RESTITUTION)
         self.robots = [self._robot(place, model) for place, model in enumerate(self._models)]
         self.ball = self._ball()
+        standing = [obstacle for obstacle, _ in self._obstacles.values()]
+        self._obstacles = {obstacle.name: (obstacle, self._obstacle(obstacle)) for obstacle in standing}
         self._through: int | None = None
         self.read()
 
-    def _fixed(self, shape: int, position: Vector) -> int:
-        body: int = pybullet.createMultiBody(0, shape, basePosition=position, physicsClientId=self.client)
+    def _fixed(self, shape: int, position: Vector, orientation: Quaternion = _NO_TURN) -> int:
+        body: int = pybullet.createMultiBody(
+            0, shape, basePosition=position, baseOrientation=orientation, physicsClientId=self.client
+        )
         return body
 
     def _box(self, box: Box) -> int:
@@ -106,9 +114,7 @@ class Engine:
 
     def _robot(self, place: int, model: RobotModel) -> int:
         robot, client = model.body, self.client
-        shape = pybullet.createCollisionShape(
-            pybullet.GEOM_CYLINDER, radius=robot.radius, height=robot.height, physicsClientId=client
-        )
+        shape = self._hull(robot)
         aside = (3.0 * place, -1000.0, robot.height / 2)  # out of everybody's way until it is placed
         body: int = pybullet.createMultiBody(robot.mass, shape, basePosition=aside, physicsClientId=client)
         pybullet.changeDynamics(
@@ -122,6 +128,57 @@ class Engine:
         self._surface(body, robot.friction, robot.restitution / max(self._profile.ball.restitution, 1e-9))
         pybullet.setCollisionFilterPair(body, self._ground, -1, -1, 0, physicsClientId=client)
         return body
+
+    def _hull(self, robot: RobotBody) -> int:
+        """The cylinder, and the frame flush with its front."""
+        client, cylinder, box = self.client, pybullet.GEOM_CYLINDER, pybullet.GEOM_BOX
+        if not robot.frame_width:
+            alone: int = pybullet.createCollisionShape(
+                cylinder, radius=robot.radius, height=robot.height, physicsClientId=client
+            )
+            return alone
+        shape: int = pybullet.createCollisionShapeArray(
+            shapeTypes=[cylinder, box],
+            radii=[robot.radius, 0.0],
+            lengths=[robot.height, 0.0],
+            halfExtents=[_NOTHING, (robot.frame_depth / 2, robot.frame_width / 2, robot.height / 2)],
+            collisionFramePositions=[_NOTHING, (robot.radius - robot.frame_depth / 2, 0.0, 0.0)],
+            physicsClientId=client,
+        )
+        return shape
+
+    def _obstacle(self, obstacle: ObstacleState) -> int:
+        client, half_z = self.client, obstacle.height / 2
+        if obstacle.shape is Shape.CYLINDER:
+            shape = pybullet.createCollisionShape(
+                pybullet.GEOM_CYLINDER, radius=obstacle.radius, height=obstacle.height, physicsClientId=client
+            )
+        else:
+            half = (obstacle.size_x / 2, obstacle.size_y / 2, half_z)
+            shape = pybullet.createCollisionShape(pybullet.GEOM_BOX, halfExtents=half, physicsClientId=client)
+        body = self._fixed(shape, (obstacle.x, obstacle.y, half_z), _upright(obstacle.heading))
+        self._surface(body, friction=0.5, restitution=_WALL_RESTITUTION)
+        return body
+
+    @property
+    def obstacles(self) -> tuple[ObstacleState, ...]:
+        """All obstacles, in the order in which they were put down."""
+        return tuple([obstacle for obstacle, _ in self._obstacles.values()])
+
+    def put_obstacle(self, obstacle: ObstacleState) -> None:
+        """Put an obstacle down, in place of one of the same name."""
+        if obstacle.name in self._obstacles:
+            self.remove_obstacle(obstacle.name)
+        self._obstacles[obstacle.name] = obstacle, self._obstacle(obstacle)
+
+    def remove_obstacle(self, name: str) -> None:
+        """Take an obstacle away.
+
+        Raises:
+            KeyError: none is named so.
+        """
+        _, body = self._obstacles.pop(name)
+        pybullet.removeBody(body, physicsClientId=self.client)
 
     def _ball(self) -> int:
         ball, client = self._profile.ball, self.client
@@ -192,8 +249,9 @@ class Engine:
         return BallState(*position, *velocity)
 
     def packed(self) -> bytes:
-        """What was read, every robot and then the ball, as little-endian doubles: equal bytes, equal worlds."""
-        return b"".join([_STATE.pack(*p, *o, *v, *s) for p, o, v, s in self._states])
+        """What was read, robots, ball and obstacles, as little-endian doubles: equal bytes, equal worlds."""
+        bodies = [_STATE.pack(*p, *o, *v, *s) for p, o, v, s in self._states]
+        return b"".join(bodies + [_pack(obstacle) for obstacle, _ in self._obstacles.values()])
 
     def robot_now(self, place: int) -> RobotState:
         """One robot between two steps."""
@@ -250,6 +308,11 @@ class Engine:
 
 def _upright(heading: float) -> Quaternion:
     return (0.0, 0.0, math.sin(heading / 2.0), math.cos(heading / 2.0))
+
+
+def _pack(obstacle: ObstacleState) -> bytes:
+    o = obstacle
+    return o.name.encode() + _OBSTACLE.pack(o.x, o.y, o.heading, o.radius, o.height, o.size_x, o.size_y)
 
 
 def _robot_state(state: BodyState, holding: bool) -> RobotState:

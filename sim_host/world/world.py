@@ -5,10 +5,11 @@ from dataclasses import dataclass
 from hashlib import blake2b
 
 from schemas.host import AppliedInput, Placement
+from schemas.obstacle import StaticObstacle
 from schemas.profile import Profile
 from sim_host.actuation.ball_handling import BallHandling, BallReport
 from sim_host.actuation.chassis import Chassis
-from sim_host.snapshot import Roster, Snapshot
+from sim_host.snapshot import ObstacleState, Roster, Snapshot
 from sim_host.world.engine import Engine
 
 _NOTHING = BallReport()
@@ -35,6 +36,7 @@ class World:
         self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
         self._ball = BallHandling(profile, roster.models, self._engine)
         self.tick = 0
+        self._obstacles: tuple[ObstacleState, ...] = ()
         self._chain = b""
         self._look()
 
@@ -54,6 +56,20 @@ class World:
         if any(placement.body != "ball" for placement in placements):
             self._chassis.forget()
 
+    def put_obstacle(self, obstacle: StaticObstacle) -> None:
+        """Put an obstacle down, between two ticks; one of the same name goes."""
+        self._engine.put_obstacle(ObstacleState.of(obstacle))
+        self._obstacles = self._engine.obstacles
+
+    def remove_obstacle(self, name: str) -> None:
+        """Take an obstacle away, between two ticks.
+
+        Raises:
+            KeyError: none is named so.
+        """
+        self._engine.remove_obstacle(name)
+        self._obstacles = self._engine.obstacles
+
     def rebuild(self) -> None:
         """Make a checkpoint: equal poses and velocities in a world that remembers nothing else."""
         self._ball.hold(None)
@@ -69,6 +85,8 @@ class World:
         stays, ball = dict(zip(self._roster.names, self._robots, strict=True)), self._ball_state
         self._engine.close()
         self._engine = Engine(profile, roster)
+        for obstacle in self._obstacles:
+            self._engine.put_obstacle(obstacle)
         aside = self._engine.robot_states(None)
         self._roster = roster
         self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
@@ -113,6 +131,7 @@ class World:
             possession=None if holding is None else names[holding],
             touches=tuple([names[place] for place in reversed(last_touches)]),
             kicked=None if report.kicked is None else names[report.kicked],
+            obstacles=self._obstacles,
         )
 
     def _look(self) -> None:

@@ -9,7 +9,8 @@ from schemas.clock import SteppedClock
 from schemas.coach import CoachMode, CoachOrder
 from schemas.errors import TouchlineError
 from schemas.game import ActionName, ActionReply, RefereeAction
-from schemas.host import Setup, TeamSetup
+from schemas.host import Setup
+from schemas.match_config import load_match
 from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
@@ -26,24 +27,8 @@ def seat(medium: Medium) -> Bus:
 
 
 def setup_of_a_match() -> Setup:
-    profile, rules = load_profile("msl"), load_rule_book("friendly")
-    teams = {side: TeamSetup(name="", robots=[f"{side.value}{n}" for n in (1, 2)]) for side in Side}
-    return Setup(
-        match="friendly",
-        pace="lockstep",
-        profile="msl",
-        rules="friendly",
-        time=profile.time,
-        pitch=profile.field,
-        robot=profile.robot,
-        ball=profile.ball,
-        drive=profile.drive,
-        dribble=profile.dribble,
-        kicker=profile.kicker,
-        periods=rules.periods,
-        restarts=rules.restarts,
-        teams=teams,
-    )
+    match = load_match(None, {f"teams.{side}.size": 2 for side in Side})
+    return Setup.of(match, load_profile("msl"), load_rule_book("friendly"))
 
 
 @pytest.fixture

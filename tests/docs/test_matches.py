@@ -43,7 +43,8 @@ def test_the_friendly_is_the_match_that_is_played_without_a_file(root: Path) -> 
 def test_the_friendly_shows_every_word_of_a_match_file(root: Path) -> None:
     text = (root / "matches" / "friendly.toml").read_text("utf-8")
     shown = re.findall(r"^(?:# )?(\w+) = |^\[(?:teams\.)?(\w+)\]", text, re.MULTILINE)
-    words = {key or table for key, table in shown}
+    obstacles = re.findall(r"^# obstacles = (.*)", text, re.MULTILINE)
+    words = {key or table for key, table in shown} | set(re.findall(r"(\w+) = ", "".join(obstacles)))
     schema = MatchConfig.model_json_schema()
     asked = set(schema["properties"]) - {"teams"}
     for part in schema["$defs"].values():

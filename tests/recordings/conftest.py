@@ -15,8 +15,8 @@ from schemas.bus.in_process import Medium
 from schemas.clock import SteppedClock
 from schemas.command import Command, Drive
 from schemas.game import EventKind, GameEvent, GameState, Phase, Score
-from schemas.host import Applied, AppliedInput, Setup, TeamSetup
-from schemas.match_config import MatchConfig
+from schemas.host import Applied, AppliedInput, Setup
+from schemas.match_config import MatchConfig, load_match
 from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
@@ -28,26 +28,8 @@ TICK = 0.02
 
 
 def make_setup(match: str = "friendly") -> Setup:
-    profile, rules = load_profile("msl"), load_rule_book("friendly")
-    return Setup(
-        match=match,
-        pace="lockstep",
-        profile="msl",
-        rules="friendly",
-        time=profile.time,
-        pitch=profile.field,
-        robot=profile.robot,
-        ball=profile.ball,
-        drive=profile.drive,
-        dribble=profile.dribble,
-        kicker=profile.kicker,
-        periods=rules.periods,
-        restarts=rules.restarts,
-        teams={
-            side: TeamSetup(name=f"Team {side.value}", robots=[name for name in ROBOTS if name.startswith(side.value)])
-            for side in Side
-        },
-    )
+    teams = {f"teams.{side}": {"name": f"Team {side}", "size": 2} for side in Side}
+    return Setup.of(load_match(None, {"name": match, **teams}), load_profile("msl"), load_rule_book("friendly"))
 
 
 def make_world(tick: int) -> World:

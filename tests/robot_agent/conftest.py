@@ -11,7 +11,7 @@ from robot_agent.contract import Briefing
 from schemas.command import Drive
 from schemas.frames import from_body, wrap
 from schemas.game import GameView, TeamPhase
-from schemas.host import Setup, TeamSetup
+from schemas.host import Setup
 from schemas.match_config import MatchConfig
 from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
@@ -20,25 +20,7 @@ from schemas.sight import BallSight, Heard, Motion, Obstacle, Sight
 
 
 def setup_of(profile_name: str = "msl", rules_name: str = "friendly") -> Setup:
-    profile = load_profile(profile_name)
-    rules = load_rule_book(rules_name)
-    config = MatchConfig()
-    return Setup(
-        match="friendly",
-        pace="lockstep",
-        profile=profile_name,
-        rules=rules_name,
-        time=profile.time,
-        pitch=profile.field,
-        robot=profile.robot,
-        ball=profile.ball,
-        drive=profile.drive,
-        dribble=profile.dribble,
-        kicker=profile.kicker,
-        periods=rules.periods,
-        restarts=rules.restarts,
-        teams={side: TeamSetup(name=config.team(side).name, robots=config.robots(side)) for side in Side},
-    )
+    return Setup.of(MatchConfig(), load_profile(profile_name), load_rule_book(rules_name))
 
 
 @pytest.fixture(scope="session")

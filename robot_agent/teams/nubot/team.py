@@ -102,7 +102,7 @@ class NuBot(Player):
     def _meet(self, scene: Scene, ball: SeenBall) -> Drive:
         """CHASE_BALL in a match: the paper's ball lies still, this one rolls, or an opponent has it."""
         way = way_of(ball.now, self.setup.ball.rolling_deceleration)
-        gap, clearance = self.setup.dribble.gap, 2.0 * self.setup.robot.radius + 0.05
+        gap, clearance = self.setup.dribble.gap, 2.0 * self.setup.robot.reach + 0.05
         meeting = meet(scene.me, way, gap, self.limits)
         return take_ball(scene.me, ball.now, meeting, gap, scene.opponents, clearance, self.limits)
 
@@ -110,7 +110,7 @@ class NuBot(Player):
         """The machine's wish, led around opponents, and turned to the goal on its last metres with the ball."""
         vx, vy = doing.vx, doing.vy
         if self._machine.state is not State.CHASE_BALL:
-            others = circles(scene.opponents, 2.0 * self.setup.robot.radius + _BALL_ROOM)
+            others = circles(scene.opponents, 2.0 * self.setup.robot.reach + _BALL_ROOM)
             vx, vy = steer(scene.me, vx, vy, 1.5, others)
         omega = doing.omega
         if self._machine.state is State.MOVE_BALL and self._is_nearly_there(scene):
@@ -155,7 +155,7 @@ class NuBot(Player):
     def _keep(self, scene: Scene, ball: SeenBall, spot: tuple[float, float]) -> Action:
         if scene.game.phase is TeamPhase.DROP_BALL:
             return self._hold(scene, spot)._replace(role=KEEPS)
-        motion = keep_goal(scene.me, ball.now, self.setup.pitch, self.setup.robot.radius, self.limits)
+        motion = keep_goal(scene.me, ball.now, self.setup.pitch, self.setup.robot.reach, self.limits)
         return Action(KEEPS, "keep", motion)
 
     def _test(self, scene: Scene, order: CoachOrder) -> Action:

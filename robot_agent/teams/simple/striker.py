@@ -138,5 +138,5 @@ def _carry(ground: Ground, setup: Setup, limits: Limits) -> Action:
     me, pitch = ground.me, setup.pitch
     x, y = pitch.goal_line - SHOOT_FROM, 0.4 * me.y
     facing = math.atan2(-me.y, pitch.goal_line - me.x)
-    blocked = circles(ground.opponents, 2.0 * setup.robot.radius + setup.ball.radius + 0.15)
+    blocked = circles(ground.opponents, 2.0 * setup.robot.reach + setup.ball.radius + 0.15)
     return Action(Role.STRIKER, "carry", dribble_to(me, x, y, facing, blocked, limits), dribble=True)

@@ -42,7 +42,7 @@ class Simple(Player):
         """Who was promised a pass, and for how many s more."""
         self._receiver: str | None = None
         """Who is meant to get the ball that this robot holds."""
-        self._clearance = 2.0 * self.setup.robot.radius + 0.05
+        self._clearance = 2.0 * self.setup.robot.reach + 0.05
 
     def play(self, scene: Scene, order: CoachOrder | None) -> Action:
         """Find the role, then do what it asks for."""
@@ -96,7 +96,7 @@ class Simple(Player):
         return {name: mate for name, mate in scene.mates.items() if name != self.keeper}
 
     def _places(self, ball: Point) -> list[tuple[Role, Point]]:
-        return places(ball, self.setup.pitch, self.setup.robot.radius)
+        return places(ball, self.setup.pitch, self.setup.robot.reach)
 
     @property
     def _gap(self) -> float:
@@ -185,9 +185,9 @@ class Simple(Player):
         if in_play and self._is_mine(scene, ball):
             return Action(Role.KEEPER, CLEAR, self._get(scene, ball), dribble=True)
         if scene.game.phase is TeamPhase.DROP_BALL:
-            place = (-self.setup.pitch.goal_line + self.setup.robot.radius + 0.1, 0.0)
+            place = (-self.setup.pitch.goal_line + self.setup.robot.reach + 0.1, 0.0)
             return Action(Role.KEEPER, "guard", self._stand(scene, place, spot))
-        motion = keep_goal(scene.me, ball, self.setup.pitch, self.setup.robot.radius, self.limits)
+        motion = keep_goal(scene.me, ball, self.setup.pitch, self.setup.robot.reach, self.limits)
         return Action(Role.KEEPER, "guard", motion, dribble=in_play)
 
     def _is_mine(self, scene: Scene, ball: Ball) -> bool:

@@ -42,7 +42,7 @@ class Bench:
             self.starts[name] = Pose(-5.0 - 0.6 * number, -4.0, 0.5).team(side.attack(1))
         settings = {"duration": None, "kick_off": Side.CYAN, "automatic": True, "starts": self.starts} | options
         settings["kick_off"] = self.side(settings["kick_off"])
-        self.referee = Referee(self.book, self.pitch, chosen.ball, chosen.robot, self.roster, **settings)
+        self.referee = Referee(self.book, self.pitch, chosen.ball, self.roster, **settings)
         self.state = self.referee.begin()
         self.at = 0
         self.ball: tuple[float, float, float] = (0.0, 0.0, self.radius)
