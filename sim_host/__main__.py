@@ -34,8 +34,11 @@ def serve(config: MatchConfig, listen: str, *, insecure: bool = False) -> None:
     with open_host(config.name, WallClock(), with_port(listen)) as bus:
         log.info("match %s on %s, pace %s, seed %d", config.name, listen, config.pace, config.seed)
         host = Host(config, bus)
+        for number in (signal.SIGTERM, signal.SIGINT):
+            signal.signal(number, lambda *_: host.leave())
         host.run()
-        log.info("match over at tick %d", host.simulation.now.tick)
+        how = "left before the match was over," if host.leaving else "match over"
+        log.info("%s at tick %d", how, host.simulation.now.tick)
 
 
 def main(arguments: list[str] | None = None) -> int:

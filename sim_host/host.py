@@ -32,21 +32,30 @@ class Host:
         self._outbox = Outbox(bus, self.simulation.roster, self.simulation.profile.time.tick)
         self._pulse = Pulse(bus.clock, config.pace)
         self._silent = dict.fromkeys(self.simulation.roster.names, False)
+        self.leaving = False
+        """Somebody has told the host to end the match."""
         self._stamp(0)
         bus.declare_alive("host", "host")
 
     def run(self) -> None:
-        """Play the match to its end."""
+        """Play the match to its end, or until somebody tells the host to leave."""
         self.wait_for_all()
         self.begin()
-        while not self.simulation.over:
+        while not (self.simulation.over or self.leaving):
             self.tick()
         self.part()
+
+    def leave(self) -> None:
+        """End the match soon, but no tick in its middle: what was recorded of the last one is whole."""
+        self.leaving = True
+        self.pace.hurry()
 
     def wait_for_all(self) -> None:
         """Wait until every robot has an agent, as long as patience lasts; a referee action ends the waiting too."""
         deadline = self._clock.now() + self._config.patience.attendance
         while not self.attendance.all_here(self._config.record.wait) and self._clock.now() < deadline:
+            if self.leaving:
+                return
             self.attendance.update(timeout=0.02)
             self._desk.attend()
             self._report(self.simulation.now)

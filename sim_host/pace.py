@@ -30,6 +30,9 @@ class Pace(Protocol):
     def begin(self) -> None:
         """The first sights go out now."""
 
+    def hurry(self) -> None:
+        """Wait for nobody any more: the host is about to leave."""
+
     def gather(self, tick: int, resend: Resend) -> dict[str, Command]:
         """Wait as this pace does after the sights of `tick` went out; the commands to apply in the next tick."""
 
@@ -48,6 +51,9 @@ class Realtime:
     def begin(self) -> None:
         """The first tick begins one period from now."""
         self._next = self._clock.now()
+
+    def hurry(self) -> None:
+        """Nothing to do: this pace waits for its next tick alone."""
 
     def gather(self, tick: int, resend: Resend) -> dict[str, Command]:
         """Sleep to the next tick, then take in what has come."""
@@ -83,6 +89,7 @@ class Lockstep:
         self._attendance = attendance
         self._patience = patience.answer
         self._stalled: dict[str, int] = {}
+        self._hurried = False
         self.silent_ticks = SILENT_TICKS
         self.late_ticks = 0
         self.idle: Callable[[], None] | None = None
@@ -90,6 +97,10 @@ class Lockstep:
 
     def begin(self) -> None:
         """Nothing to do: the first tick begins with the last answer."""
+
+    def hurry(self) -> None:
+        """Take what is there from now on."""
+        self._hurried = True
 
     def gather(self, tick: int, resend: Resend) -> dict[str, Command]:
         """Wait for all answers; a robot that gives none within the limit is silent for this tick."""
@@ -107,7 +118,7 @@ class Lockstep:
                     missing.pop(name, None)
                 continue
             now = self._clock.now()
-            if now - start > self._patience:
+            if self._hurried or now - start > self._patience:
                 self.late_ticks += 1
                 break
             if now >= look:
@@ -145,7 +156,7 @@ class Lockstep:
             self._attendance.update()
             before, late = late, self._far_behind(tick)
             now = self._clock.now()
-            if not late:
+            if not late or self._hurried:
                 return
             if late != before:
                 deadline = now + self._patience

@@ -4,7 +4,7 @@ import pytest
 
 from schemas.command import Drive
 from schemas.host import AppliedInput
-from schemas.topics import APPLIED
+from schemas.topics import APPLIED, WORLD
 from sim_host.inbox import SILENT_TICKS
 
 PATIENCE_S = 1.0
@@ -154,3 +154,16 @@ def test_the_first_tick_waits_for_everybody_and_for_a_recorder_where_one_is_want
     pitch.host.wait_for_all()
     assert attendance.all_here(wait_for_recorder=True)
     assert pitch.clock.now() == 0.0
+
+
+def test_a_host_that_is_told_to_leave_waits_for_nobody_and_ends_its_tick(pitch):
+    worlds, applied = pitch.hear(WORLD), pitch.hear(APPLIED)
+    pitch.ticks(5)
+    pitch.agents["cyan2"].frozen = True
+    pitch.host.leave()
+    began = pitch.clock.now()
+    pitch.ticks(1)
+    assert pitch.clock.now() - began < PATIENCE_S
+    last = applied.all()[-1]
+    assert worlds.all()[-1].tick == last.tick == 6
+    assert last.inputs["cyan2"].answers_tick is None
