@@ -69,7 +69,8 @@ class WheelSets:
         )
         masses = _robots_last([(body.mass, body.mass, body.inertia_zz) for body in bodies], (3,))
         self._gain_of_push = step / masses
-        self._damping = 1 / (1 + self._gain_of_push * self._asked_slope * (self._geometry**2).sum(axis=0))
+        steepest = np.maximum(self._asked_slope, self._most_slope)
+        self._damping = 1 / (1 + self._gain_of_push * steepest * (self._geometry**2).sum(axis=0))
 
     def rolling(self, twist: Floats) -> Floats:
         """Rim speeds, (4, n), of wheels that roll without slip at a twist."""
