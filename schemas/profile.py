@@ -150,7 +150,7 @@ class Wheels:
     max_speed: Annotated[float, Quantity("m/s", "rim speed that a wheel is told at most", 0.1, 30)]
     gain: Annotated[float, Quantity("N·m·s/rad", "motor torque for each rad/s that the motor is too slow", 1e-4, 10)]
     traction: Annotated[float, Quantity("1", "grip: largest force along the rim by weight on the wheel", 0, 3)]
-    slip_stiffness: Annotated[float, Quantity("s/m", "grip in use for each m/s of slip, until all is", 0.1, 1000)]
+    slip_stiffness: Annotated[float, Quantity("s/m", "grip in use for each m/s of slip, until all is", 0.1, 200)]
 
     @property
     def no_load_rim_speed(self) -> float:

@@ -16,6 +16,9 @@ from sim_host.actuation.stuck import MOVING, SHARE, TURNING
 from sim_host.actuation.wheels import WheelSets
 from sim_host.snapshot import RobotState
 
+_ARRIVED = 1e-9
+"""m/s; what is told is the demand itself when it is this near, so that wheels told to rest are told zero."""
+
 
 class OmniDrive:
     """Some robots of this drive, each with its own memory: rim speeds, and the twist that was told last."""
@@ -44,7 +47,9 @@ class OmniDrive:
         demand = self._planner.within_limits(told[:, 0] + 1j * told[:, 1])
         turn = self._planner.turn_within_limits(told[:, 2])
         vx, vy, omega = self._wheels.within_limit(np.stack([demand.real, demand.imag, turn]))
-        velocities = self._planner.velocities(self._told[0] + 1j * self._told[1], vx + 1j * vy)
+        wanted = vx + 1j * vy
+        velocities = self._planner.velocities(self._told[0] + 1j * self._told[1], wanted)
+        velocities = np.where(np.abs(velocities - wanted) < _ARRIVED, wanted, velocities)
         turn_rates = self._planner.turn_rates(self._told[2], omega)
         steps = zip(velocities.real, velocities.imag, turn_rates, strict=True)
         self._plan = [self._wheels.within_limit(np.stack(step)) for step in steps]

@@ -26,8 +26,8 @@ from sim_host.actuation.kick import GRAVITY
 Floats = NDArray[np.float64]
 
 _MOST = 4
-_ROUNDS = 4
-"""Rounds in which the forces of a robot's wheels find each other; two are exact while no wheel is at a limit."""
+_ROUNDS = 6
+"""Rounds in which a robot's wheels find their forces, to 1 % when some slide; two do while no wheel is at a limit."""
 
 
 class WheelStep(NamedTuple):

@@ -128,7 +128,7 @@ MODELS = st.builds(
     st.floats(0, 3),
     st.floats(1e-4, 10),
     st.floats(1e-3, 100),
-    st.floats(0.1, 1000),
+    st.floats(0.1, 200),
     st.floats(0.5, 200),
 )
 TWIST = st.tuples(st.floats(-6, 6), st.floats(-6, 6), st.floats(-20, 20))
