@@ -1,7 +1,8 @@
 """What a robot believes of the pitch: its own sight fused with what its teammates say on the radio.
 
-Positions are smoothed over a few ticks; a jump (a kick, a robot that was set down elsewhere, a change of sides) is
-taken at once. All in the team frame.
+Positions are smoothed over a few pictures; a jump (a kick, a robot that was set down elsewhere, a change of sides) is
+taken at once. What a picture shows is moved on by its age, and what it does not show any more is remembered for a
+while. All in the team frame.
 """
 
 import math
@@ -10,6 +11,7 @@ from typing import NamedTuple
 
 from robot_agent.bodies import Ball, Body
 from robot_agent.contract import Briefing
+from robot_agent.opponents import Opponents
 from schemas.command import Motion
 from schemas.frames import wrap
 from schemas.game import GameView
@@ -17,6 +19,8 @@ from schemas.sight import BallSight, Heard, Sight
 
 FRESH = 0.2
 """s; a ball seen longer ago than this by the robot itself may have been seen later by a teammate."""
+LOST = 3.0
+"""s; a ball that nobody has seen for longer is nowhere: one has to look for it."""
 STALE = 1.2
 """s; a teammate's word older than this is not believed any more (NuBot's world model: 1200 ms)."""
 SAME = 0.5
@@ -81,6 +85,9 @@ class WorldModel:
         self._time: float | None = None
         self._me: Body | None = None
         self._ball: Ball | None = None
+        self._pictured = -math.inf
+        """s; when the picture was taken that the ball was last seen in."""
+        self._opponents = Opponents()
 
     def take_in(self, sight: Sight) -> Scene:
         """The scene after one more sight."""
@@ -89,7 +96,8 @@ class WorldModel:
         self._me = me = _smooth_body(self._me, sight.self, dt)
         mates = self._mates(sight.radio)
         ball = self._believed_ball(sight, me, dt)
-        return Scene(sight.tick, dt, me, sight.holding, ball, mates, _opponents(sight, mates), sight.game)
+        opponents = self._opponents.now(_opponents(sight, mates), sight.time, sight.obstacles_age)
+        return Scene(sight.tick, dt, me, sight.holding, ball, mates, opponents, sight.game)
 
     def _mates(self, radio: dict[str, Heard]) -> dict[str, Mate]:
         mates = {}
@@ -106,30 +114,45 @@ class WorldModel:
             c, s = math.cos(me.heading), math.sin(me.heading)
             self._ball = Ball(me.x + self._gap * c, me.y + self._gap * s, me.vx, me.vy)
             return SeenBall(self._ball, 0.0)
-        if own is not None and own.visible and own.age <= FRESH:
-            self._ball = self._smooth_ball(own, dt)
+        if own is not None and own.age <= FRESH:
+            self._ball = self._smooth_ball(own, sight.time, dt)
             return SeenBall(self._ball, own.age)
         self._ball = None
-        return self._freshest(own, sight.radio)
+        last = self._freshest(own, sight.radio)
+        if last is None or last.age > FRESH:
+            spot = sight.game.spot
+            if spot is not None:  # the referee has put it there
+                return SeenBall(Ball(spot.x, spot.y), 0.0)
+        return last if last is not None and last.age <= LOST else None
 
     def _freshest(self, own: BallSight | None, radio: dict[str, Heard]) -> SeenBall | None:
-        """The ball that was seen last, by the robot or a teammate, rolled on to now."""
-        found = (own.age, Ball(own.x, own.y, own.vx, own.vy)) if own is not None else None
+        """The ball that was seen last, by the robot or a teammate, rolled on to now.
+
+        A teammate says where it believed the ball to be when it spoke.
+        """
+        found: tuple[float, float, Ball] | None = None
+        if own is not None:
+            found = own.age, own.age, Ball(own.x, own.y, own.vx, own.vy)
         for name in self._teammates:
             word = radio.get(name)
             if word is None or word.ball is None:
                 continue
             age = word.age + word.ball.age
             if found is None or age < found[0]:
-                found = age, Ball(word.ball.x, word.ball.y, word.ball.vx, word.ball.vy)
+                found = age, word.age, Ball(word.ball.x, word.ball.y, word.ball.vx, word.ball.vy)
         if found is None:
             return None
-        return SeenBall(found[1].after(found[0], self._deceleration), found[0])
+        age, time, ball = found
+        return SeenBall(ball.after(time, self._deceleration), age)
 
-    def _smooth_ball(self, seen: BallSight, dt: float) -> Ball:
-        now = Ball(seen.x, seen.y, seen.vx, seen.vy)
-        if seen.age > 0.0:
-            now = now.after(seen.age, self._deceleration)
+    def _smooth_ball(self, seen: BallSight, time: float, dt: float) -> Ball:
+        """The own ball at `time`, s: a new picture is fused with what was expected, an old one says nothing new."""
+        pictured = time - seen.age
+        is_new = pictured > self._pictured + 1e-6
+        self._pictured = pictured
+        if self._ball is not None and not is_new:
+            return self._ball.after(dt, self._deceleration)
+        now = Ball(seen.x, seen.y, seen.vx, seen.vy).after(seen.age, self._deceleration)
         if self._ball is None:
             return now
         expected = self._ball.after(dt, self._deceleration)

@@ -77,7 +77,7 @@ class Teams(Part):
 
 
 class Noise(Part):
-    """How much noise robots perceive with."""
+    """How well robots perceive."""
 
     preset: str = "profile"
 
@@ -93,6 +93,7 @@ class RadioOverride(Part):
     """Numbers in place of the profile's."""
 
     delay: Annotated[float, Field(ge=0, le=5)] | None = None
+    jitter: Annotated[float, Field(ge=0, le=5)] | None = None
     loss: Annotated[float, Field(ge=0, le=1)] | None = None
     budget: Annotated[float, Field(ge=0)] | None = None
 

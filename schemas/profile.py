@@ -180,22 +180,43 @@ class Kicker:
 
 @dataclass(frozen=True, slots=True)
 class Sensing:
-    """Standard deviations of the Gaussian noise on what a robot perceives."""
+    """What robots perceive: sensors of their own motion, and a camera that looks all around.
 
-    own_position: Annotated[float, Quantity("m", "own x and y", 0, 2)]
-    own_heading: Annotated[float, Quantity("rad", "own heading", 0, 1)]
-    own_velocity: Annotated[float, Quantity("m/s", "own vx and vy", 0, 2)]
-    own_turn_rate: Annotated[float, Quantity("rad/s", "own turn rate", 0, 2)]
-    ball_position: Annotated[float, Quantity("m", "ball x, y and height", 0, 2)]
-    ball_velocity: Annotated[float, Quantity("m/s", "ball vx and vy", 0, 2)]
-    obstacle_position: Annotated[float, Quantity("m", "obstacle x and y", 0, 2)]
+    Noise is Gaussian, and numbers of it are standard deviations. A camera's grows with the distance d: along the line
+    of sight it is √(near² + (range_noise·d)²), across it √(near² + (bearing_noise·d)²).
+    """
+
+    own_position: Annotated[float, Quantity("m", "noise of the own x and y", 0, 2)]
+    own_heading: Annotated[float, Quantity("rad", "noise of the own heading", 0, 1)]
+    own_velocity: Annotated[float, Quantity("m/s", "noise of the own vx and vy", 0, 2)]
+    own_turn_rate: Annotated[float, Quantity("rad/s", "noise of the own turn rate", 0, 2)]
+    drift_position: Annotated[float, Quantity("m", "how far the believed x and y wander from the true ones", 0, 2)]
+    drift_heading: Annotated[float, Quantity("rad", "how far the believed heading wanders from the true one", 0, 1)]
+    drift_time: Annotated[float, Quantity("s", "after this time the drift has become another one", 0.1, 1e4)]
+    ball_position: Annotated[float, Quantity("m", "noise of a near ball's x, y and height", 0, 2)]
+    ball_velocity: Annotated[float, Quantity("m/s", "noise of a near ball's vx and vy", 0, 2)]
+    ball_velocity_growth: Annotated[
+        float, Quantity("1/s", "noise of the ball's vx and vy for each m of distance", 0, 2)
+    ]
+    obstacle_position: Annotated[float, Quantity("m", "noise of a near obstacle's x and y", 0, 2)]
+    range_noise: Annotated[float, Quantity("1", "noise of a seen thing's distance, as a share of it", 0, 1)]
+    bearing_noise: Annotated[float, Quantity("rad", "noise of the direction in which a thing is seen", 0, 1)]
+    noise_rate: Annotated[float, Quantity("1", "share of readings that have noise; the others are exact", 0, 1)]
+    ball_range: Annotated[float, Quantity("m", "a ball farther away than this is not seen", 0, 1000)]
+    obstacle_range: Annotated[float, Quantity("m", "an obstacle farther away than this is not seen", 0, 1000)]
+    ball_dropout: Annotated[float, Quantity("1", "share of pictures in which a ball in view is not found", 0, 1)]
+    obstacle_dropout: Annotated[float, Quantity("1", "likewise for each obstacle in view", 0, 1)]
+    occlusion: Annotated[str, Choice("what hides the things behind it", ("nothing", "hulls"))]
+    camera_rate: Annotated[float, Quantity("Hz", "pictures taken in a second; at most one in each tick", 0.1, 1000)]
+    latency: Annotated[float, Quantity("s", "from taking a picture to knowing what is in it, in whole ticks", 0, 2)]
 
 
 @dataclass(frozen=True, slots=True)
 class Radio:
     """The air between teammates, which the host stands in for."""
 
-    delay: Annotated[float, Quantity("s", "simulated time from the word to the teammates' ears", 0, 5)]
+    delay: Annotated[float, Quantity("s", "least simulated time from the word to a teammate's ear", 0, 5)]
+    jitter: Annotated[float, Quantity("s", "a word takes up to this much longer, each time alike", 0, 5)]
     loss: Annotated[float, Quantity("1", "share of deliveries that never arrive", 0, 1)]
     budget: Annotated[float, Quantity("bit/s", "what a team may say per second, averaged over one second", 0, 1e9)]
 

@@ -8,7 +8,7 @@ from schemas.side import Side
 
 
 class BallSight(Part):
-    """The ball as seen: m, m/s; `age` in s since the picture it was seen in."""
+    """The ball as the camera saw it last: m, m/s; `age` in s since that picture was taken."""
 
     x: float
     y: float
@@ -17,10 +17,11 @@ class BallSight(Part):
     vy: float
     age: float = 0.0
     visible: bool = True
+    """It is in the newest picture; otherwise it is too far away, hidden or overlooked, and this is its last place."""
 
 
 class Obstacle(Part):
-    """Something round in the way: m. Whose robot it is, the robot has to find out."""
+    """Something round in the way: m. Whose robot it is, or whether it is one, the robot has to find out."""
 
     x: float
     y: float
@@ -60,7 +61,9 @@ class Sight(Message):
     stuck: bool = False
     """For long it has moved much slower than it was told: something is in its way."""
     obstacles: list[Obstacle]
-    """Every other robot, the nearest first."""
+    """Robots of both teams and other bodies in the newest picture, the nearest first."""
+    obstacles_age: float = 0.0
+    """Since that picture was taken, in s."""
     radio: dict[Name, Heard] = {}
     """The newest word of each teammate."""
     game: GameView

@@ -1,7 +1,9 @@
 """The air between teammates: what a robot says reaches each teammate late, or not at all, within the byte budget."""
 
+import math
 from collections import deque
 from dataclasses import dataclass, field
+from heapq import heappop, heappush
 
 from schemas.command import Radio
 from schemas.profile import Radio as Air
@@ -15,13 +17,14 @@ _WINDOW_S = 1.0
 _EMPTY = b"{}"
 
 
+_SAME = 1e-6
+"""Ticks; a delay that exceeds whole ticks by no more is these ticks, for all that floats round."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Word:
     said: int
     """Tick."""
-    arrives: int
-    """Tick."""
-    speaker: int
     opened: bytes
     """The speaker's name and its word as JSON, left open for the age: written once, heard by all in every tick."""
 
@@ -34,23 +37,32 @@ class _TeamAir:
 
 
 class RadioAir:
-    """The radio of both teams."""
+    """The radio of both teams.
+
+    A word takes `delay` and a share of `jitter`, uniform and different for each listener, and is heard at the first
+    tick after that. So a word can overtake another; a listener keeps the one that was said last.
+    """
 
     def __init__(self, air: Air, roster: Roster, tick: float, streams: Streams) -> None:
         self._air = air
         self._roster = roster
         self._tick_s = tick
-        self._delay = round(air.delay / tick)
         names = roster.names
-        self._luck = Block(lambda ticks: streams.uniforms(What.RADIO, names, ticks, len(names)))
-        """Per tick: speaker × listener."""
+        self._luck = Block(lambda ticks: streams.between(What.AIR, names, names, ticks))
+        """Per tick: speaker × listener × (loss, jitter, nothing, nothing)."""
         self._teams = {side: _TeamAir() for side in Side}
-        self._travelling: deque[_Word] = deque()
+        self._under_way: list[tuple[int, int, int, int, _Word]] = []
+        """A heap of (tick of arrival, tick it was said, speaker, listener, word), each of them once."""
         self._heard: list[dict[int, _Word]] = [{} for _ in roster.names]
+        """Listener → speaker → word, in the order of the roster."""
         self._mates = [
             [other for other, side in enumerate(roster.sides) if side is mine and other != place]
             for place, mine in enumerate(roster.sides)
         ]
+
+    def change(self, air: Air) -> None:
+        """Another air for all words from now on; those under way arrive as they would have."""
+        self._air = air
 
     def say(self, tick: int, speaker: str, word: Radio) -> str | None:
         """Send a word to all teammates; returns why it was refused, or nothing."""
@@ -64,25 +76,31 @@ class RadioAir:
         team.said.append((tick, bits))
         team.bits += bits
         opened = said[:-1] + (b"," if len(said) > len(_EMPTY) else b"")
-        self._travelling.append(_Word(tick, tick + self._delay, place, b'"%s":%s' % (speaker.encode(), opened)))
+        self._send(place, _Word(tick, b'"%s":%s' % (speaker.encode(), opened)))
         return None
+
+    def _send(self, speaker: int, word: _Word) -> None:
+        """On its way to everyone who will hear it."""
+        air, luck = self._air, self._luck.at(word.said)[speaker]
+        for mate in self._mates[speaker]:
+            lost, late = luck[mate, 0], luck[mate, 1]
+            if lost >= air.loss:
+                ticks = math.ceil((air.delay + late * air.jitter) / self._tick_s - _SAME)
+                heappush(self._under_way, (word.said + ticks, word.said, speaker, mate, word))
 
     def listen(self, tick: int) -> list[bytes]:
         """What everybody has heard by this tick, as JSON: teammate → `schemas.sight.Heard`, the newest of each."""
-        while self._travelling and self._travelling[0].arrives <= tick:
-            self._deliver(self._travelling.popleft())
+        while self._under_way and self._under_way[0][0] <= tick:
+            _, said, speaker, mate, word = heappop(self._under_way)
+            before = self._heard[mate].get(speaker)
+            if before is None or said > before.said:
+                self._heard[mate][speaker] = word
         tick_s = self._tick_s
         return [
             b"{%s}"
             % b",".join([b'%s"age":%.4f}' % (word.opened, (tick - word.said) * tick_s) for word in heard.values()])
             for heard in self._heard
         ]
-
-    def _deliver(self, word: _Word) -> None:
-        luck = self._luck.at(word.said)[word.speaker]
-        for mate in self._mates[word.speaker]:
-            if luck[mate] >= self._air.loss:
-                self._heard[mate][word.speaker] = word
 
     def _forget(self, team: _TeamAir, tick: int) -> None:
         oldest = tick - _WINDOW_S / self._tick_s

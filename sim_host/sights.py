@@ -1,7 +1,8 @@
 """Sights as they are sent: what each robot perceives, hears and is told at one tick, written once, as JSON.
 
-Ten sights a tick are most of what a host says; they are filled into one form, which costs half of what a general
-encoder takes. What a sight is, `schemas.sight.Sight` says, and every reader checks.
+Ten sights a tick are most of what a host says; they are filled into forms, which costs half of what a general encoder
+takes, and what a picture shows is written once for all ticks until the next. What a sight is, `schemas.sight.Sight`
+says, and every reader checks.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -15,7 +16,8 @@ from schemas.side import Side
 from sim_host.radio import RadioAir
 from sim_host.referee.state import RefereeState
 from sim_host.referee.view import game_view
-from sim_host.sensing.perception import Perception
+from sim_host.sensing.camera import PER_OBSTACLE
+from sim_host.sensing.perception import Percept, Perception
 from sim_host.snapshot import Roster, Snapshot
 
 Send = Callable[[str, bytes], None]
@@ -30,28 +32,45 @@ def _numbers(*names: str) -> str:
     return ",".join(f'"{name}":%.4f' for name in names)
 
 
-def _form(robot: str, side: Side, others: int, radius: float) -> bytes:
-    """The form of one robot's sights: perceived numbers first, then what differs from tick to tick."""
-    own, ball = _numbers("x", "y", "heading", "vx", "vy", "omega"), _numbers("x", "y", "z", "vx", "vy")
-    obstacles = ",".join([f'{{{_numbers("x", "y")},"radius":{radius!r}}}'] * others)
+_BALL = f'{{{_numbers("x", "y", "z", "vx", "vy")},"age":%.4f,"visible":%b}}'.encode()
+_OBSTACLE = f"{{{_numbers('x', 'y', 'radius')}}}".encode()
+
+
+def _form(robot: str, side: Side) -> bytes:
+    """The form of one robot's sights: what it perceives first."""
+    own = _numbers("x", "y", "heading", "vx", "vy", "omega")
     return (
         f'{{"version":"{VERSION}","robot":"{robot}","side":"{side.value}","self":{{{own}}},'
-        f'"ball":{{{ball},"age":0.0,"visible":true}},"obstacles":[{obstacles}],'
+        '"ball":%b,"obstacles":[%b],"obstacles_age":%.4f,'
         '"tick":%d,"time":%b,"holding":%b,"stuck":%b,"game":%b,"order":%b,'
         '"outcome":{"answers_tick":%b,"refused":%b},"radio":%b}'
     ).encode()
 
 
+class _Written:
+    """The obstacles of one picture, written once."""
+
+    def __init__(self) -> None:
+        self._numbers: list[float] | None = None
+        self._text = b""
+
+    def text(self, numbers: list[float]) -> bytes:
+        """JSON of `schemas.sight.Obstacle` one after the other; the same list again is the same picture again."""
+        if numbers is not self._numbers:
+            self._numbers = numbers
+            self._text = b",".join([_OBSTACLE] * (len(numbers) // PER_OBSTACLE)) % tuple(numbers)
+        return self._text
+
+
 class Sights:
     """Makes the sights of all robots of a match."""
 
-    def __init__(self, roster: Roster, robot_radius: float, perception: Perception, radio: RadioAir) -> None:
+    def __init__(self, roster: Roster, perception: Perception, radio: RadioAir) -> None:
         self._roster = roster
         self._perception = perception
         self._radio = radio
-        others = len(roster.names) - 1
-        pairs = zip(roster.names, roster.sides, strict=True)
-        self._forms = [_form(name, side, others, robot_radius) for name, side in pairs]
+        self._forms = [_form(name, side) for name, side in zip(roster.names, roster.sides, strict=True)]
+        self._obstacles = [_Written() for _ in roster.names]
 
     def at(
         self,
@@ -72,8 +91,12 @@ class Sights:
         sights = {}
         for place, (name, side) in enumerate(zip(self._roster.names, self._roster.sides, strict=True)):
             command, refused = commands.get(name), refusals.get(name)
+            percept = percepts[place]
             sight = self._forms[place] % (
-                *percepts[place],
+                *percept.own,
+                _ball(percept),
+                self._obstacles[place].text(percept.obstacles),
+                percept.obstacles_age,
                 snapshot.tick,
                 time,
                 _JSON[name == snapshot.possession],
@@ -87,3 +110,9 @@ class Sights:
             send(name, sight)
             sights[name] = sight
         return sights
+
+
+def _ball(percept: Percept) -> bytes:
+    if percept.ball is None:
+        return b"null"
+    return _BALL % (*percept.ball, percept.ball_age, _JSON[percept.visible])

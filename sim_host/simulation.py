@@ -101,7 +101,8 @@ class Simulation:
         self.orders: dict[Side, CoachOrder] = {}
         self._commands = Commands(self.roster.names, p.safety.watchdog / p.time.tick)
         self._radio = RadioAir(p.radio, self.roster, p.time.tick, self._streams)
-        self._sights = self._make_sights()
+        self._perception = Perception(self.tuning.sensing, self.roster, self._streams, p.time.tick)
+        self._sights = Sights(self.roster, self._perception, self._radio)
         self._due = _Due([Placement(body=n, x=at.x, y=at.y, heading=at.heading) for n, at in starts.items()])
         self.now = self._begin()
 
@@ -200,17 +201,14 @@ class Simulation:
         """Let everything that works with numbers take those in force now."""
         old, new = before.profile, self.profile
         if new.radio != old.radio:
-            self._radio = RadioAir(new.radio, self.roster, new.time.tick, self._streams)
+            self._radio.change(new.radio)
+        if self.tuning.sensing != before.sensing:
+            self._perception.change(self.tuning.sensing)
         if new.safety != old.safety:
             self._commands = self._commands.with_watchdog(new.safety.watchdog / new.time.tick)
         if replace(new, radio=old.radio, safety=old.safety, sensing=old.sensing) != old:
             self.roster = self.roster.tuned(new)
             self._due.remake = self._due.is_checkpoint = True
-        self._sights = self._make_sights()
-
-    def _make_sights(self) -> Sights:
-        perception = Perception(self.tuning.sensing, self.roster, self._streams)
-        return Sights(self.roster, self.profile.robot.radius, perception, self._radio)
 
     def _told(self, done: _Due, snapshot: Snapshot) -> Iterator[GameEvent]:
         """The events of what was done between the ticks."""

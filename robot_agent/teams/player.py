@@ -3,9 +3,12 @@
 from abc import ABC, abstractmethod
 from typing import ClassVar, NamedTuple
 
-from robot_agent.bodies import Limits
+from robot_agent.bodies import Ball, Limits
 from robot_agent.contract import Briefing
+from robot_agent.skills.avoid import circles, go_around
 from robot_agent.skills.go_to import go_to
+from robot_agent.skills.keep_goal import keep_goal
+from robot_agent.skills.search import search_place
 from robot_agent.world_model import Scene, WorldModel
 from schemas.coach import CoachMode, CoachOrder
 from schemas.command import BallBelief, Command, Drive, Kick, Motion, Radio
@@ -87,7 +90,7 @@ class Player(ABC):
         scene = self._world.take_in(sight)
         order = sight.order
         self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits
-        action = self._obey(scene, order) or self.play(scene, order)
+        action = self._obey(scene, order) or self._search(scene) or self.play(scene, order)
         self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - scene.dt)
         return Command(
             answers_tick=sight.tick,
@@ -112,6 +115,19 @@ class Player(ABC):
         if order and order.mode is CoachMode.HOLD:
             return Action("", "hold", Drive())
         return None
+
+    def _search(self, scene: Scene) -> Action | None:
+        """In play, when nobody has seen the ball for long: the keeper guards the goal, the others drive around."""
+        if scene.ball is not None or scene.game.phase is not TeamPhase.PLAY:
+            return None
+        setup, me = self.setup, scene.me
+        if self.is_keeper:
+            return Action(
+                "", "look for the ball", keep_goal(me, Ball(0.0, 0.0), setup.pitch, setup.robot.radius, self.limits)
+            )
+        x, y = search_place(self.briefing.number, scene.game.clock, setup.pitch)
+        blocked = circles(scene.others, 2.0 * setup.robot.radius + 0.1)
+        return Action("", "look for the ball", go_around(me, x, y, me.heading, blocked, self.limits))
 
     def _park(self, scene: Scene) -> Drive:
         """To the right touch line of the own half, beside each other (simatch: 1.5 m apart)."""

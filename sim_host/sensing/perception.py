@@ -1,75 +1,113 @@
-"""What each robot perceives of the truth, in its team frame, with Gaussian noise; never touches the truth."""
+"""What each robot perceives of the truth, in its team frame; never touches the truth.
+
+Its own motion it perceives in every tick, the ball and the obstacles in the pictures of its camera, which come late and
+not in every tick. All of it lies in the team frame as the robot believes it to lie: drift moves and turns everything
+that a robot perceives about itself, so that what is near stays where it is from the robot's own point of view.
+"""
+
+from collections import deque
+from typing import NamedTuple
 
 import numpy as np
 
 from schemas.profile import Sensing
-from sim_host.sensing.streams import Block, Floats, Streams, What
+from sim_host.sensing.camera import Camera, Picture, turned_ball
+from sim_host.sensing.drift import Drift
+from sim_host.sensing.own_motion import OwnMotion
+from sim_host.sensing.shutter import Shutter
+from sim_host.sensing.streams import Floats, Streams
 from sim_host.snapshot import Roster, Snapshot
 
-_OWN = 6
-_BALL = 5
-_BEFORE_OBSTACLES = _OWN + _BALL
+
+class Percept(NamedTuple):
+    """What one robot perceives."""
+
+    own: list[float]
+    """x, y, heading, vx, vy, omega: m, rad, m/s, rad/s."""
+    ball: list[float] | None
+    """x, y, z, vx, vy, in m and m/s, as seen last; nothing when it was never seen."""
+    ball_age: float
+    """s since the picture that the ball was seen in."""
+    visible: bool
+    """The ball is in the newest picture."""
+    obstacles: list[float]
+    """x, y, radius in m of each obstacle, the nearest first."""
+    obstacles_age: float
+    """s since the picture that they were seen in."""
 
 
-Percept = list[float]
-"""What one robot perceives: own x, y, heading, vx, vy, omega; ball x, y, z, vx, vy; x and y of each obstacle."""
+class LastSeen(NamedTuple):
+    """When and where a robot last saw the ball: x, y, z, vx, vy in m and m/s."""
+
+    tick: int
+    place: list[float]
 
 
 class Perception:
-    """The sensors of all robots of a match: one row of numbers a robot, all robots at once."""
+    """The sensors of all robots of a match, all robots at once."""
 
-    def __init__(self, sensing: Sensing, roster: Roster, streams: Streams) -> None:
+    def __init__(self, sensing: Sensing, roster: Roster, streams: Streams, tick: float) -> None:
         self._roster = roster
         self._streams = streams
-        s, count = sensing, len(roster.names)
-        own = [s.own_position] * 2 + [s.own_heading] + [s.own_velocity] * 2 + [s.own_turn_rate]
-        ball = [s.ball_position] * 3 + [s.ball_velocity] * 2
-        self._sigma = np.array(own + ball + [s.obstacle_position] * 2 * count)
-        self._rows = np.arange(count)
+        self._tick_s = tick
         self._attack = {
-            attacks: np.array([[float(side.attack(attacks))] for side in roster.sides]) for attacks in (1, -1)
+            attacks: np.array([float(side.attack(attacks)) for side in roster.sides]) for attacks in (1, -1)
         }
-        self._turned = {attacks: np.where(sign[:, 0] > 0, 0.0, np.pi) for attacks, sign in self._attack.items()}
-        self._noise = Block(self._draw)
-        self._columns = np.r_[:_BEFORE_OBSTACLES, _BEFORE_OBSTACLES + 2 : len(self._sigma)]
-        """All but the first obstacle, which is the robot itself."""
+        self._turned = {attacks: np.where(sign > 0, 0.0, np.pi) for attacks, sign in self._attack.items()}
+        self._cyan_attacks: int | None = None
+        self._under_way: deque[Picture] = deque()
+        """Pictures that were taken and are not known yet."""
+        self._known = Picture.nothing(len(roster.names))
+        self._balls: list[LastSeen | None] = [None] * len(roster.names)
+        self.change(sensing)
+
+    def change(self, sensing: Sensing) -> None:
+        """Other sensors from the next tick on; what was seen before stays known."""
+        roster, streams = self._roster, self._streams
+        self._shutter = Shutter.of(sensing, self._tick_s)
+        self._drift = Drift(sensing, roster, streams, self._tick_s)
+        self._own = OwnMotion(sensing, roster, streams)
+        self._camera = Camera(sensing, roster, streams, self._shutter)
 
     def at(self, snapshot: Snapshot, cyan_attacks: int) -> list[Percept]:
-        """Everyone's percept, in the order of the roster."""
-        robots = np.array(snapshot.robots)
-        seen = self._noise.at(snapshot.tick).copy()
-        sign = self._attack[cyan_attacks]
-        positions = sign * robots[:, :2]
-        seen[:, :2] += positions
-        seen[:, 2] = _wrapped(seen[:, 2] + robots[:, 3] + self._turned[cyan_attacks])
-        seen[:, 3:5] += sign * robots[:, 4:6]
-        seen[:, 5] += robots[:, 6]
-        bx, by, bz, bvx, bvy, _ = snapshot.ball
-        seen[:, 6:_BEFORE_OBSTACLES] += sign * (bx, by, 0.0, bvx, bvy)
-        seen[:, 8] += bz
-        obstacles = seen[:, _BEFORE_OBSTACLES:].reshape(len(robots), len(robots), 2)
-        obstacles += sign[:, None] * robots[:, :2]
-        obstacles[:] = self._nearest_first(obstacles, positions)
-        percepts: list[Percept] = seen[:, self._columns].tolist()
-        return percepts
+        """Everyone's percept, in the order of the roster; to be asked for once in every tick, in order."""
+        if cyan_attacks != self._cyan_attacks:
+            self._change_sides()
+            self._cyan_attacks = cyan_attacks
+        tick, robots = snapshot.tick, np.array(snapshot.robots).T
+        frame = self._frame(tick, self._attack[cyan_attacks])
+        if self._shutter.takes(tick):
+            self._under_way.append(self._camera.take(snapshot, robots, frame))
+        while self._under_way and self._under_way[0].tick <= tick - self._shutter.latency:
+            self._take_in(self._under_way.popleft())
+        own = self._own.at(tick, robots, self._turned[cyan_attacks], frame).T.tolist()
+        known, tick_s = self._known, self._tick_s
+        age = (tick - known.tick) * tick_s
+        return [
+            Percept(me, None, 0.0, False, obstacles, age)
+            if ball is None
+            else Percept(me, ball.place, (tick - ball.tick) * tick_s, ball.tick == known.tick, obstacles, age)
+            for me, ball, obstacles in zip(own, self._balls, known.obstacles, strict=True)
+        ]
 
-    def _nearest_first(self, obstacles: Floats, positions: Floats) -> Floats:
-        """Each robot's obstacles by distance, itself first: their order tells nobody's name."""
-        away = obstacles - positions[:, None]
-        distance = away[:, :, 0] ** 2 + away[:, :, 1] ** 2
-        distance[self._rows, self._rows] = -1.0
-        order = distance.argsort(axis=1, kind="stable")
-        nearest: Floats = obstacles[self._rows[:, None], order]
-        return nearest
+    def _frame(self, tick: int, sign: Floats) -> Floats:
+        """Where each robot believes its team frame to lie, shape (6, robots).
 
-    def _draw(self, ticks: range) -> Floats:
-        names, draw = self._roster.names, self._streams.normals
-        parts = ((What.OWN, _OWN), (What.BALL, _BALL), (What.OBSTACLE, 2 * len(names)))
-        noise: Floats = np.concatenate([draw(what, names, ticks, count) for what, count in parts], axis=2)
-        scaled: Floats = noise * self._sigma
-        return scaled
+        1 or −1 from field to team frame; by how much the frame is shifted, m, and turned about the robot, rad; cosine
+        and sine of the whole turn from the field frame.
+        """
+        drift = self._drift.at(tick)
+        return np.concatenate((sign[None], drift[:3], sign * drift[3:]))
 
+    def _take_in(self, picture: Picture) -> None:
+        """A picture becomes known."""
+        self._known = picture
+        for place, found in enumerate(picture.found):
+            if found:
+                self._balls[place] = LastSeen(picture.tick, picture.ball[place])
 
-def _wrapped(angle: Floats) -> Floats:
-    """The same directions in (−π, π]."""
-    return np.pi - np.mod(np.pi - angle, 2.0 * np.pi)
+    def _change_sides(self) -> None:
+        """Team frames have turned: what was seen before lies on their other side now."""
+        self._known = self._known.turned()
+        self._under_way = deque(picture.turned() for picture in self._under_way)
+        self._balls = [None if ball is None else LastSeen(ball.tick, turned_ball(ball.place)) for ball in self._balls]

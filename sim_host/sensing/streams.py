@@ -23,12 +23,17 @@ _NORMALS_PER_BLOCK = 4
 
 
 class What(IntEnum):
-    """What a stream is for; the numbers are part of every recording's meaning and never change."""
+    """What a stream is for; the numbers are part of every recording's meaning and never change.
+
+    2, 3 and 4 were the ball, the obstacles and the radio, drawn by place in the roster.
+    """
 
     OWN = 1
-    BALL = 2
-    OBSTACLE = 3
-    RADIO = 4
+    DRIFT = 5
+    SEEN = 6
+    BALL = 7
+    AIR = 8
+    OWN_LUCK = 9
 
 
 def philox(counter: tuple[Words, Words, Words, Words], key: tuple[int, int]) -> tuple[Words, Words, Words, Words]:
@@ -42,23 +47,23 @@ def philox(counter: tuple[Words, Words, Words, Words], key: tuple[int, int]) -> 
     return c0, c1, c2, c3
 
 
-TICKS_AT_ONCE = 64
-"""Draws are made for this many ticks at a time; the numbers are the same, the cost per tick is not."""
+AT_ONCE = 64
+"""Draws are made for this many ticks or pictures at a time; the numbers are the same, the cost of each is not."""
 
 
 class Block:
-    """Draws of one kind for every tick, made for many ticks at once when the first of them is asked for."""
+    """Draws of one kind for every tick or picture, made for many at once when the first of them is asked for."""
 
     def __init__(self, draw: Callable[[range], Floats]) -> None:
         self._draw = draw
         self._block = -1
         self._rows: Floats
 
-    def at(self, tick: int) -> Floats:
-        """The draws of one tick, as `draw` shapes them."""
-        block, row = divmod(tick, TICKS_AT_ONCE)
+    def at(self, number: int) -> Floats:
+        """The draws of one, as `draw` shapes them."""
+        block, row = divmod(number, AT_ONCE)
         if block != self._block:
-            self._rows = self._draw(range(block * TICKS_AT_ONCE, (block + 1) * TICKS_AT_ONCE))
+            self._rows = self._draw(range(block * AT_ONCE, (block + 1) * AT_ONCE))
             self._block = block
         drawn: Floats = self._rows[row]
         return drawn
@@ -70,26 +75,38 @@ class Streams:
     def __init__(self, seed: int) -> None:
         self._key = (seed & 0xFFFFFFFF, seed >> 32 & 0xFFFFFFFF)
 
-    def uniforms(self, what: What, robots: Sequence[str], ticks: range, count: int) -> Floats:
+    def uniforms(self, what: What, robots: Sequence[str], ticks: Sequence[int], count: int) -> Floats:
         """Uniform numbers in (0, 1), shape (ticks, robots, count)."""
         blocks = -(-count // 4)
-        words = self._words(what, robots, ticks, blocks)
-        flat = np.stack(words, axis=-1).reshape(len(ticks), len(robots), blocks * 4)
-        return (flat[:, :, :count].astype(np.float64) + 0.5) * 2.0**-32
+        index = np.arange(blocks, dtype=np.uint64)
+        return self._uniforms(what, robots, ticks, index).reshape(len(ticks), len(robots), blocks * 4)[:, :, :count]
 
-    def normals(self, what: What, robots: Sequence[str], ticks: range, count: int) -> Floats:
-        """Standard normal numbers (Box and Muller), shape (ticks, robots, count)."""
+    def normals(self, what: What, robots: Sequence[str], ticks: Sequence[int], count: int) -> Floats:
+        """Standard normal numbers, shape (ticks, robots, count)."""
         blocks = -(-count // _NORMALS_PER_BLOCK)
         u = self.uniforms(what, robots, ticks, blocks * 4).reshape(len(ticks), len(robots), blocks, 2, 2)
-        radius = np.sqrt(-2.0 * np.log(u[..., 0]))
-        angle = 2.0 * np.pi * u[..., 1]
-        pairs = np.stack((radius * np.cos(angle), radius * np.sin(angle)), axis=-1)
-        return pairs.reshape(len(ticks), len(robots), blocks * _NORMALS_PER_BLOCK)[:, :, :count]
+        return normal_pairs(u).reshape(len(ticks), len(robots), blocks * _NORMALS_PER_BLOCK)[:, :, :count]
 
-    def _words(self, what: What, robots: Sequence[str], ticks: range, blocks: int) -> tuple[Words, Words, Words, Words]:
-        shape = (len(ticks), len(robots), blocks)
-        index = np.broadcast_to(np.arange(blocks, dtype=np.uint64), shape)
+    def between(self, what: What, robots: Sequence[str], others: Sequence[str], ticks: Sequence[int]) -> Floats:
+        """Four uniform numbers in (0, 1) for each robot and each other by name, shape (ticks, robots, others, 4)."""
+        return self._uniforms(what, robots, ticks, _words_of(others))
+
+    def _uniforms(self, what: What, robots: Sequence[str], ticks: Sequence[int], index: Words) -> Floats:
+        """Shape (ticks, robots, index, 4)."""
+        shape = (len(ticks), len(robots), len(index))
         tick = np.broadcast_to(np.array(ticks, dtype=np.uint64)[:, None, None], shape)
-        robot = np.broadcast_to(np.array([crc32(name.encode()) for name in robots], dtype=np.uint64)[:, None], shape)
+        robot = np.broadcast_to(_words_of(robots)[:, None], shape)
         kind = np.broadcast_to(np.uint64(int(what)), shape)
-        return philox((index, robot, tick & _LOW, kind), self._key)
+        words = philox((np.broadcast_to(index, shape), robot, tick & _LOW, kind), self._key)
+        return (np.stack(words, axis=-1).astype(np.float64) + 0.5) * 2.0**-32
+
+
+def normal_pairs(uniform: Floats) -> Floats:
+    """Standard normal numbers from as many uniform ones in (0, 1), two by two on the last axis (Box and Muller)."""
+    radius = np.sqrt(-2.0 * np.log(uniform[..., 0]))
+    angle = 2.0 * np.pi * uniform[..., 1]
+    return np.stack((radius * np.cos(angle), radius * np.sin(angle)), axis=-1)
+
+
+def _words_of(names: Sequence[str]) -> Words:
+    return np.array([crc32(name.encode()) for name in names], dtype=np.uint64)

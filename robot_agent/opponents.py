@@ -1,0 +1,69 @@
+"""Opponents as a robot follows them from picture to picture: moved on to now, and remembered while they are hidden."""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+Point = tuple[float, float]
+
+REMEMBERED = 0.6
+"""s; an opponent that was not seen for longer may be anywhere."""
+_NEAR = 0.6
+"""m; what is seen this close to where an opponent should be is that opponent."""
+_TRUST = 0.6
+"""Share of a new position that is believed at once; the rest stays with what was expected."""
+_TRUST_VELOCITY = 0.2
+"""Likewise of what a new position says of the velocity."""
+_STILL = 0.3
+"""m/s; a slower velocity is as likely noise."""
+
+
+class _Track(NamedTuple):
+    """One opponent at the time of the newest picture: m, m/s, and for how many s it has not been seen."""
+
+    x: float
+    y: float
+    vx: float = 0.0
+    vy: float = 0.0
+    unseen: float = 0.0
+
+    def after(self, time: float) -> Point:
+        """Where it is `time` s later."""
+        if math.hypot(self.vx, self.vy) < _STILL:
+            return self.x, self.y
+        return self.x + self.vx * time, self.y + self.vy * time
+
+
+class Opponents:
+    """Takes in what each picture shows."""
+
+    def __init__(self) -> None:
+        self._tracks: list[_Track] = []
+        self._pictured = -math.inf
+        """s; when the newest picture was taken."""
+
+    def now(self, seen: Sequence[Point], time: float, age: float) -> list[Point]:
+        """Where they are at `time`, s; `seen` is of the picture that is `age` s old, and may be given repeatedly."""
+        pictured = time - age
+        if pictured > self._pictured + 1e-6:
+            self._take_in(seen, pictured - self._pictured)
+            self._pictured = pictured
+        return [track.after(age) for track in self._tracks]
+
+    def _take_in(self, seen: Sequence[Point], dt: float) -> None:
+        """The opponents of a new picture, in its order, then those that are remembered."""
+        before = [track for track in self._tracks if track.unseen + dt <= REMEMBERED]
+        expected = [track.after(dt) for track in before]
+        tracks = []
+        for x, y in seen:
+            nearest = min(range(len(before)), key=lambda i: math.dist((x, y), expected[i]), default=-1)
+            if nearest < 0 or math.dist((x, y), expected[nearest]) > _NEAR:
+                tracks.append(_Track(x, y))
+                continue
+            known, (at_x, at_y) = before.pop(nearest), expected.pop(nearest)
+            dx, dy, gain = x - at_x, y - at_y, _TRUST_VELOCITY / dt
+            tracks.append(_Track(at_x + _TRUST * dx, at_y + _TRUST * dy, known.vx + gain * dx, known.vy + gain * dy))
+        hidden = [
+            _Track(x, y, track.vx, track.vy, track.unseen + dt) for track, (x, y) in zip(before, expected, strict=True)
+        ]
+        self._tracks = tracks + hidden

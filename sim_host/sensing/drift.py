@@ -1,0 +1,40 @@
+"""Drift: how far a robot's idea of where the team frame lies is from the truth, and wanders.
+
+There is no state in it. At every multiple of the drift time stands a knot, a draw of its own; between two knots the
+drift goes from one to the other with weights cos and sin of a quarter turn, whose squares sum to 1: the drift has the
+same standard deviation at all times.
+"""
+
+import numpy as np
+
+from schemas.profile import Sensing
+from sim_host.sensing.streams import Block, Floats, Streams, What
+from sim_host.snapshot import Roster
+
+_PARTS = 3
+
+
+class Drift:
+    """That of all robots of a match."""
+
+    def __init__(self, sensing: Sensing, roster: Roster, streams: Streams, tick: float) -> None:
+        self._names = roster.names
+        self._streams = streams
+        self._sigma = np.array([sensing.drift_position] * 2 + [sensing.drift_heading])
+        self._ticks = sensing.drift_time / tick
+        self._drifts = Block(self._make)
+
+    def at(self, tick: int) -> Floats:
+        """x and y in m, heading in rad, its cosine and its sine, in the team frame of each robot: shape (5, robots)."""
+        return self._drifts.at(tick)
+
+    def _make(self, ticks: range) -> Floats:
+        way = np.array(ticks) / self._ticks
+        before = way.astype(int)
+        first, last = int(before[0]), int(before[-1]) + 1
+        knots = self._streams.normals(What.DRIFT, self._names, range(first, last + 1), _PARTS)
+        turn = 0.5 * np.pi * (way - before)[:, None, None]
+        drift = np.cos(turn) * knots[before - first] + np.sin(turn) * knots[before - first + 1]
+        x_y_heading = np.moveaxis(drift * self._sigma, 2, 1)
+        heading = x_y_heading[:, 2:]
+        return np.concatenate((x_y_heading, np.cos(heading), np.sin(heading)), axis=1)

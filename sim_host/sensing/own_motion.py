@@ -1,0 +1,50 @@
+"""How a robot perceives its own pose and twist: at once, with noise, and where it believes the team frame to lie."""
+
+import numpy as np
+
+from schemas.profile import Sensing
+from sim_host.sensing.streams import Block, Floats, Streams, What
+from sim_host.snapshot import Roster
+
+_PARTS = 6
+
+
+class OwnMotion:
+    """That of all robots of a match."""
+
+    def __init__(self, sensing: Sensing, roster: Roster, streams: Streams) -> None:
+        s = sensing
+        self._streams = streams
+        self._names = roster.names
+        self._sigma = np.array([s.own_position] * 2 + [s.own_heading] + [s.own_velocity] * 2 + [s.own_turn_rate])
+        self._rate = s.noise_rate
+        self._noise = Block(self._draw)
+
+    def at(self, tick: int, robots: Floats, turned: Floats, frame: Floats) -> Floats:
+        """x, y, heading, vx, vy, omega of each robot in its team frame, shape (6, robots).
+
+        `robots`: their states in the field frame, one column each; `turned`: 0 or π, from field to team frame;
+        `frame`: as `Perception` makes it.
+        """
+        x, y, _, heading, vx, vy, omega, _ = robots
+        sign, dx, dy, turn, c, s = frame
+        seen = self._noise.at(tick).copy()
+        seen[0] += sign * x + dx
+        seen[1] += sign * y + dy
+        seen[2] = _wrapped(seen[2] + heading + turned + turn)
+        seen[3] += c * vx - s * vy
+        seen[4] += s * vx + c * vy
+        seen[5] += omega
+        return seen
+
+    def _draw(self, ticks: range) -> Floats:
+        """The noise of these ticks, shape (ticks, 6, robots); a reading that has none is 0 throughout."""
+        noise: Floats = self._streams.normals(What.OWN, self._names, ticks, _PARTS) * self._sigma
+        if self._rate < 1.0:
+            noise *= self._streams.uniforms(What.OWN_LUCK, self._names, ticks, 1) < self._rate
+        return np.ascontiguousarray(np.moveaxis(noise, 2, 1))
+
+
+def _wrapped(angle: Floats) -> Floats:
+    """The same directions in (−π, π]."""
+    return np.pi - np.mod(np.pi - angle, 2.0 * np.pi)

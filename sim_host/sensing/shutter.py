@@ -1,0 +1,38 @@
+"""When a camera takes pictures, and which of them is known at a tick."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from schemas.profile import Sensing
+
+_FINEST = 1_000_000
+"""Pictures in a tick are a fraction with no larger a denominator: 0.1 + 0.2 ticks are three tenths again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Shutter:
+    """Pictures are numbered from 0, taken at tick 0; all cameras of a match take theirs in the same ticks."""
+
+    pictures: int
+    ticks: int
+    """`pictures` are taken in `ticks` control ticks, as evenly as whole ticks allow."""
+    latency: int
+    """Ticks."""
+
+    @classmethod
+    def of(cls, sensing: Sensing, tick: float) -> "Shutter":
+        """That of a match whose control tick is `tick` s."""
+        each = min(Fraction(1), Fraction(sensing.camera_rate * tick).limit_denominator(_FINEST))
+        return cls(each.numerator, each.denominator, round(sensing.latency / tick))
+
+    def number(self, tick: int) -> int:
+        """The newest picture that was taken up to this tick."""
+        return tick * self.pictures // self.ticks
+
+    def tick_of(self, number: int) -> int:
+        """When a picture is taken."""
+        return -(-number * self.ticks // self.pictures)
+
+    def takes(self, tick: int) -> bool:
+        """Whether a picture is taken in this tick."""
+        return self.tick_of(self.number(tick)) == tick
