@@ -17,7 +17,8 @@ class FirstBrain:
         self.pitch, self.limits = briefing.setup.pitch, Limits.of(briefing.setup)
 
     def act(self, sight: Sight) -> Command:
-        me, ball, goal = Body(**dict(sight.self)), sight.ball, self.pitch.goal_line
+        me, goal = Body(**dict(sight.self)), self.pitch.goal_line
+        ball = sight.ball or sight.game.spot  # before it is seen, where the referee has put it
         drive, kick = Drive(), None
         if sight.holding and me.x > goal - 5.0:
             aim, _ = best_place(me[:2], [(other.x, other.y) for other in sight.obstacles], self.pitch)

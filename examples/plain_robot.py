@@ -30,7 +30,8 @@ TOP_SPEED = 2.0
 
 def answer(sight: dict[str, Any], goal_x: float) -> dict[str, Any]:
     """The command for a sight: to the ball, and with the ball turn to the goal and kick; `goal_x` in m."""
-    me, ball, holding = sight["self"], sight["ball"], sight["holding"]
+    me, holding = sight["self"], sight["holding"]
+    ball = sight["ball"] or sight["game"]["spot"]  # before it is seen, where the referee has put it
     command = {"version": "1.0", "answers_tick": sight["tick"], "dribble": True}
     if ball is None or not sight["game"]["running"] or sight["game"]["phase"].startswith("their_"):
         return command

@@ -2,7 +2,7 @@
 
 from schemas.profile import Field
 
-STAYS = 4.0
+STAYS = 6.0
 """s in each quarter: enough to drive to the next and look around."""
 _AROUND = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 

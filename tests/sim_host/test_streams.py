@@ -38,6 +38,15 @@ def test_a_draw_depends_on_its_own_coordinates_and_on_nothing_else() -> None:
     assert (many[:, :, :3] == fewer).all()
 
 
+def test_a_draw_between_two_depends_on_their_names_and_not_on_who_else_there_is() -> None:
+    streams = Streams(7)
+    many = streams.between(What.SEEN, NAMES, ("ball", *NAMES), range(20))
+    alone = streams.between(What.SEEN, NAMES[2:], ("cyan2",), [13])
+    assert many.shape == (20, 3, 4, 4)
+    assert (alone[0, 0, 0] == many[13, 2, 2]).all()
+    assert np.unique(many).size == many.size, "each way has draws of its own"
+
+
 @pytest.mark.parametrize("other", [Streams(8), Streams(7 + 2**32)])
 def test_another_seed_gives_other_draws(other: Streams) -> None:
     mine = Streams(7).uniforms(What.OWN, NAMES, range(10), 4)
@@ -65,7 +74,7 @@ def test_normal_draws_are_normal() -> None:
 
 
 def test_uniform_draws_lie_strictly_between_nought_and_one() -> None:
-    draws = Streams(1).uniforms(What.RADIO, NAMES, range(5000), 4)
+    draws = Streams(1).uniforms(What.AIR, NAMES, range(5000), 4)
     assert 0 < draws.min() < 0.001 and 0.999 < draws.max() < 1
     assert draws.mean() == approx(0.5, abs=0.005)
 

@@ -165,6 +165,16 @@ def test_everybody_speaks_ten_times_a_second_and_not_all_at_once(squad, setup, t
 
 
 @pytest.mark.parametrize("team", TEAMS)
+def test_a_ball_that_nobody_sees_is_looked_for_and_the_keeper_stays(squad, setup, team):
+    made = squad(team)
+    for _ in range(290):
+        made.move(made.act(ball=None))
+    quarters = {(x > 0, y > 0) for name, (x, y, _) in made.poses.items() if name != "cyan1"}
+    assert len(quarters) == 4
+    assert made.poses["cyan1"][0] < -setup.pitch.goal_line + 1.0
+
+
+@pytest.mark.parametrize("team", TEAMS)
 def test_both_sides_do_the_same_in_the_same_situation(squad, team):
     sides = [squad(team, side=side) for side in Side]
     for _ in range(30):

@@ -1,0 +1,138 @@
+"""What a camera finds: range, occlusion, dropouts; and when it is known: rate, latency, memory."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from pytest import approx
+
+from schemas.profile import load_profile
+from schemas.robot_model import RobotModel
+from sim_host.sensing.shutter import Shutter
+
+RADIUS = 0.245
+HEIGHT = 0.798
+HULLS = {"occlusion": "hulls"}
+
+
+@pytest.mark.parametrize(("distance", "seen"), [(6.99, True), (7.0, True), (7.01, False)])
+def test_ball_and_obstacles_are_seen_up_to_their_range(scenery, distance, seen):
+    """Reference 13, row 14."""
+    made = scenery([(0, 0), (0, distance)], (distance, 0.0), ball_range=7.0, obstacle_range=7.0)
+    one = made.look()[0]
+    assert (one.ball is not None) == seen
+    assert len(one.obstacles) == seen
+
+
+def test_ball_and_obstacles_have_ranges_of_their_own(scenery):
+    one = scenery([(0, 0), (0, 5)], (5.0, 0.0), ball_range=6.0, obstacle_range=4.0).look()[0]
+    assert one.visible and one.obstacles == []
+
+
+def test_a_ball_never_seen_is_nothing_and_a_lost_one_is_where_it_was_with_its_age(scenery):
+    made = scenery([(0, 0)], (9.0, 0.0), ball_range=7.0)
+    assert made.look()[0].ball is None
+    made.ball = made.ball._replace(x=6.0)
+    assert made.look()[0].visible
+    made.ball = made.ball._replace(x=8.0)
+    for tick in range(1, 50):
+        one = made.look()[0]
+        assert not one.visible and one.ball[:2] == approx([6.0, 0.0]) and one.ball_age == approx(0.02 * tick)
+    made.ball = made.ball._replace(x=5.0)
+    assert made.look()[0].ball_age == 0.0
+
+
+@pytest.mark.parametrize("attacker", [0.0, 1.1, -2.5])
+@pytest.mark.parametrize("beside", [0.0, 0.24, -0.24, 0.25, -0.25])
+def test_a_hull_on_the_line_of_sight_hides_ball_and_robots_to_its_edge(scenery, attacker, beside):
+    """The line from the eye to the ball's centre passes the hull's at `beside` m: hidden within 0.245 m."""
+    c, s = math.cos(attacker), math.sin(attacker)
+    blocker = (2.0 * c - beside * s, 2.0 * s + beside * c)
+    ball, behind = (4.0 * c, 4.0 * s), (6.0 * c, 6.0 * s)
+    one = scenery([(0, 0), blocker, behind], ball, **HULLS).look()[0]
+    hidden = abs(beside) < RADIUS
+    assert (one.ball is None) == hidden
+    assert len(one.obstacles) == 2 - hidden
+
+
+def test_a_hull_behind_the_ball_or_behind_the_eye_hides_nothing(scenery):
+    seen = scenery([(0, 0), (4.4, 0), (-1, 0)], (4.0, 0.0), **HULLS).look()
+    assert seen[0].visible and len(seen[0].obstacles) == 2
+    assert seen[2].ball is None and len(seen[2].obstacles) == 1, "through the one in front of it"
+
+
+@pytest.mark.parametrize(("height", "seen"), [(0.11, False), (HEIGHT - 0.01, False), (HEIGHT + 0.01, True)])
+def test_a_ball_that_flies_above_a_hull_is_seen_over_it(scenery, height, seen):
+    one = scenery([(0, 0), (2, 0)], (4.0, 0.0, height), **HULLS).look()[0]
+    assert one.visible == seen
+
+
+def test_a_taller_robot_is_seen_over_a_smaller_one(scenery):
+    profile = load_profile("msl")
+    tall = replace(profile.robot, height=HEIGHT + 0.1)
+    robots = [(0, 0), (2, 0), (4, 0), (6, 0)]
+    roster = scenery(robots, (0.0, 5.0)).roster
+    standard = RobotModel.standard(profile)
+    models = (standard, standard, replace(standard, body=tall), standard)
+    seen = scenery(robots, (0.0, 5.0), roster=replace(roster, models=models), **HULLS).look()
+    assert [[round(row[0]) for row in one.obstacles] for one in seen] == [[2, 4], [0, 4], [2, 6], [4]]
+
+
+def test_without_occlusion_robots_see_through_each_other(scenery):
+    one = scenery([(0, 0), (2, 0), (4, 0)], (6.0, 0.0), obstacle_range=10.0).look()[0]
+    assert one.visible and len(one.obstacles) == 2
+
+
+def test_what_is_in_view_is_not_found_in_the_share_of_pictures_that_is_said(scenery):
+    """8,000 pictures, each robot and thing on its own: within 4 standard errors, and white."""
+    n = 8000
+    made = scenery([(0, 0), (3, 0)], (0.0, 3.0), ball_dropout=0.1, obstacle_dropout=0.3, obstacle_range=10.0)
+    looks = [made.look()[:2] for _ in range(n)]
+    rates = {"ball": 0.1, "obstacle": 0.3}
+    lost = {
+        (kind, place): np.array(
+            [not look[place].visible if kind == "ball" else not look[place].obstacles for look in looks]
+        )
+        for kind in rates
+        for place in (0, 1)
+    }
+    for (kind, _), times in lost.items():
+        rate = rates[kind]
+        assert times.mean() == approx(rate, abs=4 * math.sqrt(rate * (1 - rate) / n))
+        assert np.corrcoef(times[1:], times[:-1])[0, 1] == approx(0, abs=4 / math.sqrt(n))
+    matrix = np.corrcoef(list(lost.values())) - np.eye(4)
+    assert np.abs(matrix).max() < 4 / math.sqrt(n)
+
+
+@pytest.mark.parametrize("latency", [0, 1, 2, 5])
+@pytest.mark.parametrize("every", [1, 2, 3])
+def test_what_is_seen_is_the_newest_picture_that_is_old_enough(scenery, latency, every):
+    """The ball's x is the tick: which picture is seen can be read off, and its age says the same."""
+    made = scenery([(0, 0)], (0.0, 2.0), camera_rate=50.0 / every, latency=0.02 * latency, obstacle_range=10.0)
+    for tick in range(30):
+        made.ball = made.ball._replace(x=float(tick))
+        made.move(0, 0.0, 0.5 * tick)
+        one = made.look()[0]
+        if tick < latency:
+            assert one.ball is None
+            continue
+        picture = (tick - latency) // every * every
+        assert one.ball[0] == approx(picture) and one.visible
+        assert one.ball_age == one.obstacles_age == approx(0.02 * (tick - picture))
+        assert one.own[1] == approx(0.5 * tick), "its own motion it knows at once"
+
+
+@pytest.mark.parametrize(
+    ("rate", "tick", "taken"), [(30.0, 0.02, 30), (25.0, 0.021, 25), (1000.0, 0.02, 50), (0.1, 0.02, 0)]
+)
+def test_as_many_pictures_are_taken_in_a_second_as_ticks_allow(rate, tick, taken):
+    """Over 1000 s, to one picture; a rate that no whole number of ticks makes comes out on the average."""
+    shutter = Shutter.of(replace(load_profile("msl").sensing, camera_rate=rate), tick)
+    ticks = round(1000 / tick)
+    pictures = [t for t in range(ticks) if shutter.takes(t)]
+    assert pictures[0] == 0
+    assert len(pictures) == approx(min(1000 * rate, ticks), abs=1)
+    assert [shutter.tick_of(number) for number in range(len(pictures))] == pictures
+    assert max(np.diff(pictures), default=1) - min(np.diff(pictures), default=1) <= 1
+    assert taken in (0, round(len(pictures) / 1000))
