@@ -28,7 +28,7 @@ class StuckWatch:
 
     def note(self, places: Sequence[int], held: NDArray[np.bool_]) -> None:
         """Whether the robots at these places are held back in this tick."""
-        self._held_for[places] = np.where(held, self._held_for[places] + self._tick, 0.0)
+        self._held_for[places] = (self._held_for[places] + self._tick) * held if held.any() else 0.0
 
     def stuck(self) -> list[bool]:
         """Per robot: it has long been held back."""

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -256,3 +257,30 @@ def test_a_rebuilt_world_of_wheels_depends_on_poses_and_velocities_alone(profile
         assert live.world._engine.packed() == other.world._engine.packed()
     live.world.close()
     other.world.close()
+
+
+def test_the_model_may_change_while_robots_drive() -> None:
+    """A world made anew with wheels: who drove at 2 m/s does so still, and brakes within the new limit."""
+    field = Field(profile=VELOCITY)
+    field.place(cyan1=(-6, 0, 0.4))
+    field.run(1.5, cyan1=drive(2, 0.5))
+    before = field.at("cyan1")
+    field.world.remake(OMNI, replace(field.world._roster, models=(like(OMNI),) * 4))
+    field.tick(cyan1=drive(2, 0.5))
+    after = field.at("cyan1")
+    assert (after.vx, after.vy) == approx((before.vx, before.vy), abs=1e-3)
+    field.run(0.2)
+    slowed = math.hypot(before.vx, before.vy) - math.hypot(field.at("cyan1").vx, field.at("cyan1").vy)
+    assert slowed == approx(0.2 * OMNI.drive.deceleration, rel=0.1)
+    field.world.close()
+
+
+def test_a_match_file_gives_single_robots_wheels(tmp_path: Path) -> None:
+    """A type of the match file that drives on wheels beside standard robots; reference 13, row 23."""
+    path = tmp_path / "mixed.toml"
+    path.write_text(
+        '[teams.cyan]\ntypes = { cyan2 = "roller" }\n'
+        '[types.roller.drive]\nmodel = { value = "omni", origin = "ours: one robot on wheels" }\n'
+    )
+    models = Roster.of(load_match(path), VELOCITY).models
+    assert [model.drive.model for model in models[:3]] == ["velocity", "omni", "velocity"]
