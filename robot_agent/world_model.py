@@ -63,6 +63,7 @@ class Scene(NamedTuple):
     """Teammates heard of lately, in the order of the team."""
     opponents: list[tuple[float, float]]
     game: GameView
+    kicker_ready: bool = True
 
     @property
     def others(self) -> list[tuple[float, float]]:
@@ -97,7 +98,7 @@ class WorldModel:
         mates = self._mates(sight.radio)
         ball = self._believed_ball(sight, me, dt)
         opponents = self._opponents.now(_opponents(sight, mates), sight.time, sight.obstacles_age)
-        return Scene(sight.tick, dt, me, sight.holding, ball, mates, opponents, sight.game)
+        return Scene(sight.tick, dt, me, sight.holding, ball, mates, opponents, sight.game, sight.kicker_ready)
 
     def _mates(self, radio: dict[str, Heard]) -> dict[str, Mate]:
         mates = {}

@@ -21,7 +21,11 @@ class KickMode(StrEnum):
     """How the ball leaves the robot."""
 
     GROUND = "ground"
+    """Rolling along the ground."""
     LOB = "lob"
+    """Through the point below the bar that the kick axis meets."""
+    LOFT = "loft"
+    """At the kicker's fixed angle above the ground, wherever that leads."""
 
 
 class Drive(Part):
@@ -35,8 +39,8 @@ class Drive(Part):
 class Kick(Part):
     """A kick along the body's x axis.
 
-    `speed` in m/s: the exit speed of a ground kick, the most horizontal speed a lob may use on its way through the
-    point under the bar that the kick axis meets.
+    `speed` in m/s: the exit speed of a ground kick or one with fixed loft; the horizontal speed of a lob on its way
+    through the point under the bar that the kick axis meets, as far as it leads there neither too flat nor too steeply.
     """
 
     mode: KickMode

@@ -107,7 +107,7 @@ class RobotBody:
 
 @dataclass(frozen=True, slots=True)
 class Ball:
-    """The ball."""
+    """The ball; numbers with a default are newer than the oldest recordings, which were played with the default."""
 
     radius: Annotated[float, Quantity("m", "radius", 0.02, 0.2)]
     mass: Annotated[float, Quantity("kg", "mass", 0.02, 2)]
@@ -116,6 +116,11 @@ class Ball:
     restitution: Annotated[float, Quantity("1", "share of the normal speed kept on ground and goal frame", 0, 1)]
     rolling_deceleration: Annotated[float, Quantity("m/s²", "loss of speed of a ball that rolls freely", 0, 10)]
     net_deceleration: Annotated[float, Quantity("m/s²", "loss of speed of a ball that rolls in the net", 0, 50)]
+    air_density: Annotated[float, Quantity("kg/m³", "density of the air", 0, 2)] = 0.0
+    drag_coefficient: Annotated[float, Quantity("1", "drag over ½·density·π·radius²·speed²", 0, 2)] = 0.0
+    magnus_coefficient: Annotated[
+        float, Quantity("1", "lift over the same, of a ball that spins as if it rolled; less spin, less lift", 0, 2)
+    ] = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,13 +165,17 @@ class Wheels:
 
 @dataclass(frozen=True, slots=True)
 class Dribble:
-    """When a robot holds the ball, and how the ball follows."""
+    """When a robot holds the ball, and how the ball follows: `force` draws it with bounded forces, and can lose it."""
 
     distance: Annotated[float, Quantity("m", "centre to centre, at most this far to hold", 0.05, 2)]
     cone: Annotated[float, Quantity("rad", "total cone about the kick axis; half of it to either side", 0.01, 6.3)]
     gap: Annotated[float, Quantity("m", "centre to centre while the ball is carried", 0.05, 2)]
     max_ball_height: Annotated[float, Quantity("m", "a ball whose centre is higher cannot be held", 0, 2)]
-    method: Annotated[str, Choice("how a held ball is moved", ("pose", "velocity"))]
+    method: Annotated[str, Choice("how a held ball is moved", ("pose", "velocity", "force"))]
+    stiffness: Annotated[float, Quantity("N/m", "way `force`: draws the ball to the gap", 0, 2000)] = 0.0
+    damping: Annotated[float, Quantity("N·s/m", "way `force`: against motion relative to the gap", 0, 50)] = 0.0
+    max_pull: Annotated[float, Quantity("N", "way `force`: the most along the kick axis", 0, 100)] = 0.0
+    max_side: Annotated[float, Quantity("N", "way `force`: the most across the kick axis", 0, 100)] = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,6 +185,10 @@ class Kicker:
     max_ground_speed: Annotated[float, Quantity("m/s", "top exit speed of a ground kick", 0.5, 40)]
     max_lob_speed: Annotated[float, Quantity("m/s", "top horizontal speed of a lob", 0.5, 40)]
     lob_margin: Annotated[float, Quantity("m", "air between the ball and the bar when a lob is solved", 0, 0.5)]
+    max_air_speed: Annotated[float, Quantity("m/s", "top exit speed of a ball that leaves the ground", 0.5, 60)] = 60.0
+    loft: Annotated[float, Quantity("rad", "angle above the ground of a kick with fixed loft", 0.01, 1.5)] = 0.6435
+    charge_time: Annotated[float, Quantity("s", "charging before the next kick, after the cooldown", 0, 60)] = 0.0
+    cooldown: Annotated[float, Quantity("s", "dead time after a kick, in which nothing charges", 0, 60)] = 0.0
 
 
 @dataclass(frozen=True, slots=True)

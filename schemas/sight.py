@@ -58,6 +58,8 @@ class Sight(Message):
     """Nothing when the ball was never seen."""
     holding: bool
     """The ball is in hand: only then can it be kicked."""
+    kicker_ready: bool = True
+    """The kicker is charged: otherwise a kick is refused."""
     stuck: bool = False
     """For long it has moved much slower than it was told: something is in its way."""
     obstacles: list[Obstacle]

@@ -42,7 +42,7 @@ def _form(robot: str, side: Side) -> bytes:
     return (
         f'{{"version":"{VERSION}","robot":"{robot}","side":"{side.value}","self":{{{own}}},'
         '"ball":%b,"obstacles":[%b],"obstacles_age":%.4f,'
-        '"tick":%d,"time":%b,"holding":%b,"stuck":%b,"game":%b,"order":%b,'
+        '"tick":%d,"time":%b,"holding":%b,"kicker_ready":%b,"stuck":%b,"game":%b,"order":%b,'
         '"outcome":{"answers_tick":%b,"refused":%b},"radio":%b}'
     ).encode()
 
@@ -100,6 +100,7 @@ class Sights:
                 snapshot.tick,
                 time,
                 _JSON[name == snapshot.possession],
+                _JSON[snapshot.kickers_ready[place]],
                 _JSON[stuck[place]],
                 games[side],
                 told[side],

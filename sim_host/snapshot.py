@@ -108,3 +108,5 @@ class Snapshot:
     """The robot whose kick was carried out in this tick."""
     obstacles: tuple[ObstacleState, ...] = ()
     """Bodies that nothing moves, in the order in which they were put down."""
+    kickers_ready: tuple[bool, ...] = ()
+    """Per robot: its kicker is charged."""

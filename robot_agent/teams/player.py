@@ -91,6 +91,8 @@ class Player(ABC):
         order = sight.order
         self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits
         action = self._obey(scene, order) or self._search(scene) or self.play(scene, order)
+        if not scene.kicker_ready:
+            action = action._replace(kick=None, pass_to=None)  # it would be refused: keep the ball, and aim
         self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - scene.dt)
         return Command(
             answers_tick=sight.tick,

@@ -1,24 +1,21 @@
-"""What robots and ground do to the ball: it is held, carried, kicked, or rolls freely."""
+"""The ball over one tick: who holds it, who kicks it, and what moves it in each physics step."""
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from schemas.host import AppliedInput
-from schemas.profile import Dribble, Profile
+from schemas.profile import Profile
 from schemas.robot_model import RobotModel
+from sim_host.actuation.carrying import WAYS, Hold
 from sim_host.actuation.drive import FieldDrive
-from sim_host.actuation.kick import KickRefusedError, launch
-from sim_host.actuation.possession import can_hold, holder
+from sim_host.actuation.free_ball import FreeBall
+from sim_host.actuation.kick import KickRefusedError, Launch, Shot, launch
+from sim_host.actuation.kickers import Kickers
+from sim_host.actuation.possession import can_hold, holder, why_not_held
 from sim_host.snapshot import BallState, RobotState
 from sim_host.world.engine import BallContacts, Engine
 
-_ON_GROUND = 0.01
-"""m; a ball with more air below it does not roll."""
-_RISING = 0.2
-"""m/s; a ball that is launched faster than this is off the ground before it could roll."""
-_PULL = 2.0
-"""m/s; how fast a held ball is drawn to its place before the robot, beside moving along with it."""
 _PRESSED = 0.01
 """m; a held ball that is pressed this deep into another body is lost: it is never carried through one."""
 
@@ -42,18 +39,36 @@ class BallHandling:
         self._dribbles = [model.dribble for model in models]
         self._engine = engine
         self._step = profile.time.physics_step
-        self._rolling_mass = profile.ball.mass + profile.ball.inertia / profile.ball.radius**2
+        self._free = FreeBall(profile.ball, profile.field, self._step)
+        self._kickers = Kickers([model.kicker for model in models], profile.time.tick)
         self.holding: int | None = None
         self._leaving: int | None = None
         """The robot whose kicked ball has not left its hull yet."""
 
     def hold(self, place: int | None) -> None:
-        """Make a robot the holder, or nobody."""
-        self._engine.let_through(place)
+        """Make a robot the holder, or nobody.
+
+        A ball that is carried lies a little in the hull; one that is drawn touches it.
+        """
+        is_carried = place is not None and self._dribbles[place].method != "force"
+        self._engine.let_through(place if is_carried else None)
         self.holding = place
         self._leaving = None
 
-    def begin(self, robots: tuple[RobotState, ...], ball: BallState, inputs: Sequence[AppliedInput]) -> BallReport:
+    def begin_anew(self, ball: BallState) -> None:
+        """Make a checkpoint: nobody holds the ball, every kicker is charged, and a ball on the ground rolls."""
+        self.hold(None)
+        self._kickers.charge()
+        if not self._free.is_in_air(ball.z, ball.vz):
+            self._engine.move_ball((ball.vx, ball.vy, ball.vz), self._free.rolling_spin(ball.vx, ball.vy))
+
+    def kickers_ready(self, tick: int) -> tuple[bool, ...]:
+        """Per robot: its kicker can kick in this tick."""
+        return self._kickers.ready(tick)
+
+    def begin(
+        self, tick: int, robots: tuple[RobotState, ...], ball: BallState, inputs: Sequence[AppliedInput]
+    ) -> BallReport:
         """Decide possession and carry out kicks, at the beginning of a tick.
 
         Robots that dribble claim the ball, and those that kick. A kick is done now or refused now; none is kept.
@@ -64,29 +79,33 @@ class BallHandling:
         if new != self.holding:
             self.hold(new)
         for place in claims:
-            kick = inputs[place].kick
-            if kick is None:
-                continue
-            if place != self.holding:
-                report.refused[place] = "kick: ball not held"
+            if inputs[place].kick is None:
                 continue
             try:
-                self._launch(launch(kick, ball.x, robots[place].heading, self._models[place].kicker, self._profile))
+                self._launch(place, self._kick(tick, place, robots[place], ball, inputs[place]))
             except KickRefusedError as refusal:
                 report.refused[place] = str(refusal)
                 continue
+            self._kickers.kicked(place, tick)
             report.kicked = place
             report.touches.append(place)
-        if report.kicked is not None:
-            self.holding, self._leaving = None, report.kicked
         return report
 
     def before_step(self, drives: Sequence[FieldDrive]) -> None:
-        """Move the ball as its holder does, or let the ground slow it."""
+        """Move the ball as its holder does, or as ground and air do."""
+        position, _, velocity, spin = self._engine.ball_now()
         if self.holding is not None:
-            self._carry(self._engine.robot_now(self.holding), drives[self.holding], self._dribbles[self.holding])
+            self._carry(self.holding, drives[self.holding], BallState(*position, *velocity))
+            if self._dribbles[self.holding].method != "force":
+                return
         else:
-            self._roll(self._engine.ball_now())
+            changed = self._free.sudden_change(position, velocity, spin)
+            if changed is not None:
+                self._engine.move_ball(*changed)
+                return
+        force = self._free.force(position, velocity, spin)
+        if force != (0.0, 0.0, 0.0):
+            self._engine.push_ball(force, position)
 
     def after_step(self, report: BallReport) -> None:
         """Note who touched the ball."""
@@ -106,51 +125,45 @@ class BallHandling:
         self.hold(None)
         return True
 
+    def _kick(self, tick: int, place: int, robot: RobotState, ball: BallState, told: AppliedInput) -> Launch:
+        """The velocity that this robot's kick gives the ball.
+
+        Raises:
+            KickRefusedError: it does not hold the ball, its kicker is not charged, or the kick leads nowhere.
+        """
+        if told.kick is None or place != self.holding:
+            raise KickRefusedError(why_not_held(robot, ball, self._dribbles[place]))
+        reason = self._kickers.why_not(place, tick)
+        if reason is not None:
+            raise KickRefusedError(reason)
+        kicker = self._models[place].kicker
+        return launch(told.kick.mode, Shot(told.kick.speed, ball, robot.heading, kicker, self._profile))
+
+    def _launch(self, place: int, velocity: Launch) -> None:
+        """Set the ball going, out of its kicker's hull; along the ground it rolls at once and keeps its exit speed."""
+        vx, vy, vz = velocity
+        self._engine.move_ball((vx, vy, vz), self._free.rolling_spin(vx, vy) if vz == 0.0 else (0.0, 0.0, 0.0))
+        self._engine.let_through(place)
+        self.holding, self._leaving = None, place
+
     def _leave(self, kicker: int) -> None:
         """Let a kicked ball collide with its kicker again as soon as it has left the hull."""
-        robot, ball, hull = self._engine.robot_now(kicker), self._engine.ball_now(), self._models[kicker].body
+        robot, hull = self._engine.robot_now(kicker), self._models[kicker].body
+        (x, y, z), *_ = self._engine.ball_now()
         touching = hull.radius + self._profile.ball.radius
-        if math.hypot(ball.x - robot.x, ball.y - robot.y) > touching or ball.z > hull.height:
+        if math.hypot(x - robot.x, y - robot.y) > touching or z > hull.height:
             self.hold(None)
 
-    def _launch(self, velocity: tuple[float, float, float]) -> None:
-        """Set the ball going; along the ground it rolls at once, so that it keeps its exit speed."""
-        vx, vy, vz = velocity
-        self._engine.move_ball((vx, vy, vz), self._rolling(vx, vy) if vz == 0.0 else (0.0, 0.0, 0.0))
-
-    def _rolling(self, vx: float, vy: float) -> tuple[float, float, float]:
-        """The spin of a ball that rolls at this velocity."""
-        radius = self._profile.ball.radius
-        return -vy / radius, vx / radius, 0.0
-
-    def _carry(self, robot: RobotState, drive: FieldDrive, dribble: Dribble) -> None:
-        """Move the ball with its holder for one step, toward the gap before it (paper, equation 2)."""
-        vx, vy, omega = drive
-        gap, dt = dribble.gap, self._step
-        turned = robot.heading + omega * dt
-        x, y = robot.x + vx * dt + gap * math.cos(turned), robot.y + vy * dt + gap * math.sin(turned)
-        if dribble.method == "pose":
-            at = (robot.x + gap * math.cos(robot.heading), robot.y + gap * math.sin(robot.heading))
-            velocity = ((x - at[0]) / dt, (y - at[1]) / dt, 0.0)
-            self._engine.set_ball((*at, self._profile.ball.radius), velocity, self._rolling(*velocity[:2]))
-            return
-        ball = self._engine.ball_now()
-        along = (vx - omega * (ball.y - robot.y), vy + omega * (ball.x - robot.x))  # v + ω × r
-        pull = ((x - ball.x) / dt - along[0], (y - ball.y) / dt - along[1])
-        share = min(1.0, _PULL / max(math.hypot(*pull), 1e-9))
-        carried = (along[0] + share * pull[0], along[1] + share * pull[1])
-        self._engine.move_ball((*carried, ball.vz), self._rolling(*carried))
-
-    def _roll(self, ball: BallState) -> None:
-        """Rolling resistance on a ball on the ground: a force that slows rolling, and stops it at rest."""
-        if ball.z > self._profile.ball.radius + _ON_GROUND or ball.vz > _RISING:
-            return
-        speed = math.hypot(ball.vx, ball.vy)
-        in_net = abs(ball.x) > self._profile.field.goal_line and abs(ball.y) < self._profile.field.goal_width / 2
-        slowing = self._profile.ball.net_deceleration if in_net else self._profile.ball.rolling_deceleration
-        if speed <= slowing * self._step:
-            if speed > 0.0:
-                self._engine.move_ball((0.0, 0.0, ball.vz), (0.0, 0.0, 0.0))
-            return
-        force = -self._rolling_mass * slowing / speed
-        self._engine.push_ball((force * ball.vx, force * ball.vy, 0.0), (ball.x, ball.y, ball.z))
+    def _carry(self, place: int, drive: FieldDrive, ball: BallState) -> None:
+        """Move the ball with its holder for one step."""
+        dribble, engine = self._dribbles[place], self._engine
+        hold = Hold(engine.robot_now(place), drive, ball, dribble, self._profile.ball.radius, self._step)
+        at, velocity, force = WAYS[dribble.method](hold)
+        if velocity is not None:
+            spin = self._free.rolling_spin(velocity[0], velocity[1])
+            if at is not None:
+                engine.set_ball(at, velocity, spin)
+            else:
+                engine.move_ball(velocity, spin)
+        if force is not None:
+            engine.push_ball(force, (ball.x, ball.y, ball.z))

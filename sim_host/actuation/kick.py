@@ -1,18 +1,14 @@
-"""The velocity that a kick gives the ball: along the ground, or as a lob solved to pass under the bar."""
+"""The velocity that a kick gives the ball: along the ground, as a lob under the bar, or with fixed loft."""
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
-from schemas.command import Kick, KickMode
-from schemas.profile import Field, Kicker, Profile
-
-GRAVITY = 9.81
-"""m/s², simatch world file."""
-
-_FLAT = 1e-6
-"""m; a lob that may not rise has no bound on its speed."""
-_ROUNDS = 4
-"""Rounds in which a lob's height and its angle of descent agree to a millimetre."""
+from schemas.command import KickMode
+from schemas.profile import Kicker, Profile
+from sim_host.actuation.air import Air
+from sim_host.actuation.lob import Aim, distance_to_goal_plane, solve
+from sim_host.snapshot import BallState
 
 
 class KickRefusedError(Exception):
@@ -27,63 +23,60 @@ class Launch(NamedTuple):
     vz: float
 
 
-def lob_rise(pitch: Field, ball_radius: float, margin: float, steepness: float = 1.0) -> float:
-    """h: how far the ball's centre may rise to the goal plane, m.
+class Shot(NamedTuple):
+    """A kick that is to be done: the ball, the kick axis, and the means."""
 
-    Paper, equation 5, less a margin as in its code, for a ball that comes in level. One that comes down steeply has
-    to pass lower to clear the edge of the bar: `steepness` is 1 / cos of its angle of descent.
-    """
-    return pitch.goal_height - ball_radius - (ball_radius + margin) * steepness
-
-
-def distance_to_goal_plane(x: float, heading: float, goal_line: float) -> float:
-    """d: from the ball to where the kick axis meets a goal line's plane ahead, m; infinite when it meets none."""
-    along = math.cos(heading)
-    if abs(along) < 1e-9:
-        return math.inf
-    return (math.copysign(goal_line, along) - x) / along
+    speed: float
+    """As asked for, m/s."""
+    ball: BallState
+    heading: float
+    """Of the kick axis, rad, field frame."""
+    kicker: Kicker
+    profile: Profile
 
 
-def solve_lob(d: float, h: float, speed: float, step: float) -> tuple[float, float]:
-    """Horizontal and vertical speed of a lob through (d, h), m/s.
-
-    Paper, equations 8, 9 and 12. v_x stays at half the bound v_x < d·√(g/2h) at most, the choice of the paper's
-    code: the ball then comes down through the goal plane well after its apex. The engine integrates
-    semi-implicitly, so a flight of n steps of `step` s falls ½·g·t·(t + step); the solution is for that sum.
-    """
-    fastest = d * math.sqrt(GRAVITY / (2.0 * max(h, _FLAT))) / 2.0
-    along = min(speed, fastest)
-    t = d / along
-    return along, h / t + GRAVITY * (t + step) / 2.0
-
-
-def launch(kick: Kick, ball_x: float, heading: float, kicker: Kicker, profile: Profile) -> Launch:
-    """The velocity of a ball at `ball_x` m after a kick along `heading`.
-
-    Ground: paper, equation 3. Lob: paper, equation 10.
+def launch(mode: KickMode, shot: Shot) -> Launch:
+    """The velocity of the ball after a kick: the robot's own motion adds nothing to it (paper, equations 3 and 10).
 
     Raises:
-        KickRefusedError: a lob whose axis meets no goal plane ahead.
+        KickRefusedError: a lob that no way leads under the bar.
     """
-    c, s = math.cos(heading), math.sin(heading)
+    along, up = _WAYS[mode](shot)
+    return Launch(along * math.cos(shot.heading), along * math.sin(shot.heading), up)
+
+
+def _ground(shot: Shot) -> tuple[float, float]:
+    """Paper, equation 3."""
+    return min(shot.speed, shot.kicker.max_ground_speed), 0.0
+
+
+def _loft(shot: Shot) -> tuple[float, float]:
+    """As simatch kicks, but never faster than the device."""
+    speed = min(shot.speed, shot.kicker.max_air_speed)
+    return speed * math.cos(shot.kicker.loft), speed * math.sin(shot.kicker.loft)
+
+
+def _lob(shot: Shot) -> tuple[float, float]:
+    """Paper, equation 10, through the air of the profile."""
+    profile, kicker, ball = shot.profile, shot.kicker, shot.ball
     pitch = profile.field
-    if kick.mode is KickMode.GROUND:
-        speed = min(kick.speed, kicker.max_ground_speed)
-        return Launch(speed * c, speed * s, 0.0)
-    d = distance_to_goal_plane(ball_x, heading, pitch.goal_line)
+    d = distance_to_goal_plane(ball.x, shot.heading, pitch.goal_line)
     if not 0.0 < d < pitch.length * 2.0:
         raise KickRefusedError("kick: a lob is aimed at a goal, and this axis meets no goal line ahead")
-    along, up = lob(d, min(kick.speed, kicker.max_lob_speed), kicker.lob_margin, profile)
-    return Launch(along * c, along * s, up)
+    aim = Aim(pitch.goal_height, profile.ball.radius + kicker.lob_margin, ball.z)
+    drag, step = Air.around(profile.ball).drag, profile.time.physics_step
+    speeds = solve(d, aim, shot.speed, kicker.max_lob_speed, drag, step)
+    if speeds is None or math.hypot(*speeds) > kicker.max_air_speed:
+        raise KickRefusedError(
+            f"kick: no lob goes the {d:.1f} m to the goal with the {kicker.max_air_speed:g} m/s there are; "
+            "kick from nearer, or along the ground"
+        )
+    return speeds
 
 
-def lob(d: float, speed: float, margin: float, profile: Profile) -> tuple[float, float]:
-    """Horizontal and vertical speed, m/s, of a lob that clears the bar's edge at `d` m."""
-    p, step = profile, profile.time.physics_step
-    steepness = 1.0
-    for _ in range(_ROUNDS):
-        h = max(lob_rise(p.field, p.ball.radius, margin, steepness), 0.0)
-        along, up = solve_lob(d, h, speed, step)
-        down = up - GRAVITY * (d / along + step)
-        steepness = math.hypot(along, down) / along
-    return along, up
+_WAYS: dict[KickMode, Callable[[Shot], tuple[float, float]]] = {
+    KickMode.GROUND: _ground,
+    KickMode.LOB: _lob,
+    KickMode.LOFT: _loft,
+}
+"""Mode → speeds along the ground and upward, m/s."""

@@ -36,3 +36,12 @@ def holder(
     if not near or (len(near) > 1 and near[1][0] - near[0][0] < FAIR):
         return None
     return near[0][1]
+
+
+def why_not_held(robot: RobotState, ball: BallState, dribble: Dribble) -> str:
+    """Why a robot that wants to kick does not hold the ball."""
+    if ball.z > dribble.max_ball_height:
+        return f"kick: ball in the air, {ball.z:.2f} m high"
+    if can_hold(robot, ball, dribble):
+        return "kick: ball contested, another robot is as near to it"
+    return "kick: ball not held"

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from schemas.profile import Wheels
 from schemas.robot_model import RobotModel
-from sim_host.actuation.kick import GRAVITY
+from sim_host.world.gravity import GRAVITY
 
 Floats = NDArray[np.float64]
 

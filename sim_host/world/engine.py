@@ -18,15 +18,16 @@ from schemas.host import Placement
 from schemas.obstacle import Shape
 from schemas.profile import Profile, RobotBody
 from schemas.robot_model import RobotModel
-from sim_host.actuation.kick import GRAVITY
+from sim_host.actuation.bounce import NO_BOUNCE
 from sim_host.snapshot import BallState, ObstacleState, RobotState, Roster
+from sim_host.world.gravity import GRAVITY
 from sim_host.world.pitch import Box, boundary, goals
 
 _WALL_RESTITUTION = 0.5
 _NET_RESTITUTION = 0.0
 """A net takes what speed the ball has against it, and gives no spin."""
-_NO_BOUNCE = 0.2
-"""m/s; a slower impact does not bounce. Gravity alone brings 0.05 m/s in a step: below that a ball never rests."""
+_TOUCHES = 1e-3
+"""m; nearer than this the ball is in contact. Bullet would brake it 2 cm before it touches, and spoil its bounce."""
 _UPRIGHT = 1e-3
 """Half the sine of the tilt, and the m of lift, from which a robot is put upright again."""
 _STATE = struct.Struct("<13d")
@@ -73,14 +74,14 @@ class Engine:
         pybullet.setPhysicsEngineParameter(
             fixedTimeStep=profile.time.physics_step,
             deterministicOverlappingPairs=1,
-            restitutionVelocityThreshold=_NO_BOUNCE,
+            restitutionVelocityThreshold=NO_BOUNCE,
             useSplitImpulse=1,  # a body pushed out of another gains no speed by it
             physicsClientId=client,
         )
         self._ground = self._fixed(
             pybullet.createCollisionShape(pybullet.GEOM_PLANE, physicsClientId=client), (0, 0, 0)
         )
-        self._surface(self._ground, friction=1.0, restitution=1.0)
+        self._surface(self._ground, friction=1.0, restitution=0.0)
         for box in boundary(profile.field):
             self._surface(self._box(box), friction=0.5, restitution=_WALL_RESTITUTION)
         for goal in goals(profile.field):
@@ -107,7 +108,7 @@ class Engine:
         return self._fixed(shape, (box.x, box.y, box.z))
 
     def _surface(self, body: int, friction: float, restitution: float) -> None:
-        """Bullet multiplies the coefficients of two bodies: the ground's are 1, so that the ball's own count."""
+        """Bullet multiplies the coefficients of two bodies: where a body has 1, the ball's own counts."""
         pybullet.changeDynamics(
             body, -1, lateralFriction=friction, restitution=restitution, physicsClientId=self.client
         )
@@ -190,6 +191,7 @@ class Engine:
             localInertiaDiagonal=(ball.inertia,) * 3,
             linearDamping=0.0,
             angularDamping=0.0,
+            contactProcessingThreshold=_TOUCHES,
             rollingFriction=0.0,
             spinningFriction=0.0,
             physicsClientId=client,
@@ -257,11 +259,9 @@ class Engine:
         """One robot between two steps."""
         return _robot_state(self._state(self.robots[place]), True)
 
-    def ball_now(self) -> BallState:
+    def ball_now(self) -> BodyState:
         """The ball between two steps."""
-        position, _ = pybullet.getBasePositionAndOrientation(self.ball, physicsClientId=self.client)
-        velocity, _ = pybullet.getBaseVelocity(self.ball, physicsClientId=self.client)
-        return BallState(*position, *velocity)
+        return self._state(self.ball)
 
     def drive(self, velocities: Sequence[tuple[float, float, float]]) -> None:
         """Set every robot's velocity in the field frame, (vx, vy, omega), for the next step."""

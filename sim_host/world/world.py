@@ -72,8 +72,9 @@ class World:
 
     def rebuild(self) -> None:
         """Make a checkpoint: equal poses and velocities in a world that remembers nothing else."""
-        self._ball.hold(None)
         self._engine.rebuild(self._robots, self._ball_state)
+        self._ball.begin_anew(self._ball_state)
+        self._engine.read()
         self._chassis.forget()
         self._look()
 
@@ -93,6 +94,8 @@ class World:
         self._ball = BallHandling(profile, roster.models, self._engine)
         robots = [stays.get(name, state) for name, state in zip(roster.names, aside, strict=True)]
         self._engine.rebuild(robots, ball)
+        self._ball.begin_anew(ball)
+        self._engine.read()
         self._chassis.forget()
         self._look()
 
@@ -100,7 +103,7 @@ class World:
         """One control tick."""
         engine, ball = self._engine, self._ball
         ordered = [inputs[name] for name in self._roster.names]
-        report = ball.begin(self._robots, self._ball_state, ordered)
+        report = ball.begin(self.tick, self._robots, self._ball_state, ordered)
         for drives in self._chassis.plan(self._robots, ordered):
             ball.before_step(drives)
             engine.drive(drives)
@@ -132,6 +135,7 @@ class World:
             touches=tuple([names[place] for place in reversed(last_touches)]),
             kicked=None if report.kicked is None else names[report.kicked],
             obstacles=self._obstacles,
+            kickers_ready=self._ball.kickers_ready(self.tick),
         )
 
     def _look(self) -> None:

@@ -10,9 +10,9 @@ from pytest import approx
 
 from schemas.profile import load_profile
 from schemas.robot_model import RobotModel
-from sim_host.actuation.kick import GRAVITY
 from sim_host.actuation.omni_drive import OmniDrive
 from sim_host.snapshot import RobotState
+from sim_host.world.gravity import GRAVITY
 
 TIME = load_profile("omni").time
 FOUR, THREE = (RobotModel.standard(load_profile(name)) for name in ("omni", "omni3"))

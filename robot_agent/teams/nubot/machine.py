@@ -62,6 +62,7 @@ class Situation(NamedTuple):
     dt: float
     """s since the tick before."""
     world_reset: bool = False
+    kicker_ready: bool = True
 
 
 class Doing(NamedTuple):
@@ -95,8 +96,8 @@ def at_dribble_point(now: Situation, points: Points) -> bool:
 
 
 def facing_goal(now: Situation, points: Points) -> bool:
-    """The kick axis points at the goal's centre."""
-    return abs(_error(now.me, points.goal)) <= FACING / 2.0
+    """The kick axis points at the goal's centre, and the kicker is charged (the paper's always is)."""
+    return now.kicker_ready and abs(_error(now.me, points.goal)) <= FACING / 2.0
 
 
 def at_once(now: Situation, points: Points) -> bool:

@@ -88,7 +88,9 @@ class NuBot(Player):
         back = self._machine.state in (State.RESET, State.HOME)
         if back and math.hypot(ball.now.vx, ball.now.vy) < _KICKED:
             self._machine.restart()
-        doing = self._machine.step(Situation(scene.me, ball.now[:2], scene.holding, scene.dt))
+        doing = self._machine.step(
+            Situation(scene.me, ball.now[:2], scene.holding, scene.dt, kicker_ready=scene.kicker_ready)
+        )
         if self._machine.state is State.CHASE_BALL:
             return Action(PLAYS, self._machine.state.value, self._meet(scene, ball), dribble=True)
         return self._carried_out(scene, doing)
@@ -165,7 +167,7 @@ class NuBot(Player):
         dribble = (order.point_a.x, order.point_a.y) if order.point_a else self._points.dribble
         reset = (order.point_b.x, order.point_b.y) if order.point_b else self._points.reset
         self._machine.points = Points(dribble, self._points.goal, reset)
-        situation = Situation(scene.me, scene.ball.now[:2], scene.holding, scene.dt)
+        situation = Situation(scene.me, scene.ball.now[:2], scene.holding, scene.dt, kicker_ready=scene.kicker_ready)
         return self._carried_out(scene, self._machine.step(situation))
 
 

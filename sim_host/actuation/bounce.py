@@ -1,0 +1,46 @@
+"""How a ball bounces off the ground: restitution upward, friction between slide and spin, as in a textbook.
+
+The engine's own rebound depends on how deep the ball happens to be in the ground when a step begins, and gives back a
+fifth to a half of a drop of 1 m whatever the coefficient says. So the ground has no restitution in the engine, and the
+step in which a falling ball would reach the ground begins with the velocity and spin that it leaves the ground with.
+"""
+
+import math
+
+from schemas.profile import Ball
+from sim_host.actuation.air import Vector
+from sim_host.world.gravity import GRAVITY
+
+NO_BOUNCE = 0.2
+"""m/s; a slower impact does not bounce. Gravity alone brings 0.05 m/s in a step: below that a ball never rests."""
+
+
+def bounce(ball: Ball, height: float, velocity: Vector, spin: Vector, step: float) -> tuple[Vector, Vector] | None:
+    """Velocity and spin with which to begin a step that ends in a bounce; nothing when the ball does not bounce in it.
+
+    `height`: of the ball's lowest point above the ground, m; `step`: s. The impact falls into the middle of the step,
+    yet the whole step is gone through at the new speed: the height won by that is taken from the speed, so that the
+    ball rises to restitution² of where it fell from.
+    """
+    vx, vy, vz = velocity
+    impact = GRAVITY * step - vz
+    if impact < NO_BOUNCE or height > impact * step:
+        return None
+    up, friction = ball.restitution * impact, ball.friction * (1.0 + ball.restitution) * impact
+    before = max(height, 0.0) / impact
+    rise = math.sqrt(max(up * up - 2.0 * GRAVITY * (max(height, 0.0) + up * before), 0.0))
+    (vx, vy), spin = _rubbed(ball, (vx, vy), spin, friction)
+    return (vx, vy, rise + GRAVITY * step), spin
+
+
+def _rubbed(ball: Ball, velocity: tuple[float, float], spin: Vector, most: float) -> tuple[tuple[float, float], Vector]:
+    """Velocity and spin after friction has taken the slide of the lowest point, or `most` m/s of the ball's speed."""
+    r, (vx, vy), (wx, wy, wz) = ball.radius, velocity, spin
+    slide_x, slide_y = vx - r * wy, vy + r * wx
+    slide = math.hypot(slide_x, slide_y)
+    if slide == 0.0:
+        return velocity, spin
+    turning = ball.mass * r * r / ball.inertia
+    taken = min(most, slide / (1.0 + turning)) / slide
+    dx, dy = taken * slide_x, taken * slide_y
+    return (vx - dx, vy - dy), (wx - turning * dy / r, wy + turning * dx / r, wz)
