@@ -21,6 +21,7 @@ NOTABLE = frozenset(
         EventKind.AGENT,
         EventKind.STALL,
         EventKind.PARAMETERS,
+        EventKind.SCENE,
     }
 )
 """Events that people read about afterwards; stops and restarts are in the recording."""

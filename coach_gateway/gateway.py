@@ -9,8 +9,9 @@ from schemas.game import ActionReply, RefereeAction
 from schemas.host import Setup, SetupRequest
 from schemas.message import BadMessageError, Message
 from schemas.parameters import ParametersReply, ParametersRequest
+from schemas.scene import SceneReply, SceneRequest
 from schemas.side import Side
-from schemas.topics import ACTION, ORDER, PARAMETERS, SETUP, Topic
+from schemas.topics import ACTION, ORDER, PARAMETERS, SCENE, SETUP, Topic
 
 
 class Gateway:
@@ -48,6 +49,15 @@ class Gateway:
             TouchlineError: no host answers for this match.
         """
         reply: ParametersReply = self._ask(PARAMETERS, request)
+        return reply
+
+    def scene(self, request: SceneRequest) -> SceneReply:
+        """Set bodies down, add or remove some, or begin anew; the reply says whether it was accepted, and why not.
+
+        Raises:
+            TouchlineError: no host answers for this match.
+        """
+        reply: SceneReply = self._ask(SCENE, request)
         return reply
 
     def order(self, side: Side, **content: Any) -> CoachOrder:

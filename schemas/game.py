@@ -107,6 +107,8 @@ class GameState(Message):
     """Sign of the x direction that cyan attacks."""
     spot: Point | None = None
     """Where the ball is placed for the restart."""
+    episode: int = 1
+    """Counts the starts: the match's own, each scene that is loaded, each reset."""
 
 
 class GameView(Part):
@@ -119,6 +121,8 @@ class GameView(Part):
     our_score: int
     their_score: int
     spot: Point | None = None
+    episode: int = 1
+    """Another number than before: the world was set up anew, and what was believed of it is void."""
 
 
 class EventKind(StrEnum):
@@ -136,6 +140,7 @@ class EventKind(StrEnum):
     ACTION = "action"
     AGENT = "agent"
     PARAMETERS = "parameters"
+    SCENE = "scene"
 
 
 class GameEvent(Message):

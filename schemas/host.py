@@ -9,6 +9,7 @@ from pydantic import Field
 from schemas.command import Drive, Kick, Radio
 from schemas.match_config import MatchConfig
 from schemas.message import Message, Name, Part
+from schemas.obstacle import StaticObstacle
 from schemas.parameters import ParameterName, Value
 from schemas.profile import STANDARD, Ball, Dribble, Kicker, Profile, RobotBody, TimeSteps
 from schemas.profile import Drive as DriveLimits
@@ -25,12 +26,14 @@ class SetupRequest(Message):
 
 
 class TeamSetup(Part):
-    """One team: its robots in order; the first is the goalkeeper."""
+    """One team: its robots in order."""
 
     name: str
     robots: list[Name]
     types: dict[Name, Name] = {}
     """Robot → its type; a robot that is not named here is a standard one."""
+    goalkeeper: bool = True
+    """The first is the goalkeeper; without one, all play in the field."""
 
 
 class Setup(Message):
@@ -121,12 +124,36 @@ class AppliedInput:
 
 
 class Placement(Part):
-    """A body that was set down by hand: `body` is a robot's name or `ball`; m, rad, field frame, at rest."""
+    """A body that was set down by hand: `body` is a robot's name or `ball`; field frame, at rest unless it says more.
+
+    A ball that is set rolling on the ground rolls without sliding.
+    """
 
     body: Name
     x: float
     y: float
     heading: float = 0.0
+    z: float | None = None
+    """Height of the ball's centre in m; on the ground when not given. Robots stand on the ground."""
+    vx: float = 0.0
+    vy: float = 0.0
+    vz: float = 0.0
+    """Of the ball alone."""
+    omega: float = 0.0
+    """Of a robot alone."""
+
+
+class RosterEntry(Part):
+    """One robot that takes part."""
+
+    name: Name
+    side: Side
+    type: Name = "standard"
+    """As the profile or the match file names it."""
+    agent: bool = True
+    """An agent moves it; without, it stands still wherever it is set down."""
+    keeper: bool = False
+    """It is its side's goalkeeper."""
 
 
 class Applied(Message):
@@ -143,6 +170,12 @@ class Applied(Message):
     """The world was rebuilt from poses and velocities before this tick: re-simulation may begin here."""
     parameters: dict[ParameterName, Value] = {}
     """Live parameters that were changed before this tick, and their new values."""
+    robots: list[RosterEntry] | None = None
+    """Who takes part from this tick on, in the order of the roster; nothing where that is as before."""
+    obstacles: list[StaticObstacle] | None = None
+    """What else stands on the pitch from this tick on; nothing where that is as before."""
+    episode: int = 1
+    """Which start this tick goes back to: the match's is 1, each scene that is loaded and each reset begin another."""
     chain: str
     """blake2b over the state of this tick, keyed with the chain before it; hex."""
 
@@ -162,6 +195,10 @@ class RobotHealth(Part):
     """Commands that answered a tick it had answered already."""
     invalid: int = 0
     """Payloads on its key that were no valid command."""
+    removed: bool = False
+    """Its robot was taken off the pitch: it gets no sights and is not waited for until the robot is put back."""
+    still: bool = False
+    """Its robot stands still in the scene that is played: commands move nothing, and nobody waits for them."""
     refused: int = 0
     """Parts of commands that could not be done."""
     latency_ms: float | None = None

@@ -132,6 +132,8 @@ class MatchConfig(Part):
     pace: Annotated[str, Field(pattern=r"^(lockstep|realtime|x\d+(\.\d+)?)$")] = "lockstep"
     duration: Annotated[float, Field(gt=0, le=86_400)] | None = None
     """Playing time of all halves in s; by default the rule book's."""
+    scene: str | None = None
+    """The scene that the match starts in, by name or path, with its robots; by default everybody at the kick-off."""
     profile: str = "msl"
     rules: str = "friendly"
     teams: Teams = Field(default_factory=Teams)

@@ -16,6 +16,7 @@ from schemas.game import ActionReply, GameEvent, GameState, RefereeAction
 from schemas.host import Applied, Belief, Health, Invalid, RecorderProgress, Setup, SetupRequest
 from schemas.message import Message
 from schemas.parameters import ParametersReply, ParametersRequest
+from schemas.scene import SceneReply, SceneRequest
 from schemas.sight import Sight
 from schemas.world import BallFrame, RobotFrame, World
 
@@ -220,6 +221,17 @@ PARAMETERS = Topic(
     "live parameters: listed, read, set, reset; refused with the reason",
     reply=ParametersReply,
 )
+SCENE = Topic(
+    "host/scene",
+    SceneRequest,
+    Party.OPERATOR,
+    (Party.HOST,),
+    "at will",
+    Delivery.QUERY,
+    False,
+    "load a scene, place, add or remove bodies, begin anew; refused with the reason",
+    reply=SceneReply,
+)
 APPLIED = Topic(
     "host/applied",
     Applied,
@@ -284,6 +296,7 @@ TOPICS: dict[str, Topic] = {
     "action": ACTION,
     "setup": SETUP,
     "parameters": PARAMETERS,
+    "scene": SCENE,
     "applied": APPLIED,
     "health": HEALTH,
     "invalid": INVALID,

@@ -65,6 +65,8 @@ class World(Message):
     """Game clock in s."""
     obstacles: dict[Name, ObstacleTruth] = {}
     """What else stands on the pitch; not said while there is nothing."""
+    episode: int = 1
+    """Counts the starts: the match's own, each scene that is loaded, each reset. Ticks and time go on."""
 
 
 class RobotFrame(Message):

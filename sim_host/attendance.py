@@ -8,6 +8,9 @@ from sim_host.inbox import Ledger
 WINDOW = 250
 """Ticks; a lockstep host runs this far ahead of a recorder at most, well within what its writers keep for recovery."""
 
+_KNOWN = 100
+"""Agents that are remembered by name; a flood of invented names must not fill the memory."""
+
 
 class Attendance:
     """Presence of agents and recorders."""
@@ -16,6 +19,8 @@ class Attendance:
         self._watch = bus.watch_alive()
         self._progress = bus.subscribe(PROGRESS)
         self._ledgers = ledgers
+        self._agents: dict[str, bool] = {}
+        """Everyone who came as an agent, also for a robot that does not play yet: whether it is there."""
         self.recorders: dict[str, int] = {}
         """Recorder → the newest tick it has taken in."""
 
@@ -24,6 +29,8 @@ class Attendance:
         changed = []
         presence = self._watch.receive(timeout)
         while presence is not None:
+            if presence.kind == "agent" and (presence.name in self._agents or len(self._agents) < _KNOWN):
+                self._agents[presence.name] = presence.alive
             if presence.kind == "agent" and presence.name in self._ledgers:
                 self._ledgers[presence.name].alive = presence.alive
                 self._ledgers[presence.name].silent = 0
@@ -33,6 +40,11 @@ class Attendance:
             presence = self._watch.receive(0.0)
         self.hear_recorders(0.0)
         return changed
+
+    def follow(self) -> None:
+        """Other robots take part: some of their agents may have come before them."""
+        for name, ledger in self._ledgers.items():
+            ledger.alive = self._agents.get(name, ledger.alive)
 
     def hear_recorders(self, timeout: float) -> None:
         """Take in how far the recorders are, waiting up to `timeout` s for word of it."""
@@ -55,7 +67,7 @@ class Attendance:
 
     def all_here(self, wait_for_recorder: bool) -> bool:
         """Every robot's agent is there, and a recorder where one is waited for."""
-        agents = all(ledger.alive for ledger in self._ledgers.values())
+        agents = all(ledger.alive or ledger.idle for ledger in self._ledgers.values())
         return agents and (bool(self.recorders) or not wait_for_recorder)
 
     def behind(self, tick: int) -> dict[str, int]:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from schemas.bus.contract import Bus
 from schemas.game import ActionReply, RefereeAction
-from schemas.topics import PARAMETERS, SETUP
+from schemas.topics import PARAMETERS, SCENE, SETUP
 from sim_host.clerks.actions import ActionClerk
 from sim_host.clerks.orders import OrderClerk
 from sim_host.clerks.prompt import PromptClerk
@@ -18,6 +18,7 @@ class Desk:
     def __init__(self, bus: Bus, simulation: Simulation, complaints: Complaints) -> None:
         self._setup = PromptClerk(bus, SETUP, lambda _: simulation.setup(), complaints)
         self._parameters = PromptClerk(bus, PARAMETERS, simulation.parameters, complaints)
+        self._scene = PromptClerk(bus, SCENE, simulation.scene, complaints)
         self._orders = OrderClerk(bus, simulation.orders, complaints)
         self._actions = ActionClerk(bus, complaints)
 
@@ -31,7 +32,7 @@ class Desk:
 
         Who asks for the setup after giving an order knows by the answer that the order was taken in.
         """
-        for clerk in (self._orders, self._parameters, self._setup, self._actions):
+        for clerk in (self._orders, self._parameters, self._scene, self._setup, self._actions):
             clerk.attend()
 
     def tell_setup(self) -> None:

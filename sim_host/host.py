@@ -31,7 +31,8 @@ class Host:
         self.pace = _pace(config, bus, self.inbox, self.attendance, self._desk, self.simulation.profile)
         self._outbox = Outbox(bus, self.simulation.roster, self.simulation.profile.time.tick)
         self._pulse = Pulse(bus.clock, config.pace)
-        self._silent = dict.fromkeys(self.simulation.roster.names, False)
+        self._roster = self.simulation.roster
+        self._silent = dict.fromkeys(self._roster.names, False)
         self.leaving = False
         """Somebody has told the host to end the match."""
         self._stamp(0)
@@ -57,7 +58,7 @@ class Host:
             if self.leaving:
                 return
             self.attendance.update(timeout=0.02)
-            self._desk.attend()
+            self._attend()
             self._report(self.simulation.now)
             if self._desk.actions:
                 return
@@ -74,7 +75,7 @@ class Host:
         """One tick: hear the robots, move the world, tell everyone."""
         commands = self.pace.gather(self.simulation.now.tick, self._outbox.sight_again)
         self.attendance.update()
-        self._desk.attend()
+        self._attend()
         self._stamp(self.simulation.now.tick + 1)
         tick = self.simulation.step(commands, self._desk.actions, self._send_sight)
         self._outbox.truth(tick, self.simulation.state)
@@ -94,6 +95,17 @@ class Host:
             if not any(self.attendance.behind(last).values()):
                 return
 
+    def _attend(self) -> None:
+        """Answer who asks, and follow an operator who lets other robots take part."""
+        self._desk.attend()
+        roster = self.simulation.roster
+        if (roster.names, roster.sides, roster.still) != (self._roster.names, self._roster.sides, self._roster.still):
+            self.inbox.follow(roster)
+            self.attendance.follow()
+            self._outbox.follow(roster)
+            self._silent = {name: self._silent.get(name, False) for name in roster.names}
+        self._roster = roster
+
     def _send_sight(self, robot: str, sight: bytes) -> None:
         """Sights go out before anything else: robots wait for them, watchers do not."""
         if robot == self.simulation.roster.names[0]:
@@ -108,8 +120,10 @@ class Host:
         """Note what was refused, and say when a robot falls silent or is heard again."""
         for name, count in tick.refused.items():
             self.inbox.ledgers[name].refused += count
-        for name, ledger in self.inbox.ledgers.items():
-            was_silent = self._silent[name]
+        for name, was_silent in self._silent.items():
+            ledger = self.inbox.ledgers[name]
+            if ledger.idle:
+                continue
             fell = not ledger.alive or ledger.silent >= self.pace.silent_ticks
             silent = fell or (was_silent and not ledger.answering)
             if silent == was_silent:

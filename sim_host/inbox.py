@@ -37,21 +37,30 @@ class Ledger:
     refused: int = 0
     silent: int = 0
     """Ticks missed in a row."""
+    removed: bool = False
+    """Its robot was taken off the pitch."""
+    still: bool = False
+    """Its robot stands still, whatever it says."""
     newest: int = -1
     """Tick of the newest sight it has answered."""
     latencies: deque[float] = field(default_factory=lambda: deque(maxlen=_LATENCIES))
 
     @property
     def is_silent(self) -> bool:
-        """Not worth waiting for: gone, or without an answer to several ticks."""
-        return not self.alive or self.silent >= SILENT_TICKS
+        """Not worth waiting for: idle, gone, or without an answer to several ticks."""
+        return self.idle or not self.alive or self.silent >= SILENT_TICKS
+
+    @property
+    def idle(self) -> bool:
+        """There is nothing for it to do."""
+        return self.removed or self.still
 
     def end_tick(self, answered: bool) -> None:
         """A tick went by, with its answer or without."""
         self.answering = answered
         if answered:
             self.silent = 0
-        else:
+        elif not self.idle:
             self.missed += 1
             self.silent += 1
 
@@ -69,6 +78,8 @@ class Ledger:
             duplicates=self.duplicates,
             invalid=self.invalid,
             refused=self.refused,
+            removed=self.removed,
+            still=self.still,
             latency_ms=round(median(self.latencies) * 1e3, 3) if self.latencies else None,
         )
 
@@ -79,9 +90,19 @@ class Inbox:
     def __init__(self, bus: Bus, roster: Roster, complaints: Complaints) -> None:
         self._commands = bus.subscribe(COMMAND)
         self._complaints = complaints
-        self.ledgers = {name: Ledger() for name in roster.names}
+        self.ledgers: dict[str, Ledger] = {}
         self.strangers: dict[str, int] = {}
         self._sent_at: deque[tuple[int, int]] = deque(maxlen=_LATENCIES)
+        self.follow(roster)
+
+    def follow(self, roster: Roster) -> None:
+        """Hear these robots from now on; the accounts of those that were removed are kept."""
+        for name, ledger in self.ledgers.items():
+            ledger.removed = name not in roster.names
+        for name in roster.names:
+            ledger = self.ledgers.setdefault(name, Ledger())
+            ledger.still = name in roster.still
+            ledger.silent = 0
 
     def sights_sent(self, tick: int, unix_ns: int) -> None:
         """Remember when the sights of a tick went out, for the latency of their answers."""
@@ -112,6 +133,8 @@ class Inbox:
         if ledger is None:
             self._stranger(received)
             return None
+        if ledger.removed:
+            return None  # it answers what it saw before it was removed
         try:
             command: Command = received.message()
             if command.answers_tick > tick:

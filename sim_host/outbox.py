@@ -21,7 +21,7 @@ class Outbox:
     """All writers of the host."""
 
     def __init__(self, bus: Bus, roster: Roster, tick_s: float) -> None:
-        self._roster = roster
+        self._bus = bus
         self._world = bus.publisher(WORLD)
         self._applied = bus.publisher(APPLIED)
         self._state = bus.publisher(STATE)
@@ -29,16 +29,25 @@ class Outbox:
         self._health = bus.publisher(HEALTH)
         self._invalid = bus.publisher(INVALID)
         self._ball = bus.publisher(WORLD_BALL)
-        self._sights = {name: bus.publisher(SIGHT, robot=name) for name in roster.names}
-        self._robots = {name: bus.publisher(WORLD_ROBOT, robot=name) for name in roster.names}
-        self._beliefs = {
-            name: bus.publisher(BELIEF, side=side.value, robot=name)
-            for name, side in zip(roster.names, roster.sides, strict=True)
-        }
         self._sent: dict[str, bytes] = {}
         self._wanted: list[tuple[Publisher, str | None]] = []
+        self._sights: dict[str, Publisher] = {}
+        self._robots: dict[str, Publisher] = {}
+        self._beliefs: dict[tuple[str, Side], Publisher] = {}
+        self.follow(roster)
         self._said: tuple[Any, ...] = ()
         self._state_every = round(_STATE_S / tick_s)
+
+    def follow(self, roster: Roster) -> None:
+        """Speak to and of these robots from now on; a writer that was there before counts on."""
+        self._roster = roster
+        for name, side in zip(roster.names, roster.sides, strict=True):
+            if name not in self._sights:
+                self._sights[name] = self._bus.publisher(SIGHT, robot=name)
+                self._robots[name] = self._bus.publisher(WORLD_ROBOT, robot=name)
+            if (name, side) not in self._beliefs:
+                self._beliefs[name, side] = self._bus.publisher(BELIEF, side=side.value, robot=name)
+        self._wanted = []
 
     def sight(self, robot: str, sight: bytes) -> None:
         """Send a robot what it perceives."""
@@ -46,19 +55,31 @@ class Outbox:
         self._sent[robot] = sight
 
     def sight_again(self, robot: str) -> None:
-        """Send one robot its newest sight once more."""
+        """Send one robot that plays its newest sight once more."""
+        if robot not in self._roster.names or robot not in self._sent:
+            return
         self._sights[robot].put_payload(self._sent[robot])
 
     def truth(self, tick: Tick, state: RefereeState) -> None:
         """Send world, inputs, words, events, and the game's state when it changed or once a second."""
         for event in tick.events:
             self._event.put(event)
-        news = (state.phase, state.side, state.running, state.half, state.score, state.cyan_attacks, state.spot)
+        episode = tick.world["episode"]
+        news = (
+            state.phase,
+            state.side,
+            state.running,
+            state.half,
+            state.score,
+            state.cyan_attacks,
+            state.spot,
+            episode,
+        )
         if news != self._said or tick.tick % self._state_every == 0:
-            self._state.put(state.game_state(tick.tick, tick.time))
+            self._state.put(state.game_state(tick.tick, tick.time, episode))
             self._said = news
-        for _, robot, fields in tick.beliefs:
-            self._beliefs[robot].put_fields(fields)
+        for side, robot, fields in tick.beliefs:
+            self._beliefs[robot, side].put_fields(fields)
         self._world.put_fields(tick.world)
         self._applied.put_fields(tick.applied)
         self._bodies(tick)
@@ -78,7 +99,7 @@ class Outbox:
     def _bodies(self, tick: Tick) -> None:
         """Send single bodies to those who listen for them."""
         if tick.tick % _LOOK_EVERY == 0:
-            pairs = [(self._ball, None), *((writer, name) for name, writer in self._robots.items())]
+            pairs = [(self._ball, None), *((self._robots[name], name) for name in self._roster.names)]
             self._wanted = [(writer, name) for writer, name in pairs if writer.wanted()]
         for writer, name in self._wanted:
             head: dict[str, Any] = {"tick": tick.tick, "time": tick.time}

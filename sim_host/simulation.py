@@ -11,20 +11,24 @@ from schemas.coach import CoachOrder
 from schemas.command import Command
 from schemas.errors import TouchlineError
 from schemas.game import ActionReply, EventKind, GameEvent, Phase, RefereeAction
-from schemas.host import AppliedInput, Placement, Setup
+from schemas.host import AppliedInput, Placement, Setup, TeamSetup
 from schemas.match_config import MatchConfig
 from schemas.parameters import ParameterDeed, ParametersReply, ParametersRequest, Value
-from schemas.profile import Profile
+from schemas.profile import STANDARD, Profile
 from schemas.rule_book import RuleBook, load_rule_book
+from schemas.scene import SceneReply, SceneRequest, load_scene
 from schemas.side import Side
 from sim_host.actuation.commands import Commands
+from sim_host.due import Due
 from sim_host.radio import RadioAir
 from sim_host.referee.core import Referee, Ruling
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.streams import Streams
 from sim_host.sights import Send, Sights
 from sim_host.snapshot import ObstacleState, Roster, Snapshot
-from sim_host.start import start_poses
+from sim_host.staging.deeds import Scenes, do
+from sim_host.staging.stage import BALL, Rig, Stage, Staged, check, opened
+from sim_host.start import start_poses, start_scene
 from sim_host.tuning import Tuning
 from sim_host.world.engine import fingerprint
 from sim_host.world.world import World
@@ -54,19 +58,6 @@ class Tick:
     """Robot → how many parts of its command could not be done."""
 
 
-@dataclass(slots=True)
-class _Due:
-    """What happens between two ticks: decided by the referee in the last one, or by an operator since."""
-
-    placements: list[Placement] = field(default_factory=list)
-    is_checkpoint: bool = False
-    parameters: dict[str, Value] = field(default_factory=dict)
-    remake: bool = False
-    """The world is built with numbers that have changed."""
-    said: list[tuple[EventKind, str, str]] = field(default_factory=list)
-    """Kind, rule and sentence of each event that tells of it."""
-
-
 def _keep(robot: str, sight: bytes) -> None:
     """Send nothing: whoever steps the simulation finds the sights in its tick."""
 
@@ -79,31 +70,27 @@ class Simulation:
         self.tuning = Tuning.of(config)
         """The numbers in force from the next tick on."""
         self.book: RuleBook = load_rule_book(config.rules)
-        p = self.profile
-        self.roster = Roster.of(config, p)
         self._streams = Streams(config.seed)
         self._engine = fingerprint()
-        starts = start_poses(self.roster, p.field)
-        self.referee = Referee(
-            self.book,
-            p.field,
-            p.ball,
-            self.roster,
-            duration=config.duration,
-            kick_off=config.referee.kick_off,
-            automatic=config.referee.automatic,
-            starts=starts,
-        )
-        self.state = self.referee.begin()
-        self.world = World(p, self.roster)
-        for obstacle in config.obstacles:
+        start = load_scene(config.scene) if config.scene is not None else start_scene(config, self.profile)
+        self._scenes = Scenes(start, start)
+        began = opened(start, "")
+        if config.scene is not None:
+            check(began.stage, self._rig(), began.stage.names)
+        self._stage = began.stage
+        self.episode = 1
+        """Counts the starts: the match's own, each scene that is loaded, each reset."""
+        self.roster = Roster.cast(self._stage.robots, self.tuning.types)
+        """Who takes part from the next tick on."""
+        self.referee = self._make_referee()
+        self.state = self.referee.begin_at(start.game, began.ball)
+        self.world = World(self.profile, self.roster)
+        for obstacle in self._stage.obstacles:
             self.world.put_obstacle(obstacle)
         self.orders: dict[Side, CoachOrder] = {}
-        self._commands = Commands(self.roster.names, p.safety.watchdog / p.time.tick)
-        self._radio = RadioAir(p.radio, self.roster, p.time.tick, self._streams)
-        self._perception = Perception(self.tuning.sensing, self.roster, self._streams, p.time.tick)
-        self._sights = Sights(self.roster, self._perception, self._radio)
-        self._due = _Due([Placement(body=n, x=at.x, y=at.y, heading=at.heading) for n, at in starts.items()])
+        self._commands = Commands(self.roster.names, self._watchdog, self.roster.still)
+        self._begin_senses()
+        self._due = Due(began.placements)
         self.now = self._begin()
 
     @property
@@ -126,18 +113,25 @@ class Simulation:
         `send` is given each robot's sight as soon as it is written: robots think while the rest is still done.
         """
         done = self._change_world()
+        if done.begins_anew:
+            commands = {}
         inputs = self._commands.inputs(self.world.tick, commands)
         advance = self.world.advance(inputs)
         snapshot = advance.snapshot
         refusals = {name: [reason] for name, reason in advance.refused.items()}
+        for name in self.roster.still:
+            if name in commands:
+                refusals.setdefault(name, []).append("command: this robot stands still in the scene")
         beliefs = self._talk(snapshot, commands, refusals)
         ruling = self.referee.step(self.state, snapshot, actions, self.profile.time.tick)
         self._follow(ruling)
-        sights = self._sights.at(snapshot, self.state, advance.stuck, self.orders, commands, refusals, send)
+        sights = self._sights.at(
+            snapshot, self.state, self.episode, advance.stuck, self.orders, commands, refusals, send
+        )
         self.now = Tick(
             tick=snapshot.tick,
             time=snapshot.time,
-            world=_world_fields(snapshot, advance.stuck, self.state.clock),
+            world=_world_fields(snapshot, advance.stuck, self.state.clock, self.episode),
             sights=sights,
             applied=self._applied(snapshot, inputs, done),
             beliefs=beliefs,
@@ -168,10 +162,33 @@ class Simulation:
             self._due.said.append((EventKind.PARAMETERS, request.deed.value, text))
         return ParametersReply(accepted=True, parameters=described)
 
+    def scene(self, request: SceneRequest) -> SceneReply:
+        """Load a scene, place, add or remove bodies, or begin anew: before the next tick, or refused whole."""
+        try:
+            if self.over:
+                raise TouchlineError("the match is over")
+            staged, self._scenes = do(self._stage_now(), request, self._scenes, self._rig())
+        except TouchlineError as error:
+            return SceneReply(accepted=False, reason=str(error), episode=self.episode)
+        self._carry_out(staged)
+        follows = f"; episode {self.episode} begins" if staged.game is not None else ""
+        self._due.said.append((EventKind.SCENE, request.deed.value, f"{request.source} {staged.says}{follows}"))
+        return SceneReply(accepted=True, episode=self.episode)
+
     def setup(self) -> Setup:
         """What agents and viewers must know before the first tick."""
         p, changed = self.profile, self.tuning.since(self.tuning.at_start)
-        return Setup.of(self.config, p, self.book, self._engine, changed)
+        setup = Setup.of(self.config, p, self.book, self._engine, changed)
+        return setup.model_copy(update={"teams": {side: self._team_setup(side) for side in Side}})
+
+    def _team_setup(self, side: Side) -> TeamSetup:
+        robots = [entry for entry in self._stage.robots if entry.side is side]
+        return TeamSetup(
+            name=self.config.team(side).name or side.value,
+            robots=[entry.name for entry in robots],
+            types={entry.name: entry.type for entry in robots if entry.type != STANDARD},
+            goalkeeper=side in self.roster.keepers,
+        )
 
     def _begin(self) -> Tick:
         """Tick 0: everybody has been set down, nobody has moved."""
@@ -182,16 +199,16 @@ class Simulation:
         return Tick(
             tick=snapshot.tick,
             time=snapshot.time,
-            world=_world_fields(snapshot, stuck, self.state.clock),
-            sights=self._sights.at(snapshot, self.state, stuck, self.orders, {}, {}, _keep),
+            world=_world_fields(snapshot, stuck, self.state.clock, self.episode),
+            sights=self._sights.at(snapshot, self.state, self.episode, stuck, self.orders, {}, {}, _keep),
             applied=self._applied(snapshot, {}, done),
         )
 
-    def _change_world(self) -> _Due:
+    def _change_world(self) -> Due:
         """What is due happens, in this order: other numbers, bodies placed, the world rebuilt; returns what was."""
-        done, self._due = self._due, _Due()
+        done, self._due = self._due, Due()
         if done.remake:
-            self.world.remake(self.profile, self.roster)
+            self.world.remake(self.profile, self.roster, self._stage.obstacles)
         self.world.place(done.placements)
         if done.is_checkpoint:
             self.world.rebuild()
@@ -204,13 +221,71 @@ class Simulation:
             self._radio.change(new.radio)
         if self.tuning.sensing != before.sensing:
             self._perception.change(self.tuning.sensing)
-        if new.safety != old.safety:
-            self._commands = self._commands.with_watchdog(new.safety.watchdog / new.time.tick)
         if replace(new, radio=old.radio, safety=old.safety, sensing=old.sensing) != old:
-            self.roster = self.roster.tuned(new)
+            self.roster = Roster.cast(self._stage.robots, self.tuning.types)
             self._due.remake = self._due.is_checkpoint = True
+        self._commands = self._commands.handed_on(self.roster.names, self._watchdog, self.roster.still)
 
-    def _told(self, done: _Due, snapshot: Snapshot) -> Iterator[GameEvent]:
+    def _stage_now(self) -> Stage:
+        """The stage, with bodies where they are or are about to be set down."""
+        snapshot = self.world.snapshot()
+        ball = snapshot.ball
+        at = {BALL: Placement(body=BALL, x=ball.x, y=ball.y, z=ball.z)}
+        for name, robot in zip(snapshot.roster.names, snapshot.robots, strict=True):
+            at[name] = Placement(body=name, x=robot.x, y=robot.y, heading=robot.heading)
+        at.update({one.body: one for one in self._due.placements})
+        return replace(self._stage, at=at)
+
+    def _carry_out(self, staged: Staged) -> None:
+        """Let everybody take what an operator has done to the stage; the world does so before the next tick."""
+        before, self._stage, due = self._stage, staged.stage, self._due
+        anew = staged.game is not None
+        due.place(staged.placements, [] if anew else self._stage.names)
+        due.recast = due.recast or self._stage.robots != before.robots
+        due.rebuilt = due.rebuilt or self._stage.obstacles != before.obstacles
+        due.remake = due.remake or due.recast or due.rebuilt or anew
+        due.begins_anew = due.begins_anew or anew
+        self.roster = Roster.cast(self._stage.robots, self.tuning.types)
+        self.referee = self._make_referee()
+        if staged.game is not None:
+            self.episode += 1
+            self.state = self.referee.begin_at(staged.game, staged.ball)
+        elif self.state.last_touch not in self.roster.names:
+            self.state = replace(self.state, last_touch=None)
+        if anew or self._stage.robots != before.robots:
+            self._begin_senses()
+        self._commands = self._commands.handed_on(self.roster.names, self._watchdog, self.roster.still)
+
+    def _rig(self) -> Rig:
+        return Rig(self.profile.field, self.profile.ball, self.tuning.types)
+
+    @property
+    def _watchdog(self) -> float:
+        """Ticks."""
+        return self.profile.safety.watchdog / self.profile.time.tick
+
+    def _begin_senses(self) -> None:
+        """Radio and sensors of those who take part now: nothing was said or seen yet."""
+        p = self.profile
+        self._radio = RadioAir(p.radio, self.roster, p.time.tick, self._streams)
+        self._perception = Perception(self.tuning.sensing, self.roster, self._streams, p.time.tick)
+        self._sights = Sights(self.roster, self._perception, self._radio)
+
+    def _make_referee(self) -> Referee:
+        """The referee of those who take part now; what happened so far is in its state."""
+        p, config = self.profile, self.config
+        return Referee(
+            self.book,
+            p.field,
+            p.ball,
+            self.roster,
+            duration=config.duration,
+            kick_off=config.referee.kick_off,
+            automatic=config.referee.automatic,
+            starts=start_poses(self.roster, p.field),
+        )
+
+    def _told(self, done: Due, snapshot: Snapshot) -> Iterator[GameEvent]:
         """The events of what was done between the ticks."""
         for kind, rule, text in done.said:
             yield GameEvent(
@@ -219,7 +294,7 @@ class Simulation:
 
     def _follow(self, ruling: Ruling) -> None:
         self.state = ruling.state
-        self._due = _Due(list(ruling.placements), ruling.checkpoint)
+        self._due = Due(list(ruling.placements), ruling.checkpoint)
 
     def _talk(
         self, snapshot: Snapshot, commands: Mapping[str, Command], refusals: dict[str, list[str]]
@@ -238,18 +313,13 @@ class Simulation:
             beliefs.append((self.roster.side_of(name), name, fields))
         return beliefs
 
-    def _applied(self, snapshot: Snapshot, inputs: Mapping[str, AppliedInput], done: _Due) -> Fields:
-        fields: Fields = {
-            "tick": snapshot.tick,
-            "time": snapshot.time,
-            "inputs": inputs,
-            "placements": done.placements,
-            "checkpoint": done.is_checkpoint,
-        }
-        if done.parameters:
-            fields["parameters"] = done.parameters
-        fields["chain"] = self.world.chain()
-        return fields
+    def _applied(self, snapshot: Snapshot, inputs: Mapping[str, AppliedInput], done: Due) -> Fields:
+        fields: Fields = {"tick": snapshot.tick, "time": snapshot.time, "inputs": inputs, **done.noted()}
+        if done.recast:
+            fields["robots"] = self._stage.robots
+        if done.rebuilt:
+            fields["obstacles"] = self._stage.obstacles
+        return {**fields, "episode": self.episode, "chain": self.world.chain()}
 
 
 def _in_words(value: Value) -> str:
@@ -262,7 +332,7 @@ def _obstacle_fields(obstacle: ObstacleState) -> Fields:
     return fields
 
 
-def _world_fields(snapshot: Snapshot, stuck: list[bool], clock: float) -> Fields:
+def _world_fields(snapshot: Snapshot, stuck: list[bool], clock: float, episode: int) -> Fields:
     ball = snapshot.ball
     fields = {
         "tick": snapshot.tick,
@@ -285,6 +355,7 @@ def _world_fields(snapshot: Snapshot, stuck: list[bool], clock: float) -> Fields
         "ball": ball._asdict(),
         "possession": snapshot.possession,
         "clock": clock,
+        "episode": episode,
     }
     if snapshot.obstacles:
         fields["obstacles"] = {obstacle.name: _obstacle_fields(obstacle) for obstacle in snapshot.obstacles}

@@ -1,8 +1,10 @@
 """The state of the world at one tick, as plain numbers in the field frame: what the referee and the sensors look at."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
+from schemas.host import RosterEntry
 from schemas.match_config import MatchConfig
 from schemas.obstacle import Shape, StaticObstacle
 from schemas.profile import Profile
@@ -66,6 +68,8 @@ class Roster:
     sides: tuple[Side, ...]
     keepers: dict[Side, str]
     models: tuple[RobotModel, ...]
+    still: tuple[str, ...] = ()
+    """Robots that no agent moves."""
 
     @classmethod
     def of(cls, config: MatchConfig, profile: Profile) -> "Roster":
@@ -82,9 +86,16 @@ class Roster:
             models=tuple(models[name] for name, _ in members),
         )
 
-    def tuned(self, profile: Profile) -> "Roster":
-        """The same robots with the numbers of a profile that knows their types."""
-        return replace(self, models=tuple(RobotModel.of_type(profile, model.type) for model in self.models))
+    @classmethod
+    def cast(cls, robots: Sequence[RosterEntry], types: Mapping[str, RobotModel]) -> "Roster":
+        """These robots, in this order, with the models of their types."""
+        return cls(
+            names=tuple(entry.name for entry in robots),
+            sides=tuple(entry.side for entry in robots),
+            keepers={entry.side: entry.name for entry in robots if entry.keeper},
+            models=tuple(types[entry.type] for entry in robots),
+            still=tuple(entry.name for entry in robots if not entry.agent),
+        )
 
     def side_of(self, name: str) -> Side:
         """The side of a robot."""

@@ -12,6 +12,7 @@ from schemas.noise import PRESETS, sensing_of
 from schemas.parameters import Parameter, ParameterDeed, ParametersRequest, Value
 from schemas.profile import SECTIONS, Profile, Sensing, check_consistent, load_profile
 from schemas.quantity import Choice, Quantity, checked, meanings
+from schemas.robot_model import RobotModel, types_of
 
 PRESET = "noise.preset"
 """The one parameter that is no number of the profile: whose noise robots perceive with."""
@@ -79,6 +80,11 @@ class Tuning:
     def at_start(self) -> "Tuning":
         """What the match began with."""
         return Tuning(self.initial, self.initial_preset, self.initial, self.initial_preset)
+
+    @property
+    def types(self) -> dict[str, RobotModel]:
+        """Every type that a robot may have."""
+        return types_of(self.profile)
 
     @property
     def sensing(self) -> Sensing:

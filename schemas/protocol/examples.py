@@ -21,6 +21,7 @@ from schemas.host import (
     Belief,
     Health,
     Invalid,
+    Placement,
     RecorderProgress,
     RobotHealth,
     Setup,
@@ -31,6 +32,7 @@ from schemas.message import Message
 from schemas.parameters import Parameter, ParameterDeed, ParametersReply, ParametersRequest
 from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
+from schemas.scene import SceneDeed, SceneReply, SceneRequest
 from schemas.side import Side
 from schemas.sight import BallSight, Heard, Obstacle, Outcome, Sight
 from schemas.world import BallFrame, BallTruth, RobotFrame, RobotTruth, World
@@ -135,6 +137,8 @@ def _host() -> tuple[Message, ...]:
         SetupRequest(),
         _setup(),
         *_parameters(),
+        SceneRequest(deed=SceneDeed.PLACE, place=[Placement(body="ball", x=2.0, y=-1.0, vx=3.0)]),
+        SceneReply(accepted=True, episode=1),
         Applied(
             tick=_TICK + 1,
             time=_TIME + 0.02,

@@ -14,16 +14,18 @@ class Commands:
     A command is as old as the sight it answers, so that a burst of stale ones after a broken link moves nobody.
     """
 
-    def __init__(self, names: tuple[str, ...], watchdog_ticks: float) -> None:
+    def __init__(self, names: tuple[str, ...], watchdog_ticks: float, still: tuple[str, ...] = ()) -> None:
+        """Robots that stand `still` rest, whatever they are told."""
         self._names = names
+        self._still = still
         self._watchdog = watchdog_ticks
         self._standing: dict[str, Command] = {}
 
-    def with_watchdog(self, watchdog_ticks: float) -> "Commands":
-        """The same with another limit."""
-        changed = Commands(self._names, watchdog_ticks)
-        changed._standing = dict(self._standing)
-        return changed
+    def handed_on(self, names: tuple[str, ...], watchdog_ticks: float, still: tuple[str, ...]) -> "Commands":
+        """For other robots or another limit: who stays has been told what it was told."""
+        heir = Commands(names, watchdog_ticks, still)
+        heir._standing = {name: command for name, command in self._standing.items() if name in names}
+        return heir
 
     def inputs(self, tick: int, fresh: Mapping[str, Command]) -> dict[str, AppliedInput]:
         """The inputs of this tick; a kick is part of the tick its command arrives in, and of no other."""
@@ -32,7 +34,7 @@ class Commands:
 
     def _input(self, name: str, tick: int, is_fresh: bool) -> AppliedInput:
         command = self._standing.get(name)
-        if command is None or tick - command.answers_tick > self._watchdog:
+        if command is None or name in self._still or tick - command.answers_tick > self._watchdog:
             return _REST
         if is_fresh:
             return AppliedInput(command.drive, command.dribble, command.kick, command.answers_tick)

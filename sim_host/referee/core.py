@@ -1,20 +1,22 @@
 """The referee: (state, snapshot, actions, dt) → ruling; it remembers nothing and sees nothing else."""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from schemas.frames import Pose
-from schemas.game import ActionReply, GameEvent, Phase, RefereeAction
+from schemas.game import RESTARTS, ActionReply, GameEvent, Phase, RefereeAction
 from schemas.host import Placement
 from schemas.profile import Ball, Field
 from schemas.rule_book import RuleBook
+from schemas.scene import SceneGame
 from schemas.side import Side
 from sim_host.referee.actions import obey
 from sim_host.referee.flow import carry_out, progress
 from sim_host.referee.match import Match
 from sim_host.referee.rules import first_decision
 from sim_host.referee.scene import look
-from sim_host.referee.state import RefereeState
+from sim_host.referee.state import RefereeState, Spot
 from sim_host.referee.turn import Turn
 from sim_host.snapshot import Roster, Snapshot
 
@@ -67,6 +69,21 @@ class Referee:
     def begin(self) -> RefereeState:
         """The state before the first tick."""
         return RefereeState(Phase.PRE_GAME, half_limit=self._match.half_duration, kick_off=self._match.kick_off)
+
+    def begin_at(self, game: SceneGame, ball: Spot) -> RefereeState:
+        """The state with which a scene begins: in the first half, a restart to be taken from where the ball lies."""
+        is_restart = game.phase in RESTARTS
+        running = game.running or game.phase is Phase.PLAY
+        return dataclasses.replace(
+            self.begin(),
+            phase=game.phase,
+            side=game.side,
+            spot=ball if is_restart else None,
+            running=running,
+            clock=game.clock,
+            clock_runs=running or game.phase not in (Phase.PRE_GAME, Phase.KICK_OFF),
+            score=game.score,
+        )
 
     def step(self, state: RefereeState, snapshot: Snapshot, actions: Sequence[RefereeAction], dt: float) -> Ruling:
         """Judge one tick of `dt` in s: the rules on what happened, then the actions, then what time brings."""

@@ -30,7 +30,7 @@ class LineUp(NamedTuple):
     def is_keeper(self, index: int) -> bool:
         """Whether a robot is its side's goalkeeper."""
         roster = self.match.roster
-        return roster.keepers[roster.sides[index]] == roster.names[index]
+        return roster.keepers.get(roster.sides[index]) == roster.names[index]
 
 
 def standing_wrong(match: Match, state: RefereeState, restart: Restart, snapshot: Snapshot) -> str | None:

@@ -61,8 +61,8 @@ class RefereeState:
         """Sign of the x direction that a side attacks."""
         return side.attack(self.cyan_attacks)
 
-    def game_state(self, tick: int, time: float) -> GameState:
-        """The state as it is published, at that tick and simulated time in s."""
+    def game_state(self, tick: int, time: float, episode: int = 1) -> GameState:
+        """The state as it is published, at that tick and simulated time in s, of that episode."""
         return GameState(
             tick=tick,
             time=time,
@@ -74,6 +74,7 @@ class RefereeState:
             score=self.score,
             cyan_attacks=self.cyan_attacks,
             spot=point(self.spot),
+            episode=episode,
         )
 
 

@@ -15,7 +15,7 @@ TEAM_PHASES: dict[tuple[Phase, Side | None, Side], str] = {
 """Phase, taker and viewer → the phase's name from the viewer's point of view."""
 
 
-def game_view(state: RefereeState, side: Side) -> dict[str, Any]:
+def game_view(state: RefereeState, side: Side, episode: int = 1) -> dict[str, Any]:
     """The fields of a `schemas.game.GameView`; `spot` in m, in the side's team frame."""
     cyan = side is Side.CYAN
     score, spot = state.score, state.spot
@@ -28,4 +28,5 @@ def game_view(state: RefereeState, side: Side) -> dict[str, Any]:
         "our_score": score.cyan if cyan else score.magenta,
         "their_score": score.magenta if cyan else score.cyan,
         "spot": None if spot is None else {"x": attack * spot[0], "y": attack * spot[1]},
+        "episode": episode,
     }

@@ -78,16 +78,17 @@ class World:
         self._chassis.forget()
         self._look()
 
-    def remake(self, profile: Profile, roster: Roster) -> None:
-        """Build the world anew with other numbers or robots; makes a checkpoint.
+    def remake(self, profile: Profile, roster: Roster, obstacles: Sequence[StaticObstacle]) -> None:
+        """Build the world anew with other numbers, robots or obstacles; makes a checkpoint.
 
         Who stays keeps its pose and velocity, and who is new stands aside until it is placed.
         """
         stays, ball = dict(zip(self._roster.names, self._robots, strict=True)), self._ball_state
         self._engine.close()
         self._engine = Engine(profile, roster)
-        for obstacle in self._obstacles:
-            self._engine.put_obstacle(obstacle)
+        for obstacle in obstacles:
+            self._engine.put_obstacle(ObstacleState.of(obstacle))
+        self._obstacles = self._engine.obstacles
         aside = self._engine.robot_states(None)
         self._roster = roster
         self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)

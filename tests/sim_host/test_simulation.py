@@ -171,7 +171,7 @@ def test_a_checkpoint_is_made_at_every_kick_off_and_recorded() -> None:
 
 
 def test_what_was_placed_is_recorded_as_an_input_of_its_tick(simulation: Simulation) -> None:
-    assert {p.body for p in simulation.now.applied["placements"]} == set(simulation.roster.names)
+    assert {p.body for p in simulation.now.applied["placements"]} == {*simulation.roster.names, "ball"}
     tick = simulation.step({})
     while not tick.applied["placements"]:
         tick = simulation.step({})
