@@ -168,6 +168,8 @@ class Applied(Message):
     placements: list[Placement] = []
     checkpoint: bool = False
     """The world was rebuilt from poses and velocities before this tick: re-simulation may begin here."""
+    remade: bool = False
+    """The world was built anew, with the parameters, robots and obstacles in force, before bodies were placed."""
     parameters: dict[ParameterName, Value] = {}
     """Live parameters that were changed before this tick, and their new values."""
     robots: list[RosterEntry] | None = None

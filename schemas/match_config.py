@@ -177,7 +177,15 @@ class MatchConfig(Part):
         return self.teams.cyan if side is Side.CYAN else self.teams.magenta
 
     def robots(self, side: Side) -> list[str]:
-        """The robots' names, the goalkeeper first."""
+        """The names of the robots that agents move, the goalkeeper first; of a scene, where the match starts in one.
+
+        Raises:
+            TouchlineError: the scene cannot be read.
+        """
+        if self.scene is not None:
+            from schemas.scene import load_scene  # it is made of parts that are made for matches
+
+            return [robot.name for robot in load_scene(self.scene).of(side) if robot.agent]
         team = self.team(side)
         return team.robots or [f"{side.value}{number}" for number in range(1, team.size + 1)]
 

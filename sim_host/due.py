@@ -36,6 +36,8 @@ class Due:
     def noted(self) -> dict[str, Any]:
         """The fields of a `schemas.host.Applied` that tell of it, without those that stand for nothing."""
         fields: dict[str, Any] = {"placements": self.placements, "checkpoint": self.is_checkpoint}
+        if self.remake:
+            fields["remade"] = True
         if self.parameters:
             fields["parameters"] = self.parameters
         return fields

@@ -254,7 +254,8 @@ class Simulation:
             self.state = replace(self.state, last_touch=None)
         if anew or self._stage.robots != before.robots:
             self._begin_senses()
-        self._commands = self._commands.handed_on(self.roster.names, self._watchdog, self.roster.still)
+        told = Commands((), self._watchdog) if anew else self._commands
+        self._commands = told.handed_on(self.roster.names, self._watchdog, self.roster.still)
 
     def _rig(self) -> Rig:
         return Rig(self.profile.field, self.profile.ball, self.tuning.types)
