@@ -167,7 +167,7 @@ def test_a_ball_that_is_set_down_with_a_velocity_rolls_and_is_slowed_as_it_is_se
 
     def way() -> float:
         done(simulation, "place", place=[Placement(body="ball", x=-4.0, y=6.0, vx=2.0)])
-        while simulation.now.world["ball"]["vx"] > 0.0:
+        while simulation.now.world["ball"]["vx"] > 1e-3:
             simulation.step({})
         return float(simulation.now.world["ball"]["x"]) + 4.0
 
