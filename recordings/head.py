@@ -13,7 +13,7 @@ from schemas.match_config import MatchConfig
 from schemas.message import VERSION, Message
 from schemas.profile import profile_text
 from schemas.rule_book import rule_book_text
-from schemas.topics import TOPICS
+from schemas.topics import TOPICS, Delivery
 
 
 def manifest_of(
@@ -36,7 +36,9 @@ def manifest_of(
 def attachments(config: MatchConfig | None) -> dict[str, bytes]:
     """What goes into the file beside the messages: their whole schemas, the match file, profile and rule book."""
     models: dict[str, type[Message]] = {
-        topic.message.__name__: topic.message for topic in TOPICS.values() if topic.message is not None
+        topic.message.__name__: topic.message
+        for topic in TOPICS.values()
+        if topic.message is not None and topic.delivery is not Delivery.QUERY  # questions are in no recording
     }
     files = {"message_schemas.json": to_json({name: whole_schema(model) for name, model in models.items()})}
     if config is not None:
