@@ -13,6 +13,7 @@ Arrays have the robots last: twists are (3, n), vx and vy in m/s and omega in ra
 same bits on every machine.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
@@ -26,6 +27,7 @@ from sim_host.world.gravity import GRAVITY
 Floats = NDArray[np.float64]
 
 _MOST = 4
+"""Wheels of a robot at most; each has so many, some of which may touch nothing."""
 _ROUNDS = 6
 """Rounds in which a robot's wheels find their forces, to 1 % when some slide; two do while no wheel is at a limit."""
 
@@ -50,27 +52,26 @@ class WheelSets:
         def each(number: Callable[[Wheels], float]) -> Floats:
             return np.array([number(model.wheels) for model in models])
 
-        bodies = [model.body for model in models]
         load = np.array([model.body.mass * GRAVITY / model.wheels.count for model in models])
-        creep = 1 / (load * each(lambda w: w.slip_stiffness))
-        gain = each(lambda w: w.gain * w.gear**2 / w.radius**2)
+        masses = [(model.body.mass, model.body.mass, model.body.inertia_zz) for model in models]
         stall = each(lambda w: w.stall_torque * w.gear / w.radius)
         line = stall / each(lambda w: w.no_load_rim_speed)
+        gain = each(lambda w: w.gain * w.gear**2 / w.radius**2)
+        creep = 1 / (load * each(lambda w: w.slip_stiffness))
         self._step = step
         self._limit = each(lambda w: w.max_speed)
-        self._rim_mass = each(lambda w: (w.inertia + w.rotor_inertia * w.gear**2) / w.radius**2)
         self._geometry = _robots_last([_geometry(model.wheels) for model in models], (_MOST, 3))
         self._grip = load * each(lambda w: w.traction) * (self._geometry != 0).any(axis=1)
-        self._full, self._asking = step * stall, step * gain
+        self._rim_mass = each(lambda w: (w.inertia + w.rotor_inertia * w.gear**2) / w.radius**2)
+        self._gain_impulse, self._stall_impulse = step * gain, step * stall
+        # What holds a rim back while it speeds up: its mass, and the controller or the motor's line that asks for less.
         self._asked_mass, self._most_mass = self._rim_mass + step * gain, self._rim_mass + step * line
-        self._asked_slope, self._most_slope = (
-            1 / (creep + step / self._asked_mass),
-            1 / (creep + step / self._most_mass),
-        )
-        masses = _robots_last([(body.mass, body.mass, body.inertia_zz) for body in bodies], (3,))
-        self._gain_of_push = step / masses
+        # By how much a wheel pushes less for each m/s that the ground under it is faster.
+        self._asked_slope = 1 / (creep + step / self._asked_mass)
+        self._most_slope = 1 / (creep + step / self._most_mass)
+        self._reply = step / _robots_last(masses, (3,))
         steepest = np.maximum(self._asked_slope, self._most_slope)
-        self._damping = 1 / (1 + self._gain_of_push * steepest * (self._geometry**2).sum(axis=0))
+        self._damping = 1 / (1 + self._reply * steepest * (self._geometry**2).sum(axis=0))
 
     def rolling(self, twist: Floats) -> Floats:
         """Rim speeds, (4, n), of wheels that roll without slip at a twist."""
@@ -91,8 +92,9 @@ class WheelSets:
         all wheels is found in a few rounds of a Newton iteration with the steepest slope, which cannot overshoot.
         """
         momentum = self._rim_mass * speeds
-        asked = (momentum + self._asking * told) / self._asked_mass
-        most, least = (momentum + self._full) / self._most_mass, (momentum - self._full) / self._most_mass
+        asked = (momentum + self._gain_impulse * told) / self._asked_mass
+        most = (momentum + self._stall_impulse) / self._most_mass
+        least = (momentum - self._stall_impulse) / self._most_mass
         after = twist
         for _ in range(_ROUNDS):
             ground = self.rolling(after)
@@ -100,7 +102,7 @@ class WheelSets:
             force = np.minimum(force, (most - ground) * self._most_slope)
             force = np.minimum(np.maximum(force, -self._grip), self._grip)
             push = (self._geometry * force[:, None]).sum(axis=0)
-            reached = twist + self._gain_of_push * push
+            reached = twist + self._reply * push
             after = after + (reached - after) * self._damping
         lost = self._step * force
         rims = np.maximum(asked - lost / self._asked_mass, least - lost / self._most_mass)
@@ -114,7 +116,6 @@ def _robots_last(each: Sequence[ArrayLike], shape: tuple[int, ...]) -> Floats:
 
 def _geometry(wheels: Wheels) -> Floats:
     """(4, 3): the rim speed of each wheel for a unit of vx, vy and omega; zeros for a wheel that is not there."""
-    angles = wheels.angle + 2 * np.pi / wheels.count * np.arange(wheels.count)
-    rows = np.zeros((_MOST, 3))
-    rows[: wheels.count] = np.stack([-np.sin(angles), np.cos(angles), np.full(wheels.count, wheels.arm)], axis=1)
-    return rows
+    angles = [wheels.angle + 2 * math.pi * number / wheels.count for number in range(wheels.count)]
+    rows = [(-math.sin(angle), math.cos(angle), wheels.arm) for angle in angles]
+    return np.array(rows + [(0.0, 0.0, 0.0)] * (_MOST - wheels.count))
