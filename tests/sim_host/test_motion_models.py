@@ -265,7 +265,7 @@ def test_the_model_may_change_while_robots_drive() -> None:
     field.place(cyan1=(-6, 0, 0.4))
     field.run(1.5, cyan1=drive(2, 0.5))
     before = field.at("cyan1")
-    field.world.remake(OMNI, replace(field.world._roster, models=(like(OMNI),) * 4))
+    field.world.remake(OMNI, replace(field.world._roster, models=(like(OMNI),) * 4), ())
     field.tick(cyan1=drive(2, 0.5))
     after = field.at("cyan1")
     assert (after.vx, after.vy) == approx((before.vx, before.vy), abs=1e-3)
