@@ -2,7 +2,7 @@
 
 import typer
 
-from arena.commands import agent, coach, host, info, match, parameters, record, schema, topics
+from arena.commands import agent, coach, host, info, match, parameters, record, scene, scenes, schema, topics
 from arena.front import Front
 
 app = typer.Typer(
@@ -19,6 +19,8 @@ app.command("host")(host.host)
 app.command("agent")(agent.agent)
 app.add_typer(coach.app, name="coach")
 app.add_typer(parameters.app, name="parameters")
+app.add_typer(scene.app, name="scene")
+app.command("scenes")(scenes.scenes)
 app.command("record")(record.record)
 app.command("info")(info.info)
 app.command("topics")(topics.topics)

@@ -26,6 +26,7 @@ MatchFile = Annotated[
 Seed = Annotated[int | None, typer.Option(help="Whole number that all randomness comes from.")]
 Pace = Annotated[str | None, typer.Option(help="lockstep, realtime, or x4 for four times real time.")]
 Duration = Annotated[float | None, typer.Option(help="Playing time of all halves in s.")]
+Scene = Annotated[str | None, typer.Option(help="Start in this scene, by name or path; touchline scenes lists them.")]
 Profile = Annotated[
     str | None, typer.Option(help="Field, bodies and limits: msl, omni, omni3, paper, or the path of a file.")
 ]

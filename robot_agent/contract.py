@@ -32,7 +32,7 @@ class Briefing:
     robot: str
     side: Side
     number: int
-    """Place in the team's list, from 1; 1 is the goalkeeper."""
+    """Place in the team's list, from 1; 1 is the goalkeeper, in a team that has one."""
     teammates: tuple[str, ...]
     """The others of the team, in the order of the list."""
     setup: Setup

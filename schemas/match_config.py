@@ -214,7 +214,17 @@ def load_match(path: Path | None, overrides: dict[str, Any] | None = None) -> Ma
             raise TouchlineError(f"{path}: not TOML: {error}") from None
     for key, value in (overrides or {}).items():
         _lay_over(content, key.split("."), value)
-    return _validated(content, where)
+    return _validated(_scene_words(content) | content, where)
+
+
+def _scene_words(content: dict[str, Any]) -> dict[str, Any]:
+    """What the scene that a match starts in says of profile and rules."""
+    if not isinstance(content.get("scene"), str):
+        return {}
+    from schemas.scene import load_scene  # it is made of parts that are made for matches
+
+    scene = load_scene(content["scene"])
+    return {key: value for key, value in (("profile", scene.profile), ("rules", scene.rules)) if value is not None}
 
 
 def _lay_over(content: dict[str, Any], path: list[str], value: Any) -> None:

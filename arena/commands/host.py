@@ -13,6 +13,7 @@ def host(
     seed: options.Seed = None,
     pace: options.Pace = None,
     duration: options.Duration = None,
+    scene: options.Scene = None,
     profile: options.Profile = None,
     rules: options.Rules = None,
     name: options.MatchName = None,
@@ -25,7 +26,9 @@ def host(
 
     Example: touchline host cup.toml --pace realtime --listen tcp/192.168.1.5:7447 --insecure
     """
-    config = options.read_match(file, seed=seed, pace=pace, duration=duration, profile=profile, rules=rules, name=name)
+    config = options.read_match(
+        file, seed=seed, pace=pace, duration=duration, scene=scene, profile=profile, rules=rules, name=name
+    )
     endpoint = options.listening(listen, insecure=insecure)
     typer.echo(f'match "{config.name}" on {endpoint}', err=True)
 

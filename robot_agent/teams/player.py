@@ -50,7 +50,8 @@ class Player(ABC):
         self.briefing = briefing
         self.setup = briefing.setup
         self.limits = Limits.of(briefing.setup)
-        plays_field = self.plays_alone and not briefing.teammates
+        has_keeper = self.setup.teams[briefing.side].goalkeeper
+        plays_field = not has_keeper or (self.plays_alone and not briefing.teammates)
         self.keeper = None if plays_field else self.setup.teams[briefing.side].robots[0]
         """The goalkeeper's name, or nothing."""
         self.is_keeper = self.keeper == briefing.robot

@@ -30,8 +30,6 @@ _TOUCHES = 1e-3
 """m; nearer than this the ball is in contact. Bullet would brake it 2 cm before it touches, and spoil its bounce."""
 _UPRIGHT = 1e-3
 """Half the sine of the tilt, and the m of lift, from which a robot is put upright again."""
-_ON_GROUND = 0.01
-"""m; a ball with no more air below it rolls."""
 _STATE = struct.Struct("<13d")
 _OBSTACLE = struct.Struct("<7d")
 
@@ -202,7 +200,7 @@ class Engine:
         return body
 
     def rebuild(self, robots: Sequence[RobotState], ball: BallState) -> None:
-        """Build the world anew with these poses and velocities: robots upright, the ball held by nobody.
+        """Build the world anew with these poses and velocities: robots upright, the ball without spin, held by nobody.
 
         Its future then depends on these numbers alone: contact caches and warm starts are gone.
         """
@@ -210,15 +208,9 @@ class Engine:
         for body, height, robot in zip(self.robots, self._heights, robots, strict=True):
             velocity, spin = (robot.vx, robot.vy, 0.0), (0.0, 0.0, robot.omega)
             self._put(body, BodyState((robot.x, robot.y, height), _upright(robot.heading), velocity, spin))
-        self._put_ball((ball.x, ball.y, ball.z), (ball.vx, ball.vy, ball.vz))
+        position, velocity = (ball.x, ball.y, ball.z), (ball.vx, ball.vy, ball.vz)
+        self._put(self.ball, BodyState(position, _NO_TURN, velocity, _NOTHING))
         self.read()
-
-    def _put_ball(self, position: Vector, velocity: Vector) -> None:
-        """Set the ball down; on the ground it rolls as it moves, in the air it does not spin."""
-        radius = self._profile.ball.radius
-        rolls = position[2] <= radius + _ON_GROUND
-        spin = (-velocity[1] / radius, velocity[0] / radius, 0.0) if rolls else _NOTHING
-        self._put(self.ball, BodyState(position, _NO_TURN, velocity, spin))
 
     def _state(self, body: int) -> BodyState:
         position, orientation = pybullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
@@ -234,7 +226,7 @@ class Engine:
         if placement.body == "ball":
             height = self._profile.ball.radius if placement.z is None else placement.z
             velocity = (placement.vx, placement.vy, placement.vz)
-            self._put_ball((placement.x, placement.y, height), velocity)
+            self._put(self.ball, BodyState((placement.x, placement.y, height), _NO_TURN, velocity, _NOTHING))
             return
         place = self.names.index(placement.body)
         position = (placement.x, placement.y, self._heights[place])

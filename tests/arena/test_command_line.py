@@ -13,7 +13,7 @@ from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.match_config import MatchConfig
 from schemas.topics import TOPICS
 
-COMMANDS = ("match", "host", "agent", "coach", "record", "info", "topics", "schema", "parameters")
+COMMANDS = ("match", "host", "agent", "coach", "record", "info", "topics", "schema", "parameters", "scene", "scenes")
 NOBODY = "--connect=tcp/127.0.0.1:9"
 
 
@@ -59,6 +59,11 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "a parameter without a value": (["parameters", "set", "ball.mass"], "write it as NAME=VALUE"),
     "a parameter whose name is none": (["parameters", "get", "Ball"], "'Ball' is no name of a parameter"),
     "parameters without a host": (["parameters", "list", NOBODY], "no host answers there"),
+    "a scene that is not there": (["scenes", "penlty"], 'scene is "penlty"; did you mean "penalty"?'),
+    "a match in no scene": (["match", "--scene", "penlty"], 'scene is "penlty"; did you mean "penalty"?'),
+    "a scene without a host": (["scene", "reset", NOBODY], "no host answers there"),
+    "a velocity beyond reason": (["scene", "place", "ball", "0", "0", "--vx", "nan"], "scene place: place.0.vx is"),
+    "an obstacle without a shape": (["scene", "add-obstacle", "wall", "0", "0"], "give --radius and --height"),
     "a recording that is not there": (["info", "no.mcap"], "no.mcap"),
     "a schema that is not there": (["schema", "sihgt"], 'did you mean "sight"?'),
     "a topic without message": (["schema", "alive"], 'schema of "alive"'),
