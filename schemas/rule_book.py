@@ -7,9 +7,10 @@ from importlib import resources
 from typing import Annotated, Any
 
 from schemas.errors import TouchlineError, did_you_mean
+from schemas.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
 from schemas.quantity import Quantity, extend, read_section
 
-SHIPPED = ("friendly", "msl", "paper")
+SHIPPED = ("china-sim-2020", "friendly", "msl", "paper")
 """The rule books that come with the package."""
 
 
@@ -48,7 +49,17 @@ class Stall:
     still_duration: Annotated[float, Quantity("s", "a ball still for this long is dropped", 1, 120)]
 
 
-SECTIONS: dict[str, type] = {"periods": Periods, "restarts": Restarts, "stall": Stall}
+SECTIONS: dict[str, type] = {
+    "periods": Periods,
+    "restarts": Restarts,
+    "stall": Stall,
+    "scrum": Scrum,
+    "scoring": Scoring,
+    "handling": Handling,
+    "areas": Areas,
+    "contact": Contact,
+    "fouls": Fouls,
+}
 """Section name in the file → the dataclass that holds it."""
 
 
@@ -60,6 +71,12 @@ class RuleBook:
     periods: Periods
     restarts: Restarts
     stall: Stall
+    scrum: Scrum
+    scoring: Scoring
+    handling: Handling
+    areas: Areas
+    contact: Contact
+    fouls: Fouls
     origins: Mapping[str, str] = field(repr=False, compare=False)
 
 

@@ -22,6 +22,7 @@ from sim_host.actuation.commands import Commands
 from sim_host.due import Due
 from sim_host.radio import RadioAir
 from sim_host.referee.core import Referee, Ruling
+from sim_host.referee.evidence import NOTHING
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.streams import Streams
 from sim_host.sights import Send, Sights
@@ -250,8 +251,8 @@ class Simulation:
         if staged.game is not None:
             self.episode += 1
             self.state = self.referee.begin_at(staged.game, staged.ball)
-        elif self.state.last_touch not in self.roster.names:
-            self.state = replace(self.state, last_touch=None)
+        elif staged.placements or self._stage.robots != before.robots:
+            self.state = replace(self.state, evidence=NOTHING)  # nobody ran or dribbled there
         if anew or self._stage.robots != before.robots:
             self._begin_senses()
         told = Commands((), self._watchdog) if anew else self._commands

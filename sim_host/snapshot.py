@@ -117,6 +117,10 @@ class Snapshot:
     """Robots that touched, held or kicked the ball since the tick before, in order of time, from contacts and kicks."""
     kicked: str | None = None
     """The robot whose kick was carried out in this tick."""
+    contacts: tuple[tuple[int, int], ...] = ()
+    """Pairs of robots that touch each other, by their places in the roster, the first one first and in its order."""
+    ball_spin: tuple[float, float] = (0.0, 0.0)
+    """rad/s; the ball's rate of turning about the field's x and y. One that rolls turns at (−vy, vx) / radius."""
     obstacles: tuple[ObstacleState, ...] = ()
     """Bodies that nothing moves, in the order in which they were put down."""
     kickers_ready: tuple[bool, ...] = ()

@@ -4,14 +4,29 @@ from schemas.profile import Field
 
 
 def in_penalty_area(pitch: Field, end: int, x: float, y: float, margin: float = 0.0) -> bool:
-    """Whether a point in m lies in the penalty area of that end, grown by `margin` in m."""
+    """Whether a point in m lies in the penalty area of that end, grown by `margin` in m, or in the goal behind it."""
     depth, width = pitch.penalty_area_depth, pitch.penalty_area_width
-    return x * end > pitch.goal_line - depth - margin and abs(y) < width / 2 + margin
+    far = x * end
+    return (
+        far > pitch.goal_line - depth - margin
+        and abs(y) < width / 2 + margin
+        and (far <= pitch.goal_line + margin or _in_goal(pitch, far, y))
+    )
 
 
 def in_goal_area(pitch: Field, end: int, x: float, y: float) -> bool:
-    """Whether a point in m lies in the goal area of that end."""
-    return x * end > pitch.goal_line - pitch.goal_area_depth and abs(y) < pitch.goal_area_width / 2
+    """Whether a point in m lies in the goal area of that end, or in the goal behind it."""
+    far = x * end
+    return (
+        far > pitch.goal_line - pitch.goal_area_depth
+        and abs(y) < pitch.goal_area_width / 2
+        and (far <= pitch.goal_line or _in_goal(pitch, far, y))
+    )
+
+
+def _in_goal(pitch: Field, far: float, y: float) -> bool:
+    """Whether a point lies behind the goal line between the posts; `far` is its x toward that goal."""
+    return pitch.goal_line < far <= pitch.goal_line + pitch.goal_depth and abs(y) < pitch.goal_width / 2
 
 
 def in_a_penalty_area(pitch: Field, x: float, y: float) -> bool:

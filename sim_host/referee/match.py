@@ -33,6 +33,12 @@ class Match:
     """m; a ball whose centre is beyond this |x| is wholly over the goal line."""
     out_y: float = field(init=False)
     """m; a ball whose centre is beyond this |y| is wholly over the touch line."""
+    deep_x: float = field(init=False)
+    """m; beyond this |x| lie the penalty areas."""
+    near_squared: tuple[float, ...] = field(init=False)
+    """m²; how far the centres of ball and robot may be apart, squared, for it to be at the ball; in roster order."""
+    is_keeper: tuple[bool, ...] = field(init=False)
+    """Whether each robot of the roster is its side's goalkeeper."""
 
     def __post_init__(self) -> None:
         missing = [name for name in self.roster.names if name not in self.starts]
@@ -41,3 +47,9 @@ class Match:
         object.__setattr__(self, "reaches", tuple([model.body.reach for model in self.roster.models]))
         object.__setattr__(self, "out_x", self.pitch.goal_line + self.ball.radius)
         object.__setattr__(self, "out_y", self.pitch.touch_line + self.ball.radius)
+        object.__setattr__(self, "deep_x", self.pitch.goal_line - self.pitch.penalty_area_depth)
+        near = self.ball.radius + self.book.scrum.reach
+        object.__setattr__(self, "near_squared", tuple([(reach + near) ** 2 for reach in self.reaches]))
+        keepers = [self.roster.keepers.get(side) for side in self.roster.sides]
+        is_keeper = [name == keeper for name, keeper in zip(self.roster.names, keepers, strict=True)]
+        object.__setattr__(self, "is_keeper", tuple(is_keeper))

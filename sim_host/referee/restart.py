@@ -4,6 +4,7 @@ import dataclasses
 import math
 
 from schemas.game import EventKind, Phase
+from sim_host.referee.evidence import NOTHING
 from sim_host.referee.positions import standing_wrong
 from sim_host.referee.state import Restart
 from sim_host.referee.turn import Turn
@@ -34,14 +35,14 @@ def signal(turn: Turn, restart: Restart) -> None:
         running=False,
         pending=None,
         timer=0.0,
-        last_touch=None,
+        evidence=NOTHING,
     )
     turn.say(EventKind.RESTART, RULE, named(restart), side=restart.side, place=restart.spot)
 
 
 def start(turn: Turn, restart: Restart, remark: str = "") -> None:
     """Give START of the signalled restart; the first of a half sets the clock going, a drop ball is in play at once."""
-    turn.state = dataclasses.replace(turn.state, running=True, clock_runs=True, timer=0.0, last_touch=None)
+    turn.state = dataclasses.replace(turn.state, running=True, clock_runs=True, timer=0.0, evidence=NOTHING)
     turn.checkpoint = restart.phase is Phase.KICK_OFF
     turn.say(EventKind.START, RULE, f"START of the {named(restart)}{remark}", side=restart.side, place=restart.spot)
     if restart.phase is Phase.DROP_BALL:

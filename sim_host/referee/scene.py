@@ -5,6 +5,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from schemas.game import Phase
+from sim_host.referee.evidence import NOTHING, observe
 from sim_host.referee.match import Match
 from sim_host.referee.state import RefereeState
 from sim_host.snapshot import BallState, Snapshot
@@ -47,7 +48,7 @@ def look(match: Match, state: RefereeState, snapshot: Snapshot, dt: float) -> Sc
         timer=state.timer + dt,
         still=state.still + dt if slow else 0.0,
         ball=now,
-        last_touch=snapshot.touches[-1] if snapshot.touches else state.last_touch,
+        evidence=observe(match, state.evidence, state.cyan_attacks, snapshot, dt) if state.running else NOTHING,
     )
     inside = abs(ball.x) <= match.out_x and abs(ball.y) <= match.out_y
     crossing = None if inside or state.ball is None else crossed(match, state.ball, now)

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 from schemas.game import GameState, Phase, Point, Score
 from schemas.side import Side
+from sim_host.referee.evidence import NOTHING, Evidence
 
 Spot = tuple[float, float]
 """A point on the ground: x and y in m, field frame."""
@@ -49,8 +50,14 @@ class RefereeState:
     """How long the ball in play has not moved."""
     ball: tuple[float, float, float] | None = None
     """Where the ball's centre was at the last tick."""
-    last_touch: str | None = None
-    """The robot that last touched the ball since START."""
+    evidence: Evidence = NOTHING
+    """What was seen since START."""
+
+    @property
+    def last_touch(self) -> str | None:
+        """The robot that last touched the ball since START."""
+        touch = self.evidence.play.last
+        return touch.robot if touch is not None else None
 
     @property
     def restart(self) -> Restart | None:

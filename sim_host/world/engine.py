@@ -30,6 +30,8 @@ _TOUCHES = 1e-3
 """m; nearer than this the ball is in contact. Bullet would brake it 2 cm before it touches, and spoil its bounce."""
 _UPRIGHT = 1e-3
 """Half the sine of the tilt, and the m of lift, from which a robot is put upright again."""
+_TOUCHING = 0.001
+"""m of air between two robots that count as touching: the solver leaves less than that."""
 _STATE = struct.Struct("<13d")
 _OBSTACLE = struct.Struct("<7d")
 
@@ -90,6 +92,7 @@ class Engine:
             for box in goal.net:
                 self._surface(self._box(box), friction=0.0, restitution=_NET_RESTITUTION)
         self.robots = [self._robot(place, model) for place, model in enumerate(self._models)]
+        self._robot_of = {body: place for place, body in enumerate(self.robots)}
         self.ball = self._ball()
         standing = [obstacle for obstacle, _ in self._obstacles.values()]
         self._obstacles = {obstacle.name: (obstacle, self._obstacle(obstacle)) for obstacle in standing}
@@ -236,6 +239,7 @@ class Engine:
     def read(self) -> None:
         """Take in the state of all bodies; a robot that was lifted or tipped is put upright first."""
         self._states = [self._state(body) for body in (*self.robots, self.ball)]
+        self.robot_contacts = self._robot_contacts()
         for place, (body, height) in enumerate(zip(self.robots, self._heights, strict=True)):
             position, (qx, qy, qz, qw), velocity, spin = self._states[place]
             if abs(qx) > _UPRIGHT or abs(qy) > _UPRIGHT or abs(position[2] - height) > _UPRIGHT:
@@ -251,6 +255,10 @@ class Engine:
         """The ball, as it was read."""
         position, _, velocity, _ = self._states[-1]
         return BallState(*position, *velocity)
+
+    def ball_spin(self) -> tuple[float, float]:
+        """The ball's spin about x and y in rad/s, as it was read."""
+        return self._states[-1].spin[:2]
 
     def packed(self) -> bytes:
         """What was read, robots, ball and obstacles, as little-endian doubles: equal bytes, equal worlds."""
@@ -306,6 +314,16 @@ class Engine:
         depth = {contact[2]: -contact[8] for contact in contacts if contact[2] != self._ground}
         robots = [place for place, body in enumerate(self.robots) if body in depth]
         return BallContacts(robots, max(depth.values(), default=0.0))
+
+    def _robot_contacts(self) -> tuple[tuple[int, int], ...]:
+        """Pairs of robots that touched each other in the last step, in roster order."""
+        bodies = self._robot_of
+        found = [
+            (bodies[contact[1]], bodies[contact[2]])
+            for contact in pybullet.getContactPoints(physicsClientId=self.client)
+            if contact[8] <= _TOUCHING and contact[1] in bodies and contact[2] in bodies
+        ]
+        return tuple(sorted({(min(pair), max(pair)) for pair in found})) if found else ()
 
 
 def _upright(heading: float) -> Quaternion:

@@ -135,6 +135,8 @@ class World:
             possession=None if holding is None else names[holding],
             touches=tuple([names[place] for place in reversed(last_touches)]),
             kicked=None if report.kicked is None else names[report.kicked],
+            contacts=self._engine.robot_contacts,
+            ball_spin=self._engine.ball_spin(),
             obstacles=self._obstacles,
             kickers_ready=self._ball.kickers_ready(self.tick),
         )

@@ -1,0 +1,101 @@
+"""A dribble: who has the ball since when, where it was caught, how it was carried, and how it ends.
+
+It begins when a robot holds the ball, and goes on while the ball flickers out of the hold, until it is visibly
+released: as far from the hull as the rule book says, or taken, touched by somebody else, or kicked away.
+"""
+
+import math
+from typing import NamedTuple
+
+from sim_host.referee.evidence.contest import Contest
+from sim_host.referee.match import Match
+from sim_host.snapshot import RobotState, Snapshot
+
+STANDS = 0.05
+"""m/s along the kick axis; slower is neither forward nor backward: below the noise of a robot that holds its place."""
+PAUSE = 0.5
+"""s without moving backward that end one backward movement; a shorter halt belongs to it."""
+MOVES = 0.1
+"""m/s; a slower ball need not turn."""
+TURNS = 0.5
+"""Share of the natural rate of turning below which a ball does not roll but is held against its turning."""
+
+
+class Dribble(NamedTuple):
+    """One dribble, up to now."""
+
+    robot: str
+    since: float
+    """s; simulated time of the catch."""
+    caught: tuple[float, float]
+    """m; where the ball was caught."""
+    backward: float = 0.0
+    """m driven backward in the present backward movement."""
+    halted: float = 0.0
+    """s since it last moved backward."""
+    spent: bool = False
+    """One backward movement was longer than the rule book lets be repeated."""
+    slid: float = 0.0
+    """s for which the ball has moved with the robot without turning as it should."""
+    slid_way: float = 0.0
+    """m that it has moved so."""
+    rolled: float = 0.0
+    """s since it last did so."""
+
+
+def dribble_after(
+    match: Match, before: Dribble | None, contest: Contest | None, snapshot: Snapshot, dt: float
+) -> Dribble | None:
+    """The dribble after one more tick of `dt` in s, or nothing."""
+    holder = snapshot.possession
+    if holder is not None and (before is None or before.robot != holder):
+        return Dribble(holder, snapshot.time, (snapshot.ball.x, snapshot.ball.y))
+    if before is None or is_released(match, before, snapshot):
+        return None
+    robot = snapshot.robots[match.roster.names.index(before.robot)]
+    return _rolling(match, _backing(match, before, contest, robot, dt), snapshot, dt)
+
+
+def is_released(match: Match, dribble: Dribble, snapshot: Snapshot) -> bool:
+    """Whether everybody can see that the robot has let the ball go."""
+    if snapshot.possession == dribble.robot:
+        return False
+    if snapshot.kicked is not None or any(name != dribble.robot for name in snapshot.touches):
+        return True
+    index = match.roster.names.index(dribble.robot)
+    robot, ball = snapshot.robots[index], snapshot.ball
+    air = math.hypot(ball.x - robot.x, ball.y - robot.y) - match.roster.models[index].body.radius - match.ball.radius
+    return air >= match.book.handling.release_gap
+
+
+def _backing(match: Match, before: Dribble, contest: Contest | None, robot: RobotState, dt: float) -> Dribble:
+    """Ways driven backward; a struggle that lasts gives the right to drive back anew."""
+    handling = match.book.handling
+    if contest is not None and contest.lasted > handling.struggle_duration:
+        return before._replace(backward=0.0, halted=0.0, spent=False) if before.backward or before.spent else before
+    along = robot.vx * math.cos(robot.heading) + robot.vy * math.sin(robot.heading)
+    if along < -STANDS:
+        return before._replace(backward=before.backward - along * dt, halted=0.0)
+    if not before.backward:
+        return before
+    halted = before.halted + dt
+    if halted < PAUSE:
+        return before._replace(halted=halted)
+    spent = before.spent or before.backward > handling.backward_once
+    return before._replace(backward=0.0, halted=0.0, spent=spent)
+
+
+def _rolling(match: Match, before: Dribble, snapshot: Snapshot, dt: float) -> Dribble:
+    """Time and way of a held ball that moves and does not turn as it should."""
+    ball = snapshot.ball
+    speed = math.hypot(ball.vx, ball.vy)
+    wx, wy = snapshot.ball_spin
+    turning = match.ball.radius * (wy * ball.vx - wx * ball.vy)  # a ball that rolls has turning = speed²
+    if snapshot.possession == before.robot and speed > MOVES and turning < TURNS * speed * speed:
+        return before._replace(slid=before.slid + dt, slid_way=before.slid_way + speed * dt, rolled=0.0)
+    if not before.slid:
+        return before
+    rolled = before.rolled + dt
+    if rolled < match.book.handling.roll_pause:
+        return before._replace(rolled=rolled)
+    return before._replace(slid=0.0, slid_way=0.0, rolled=0.0)

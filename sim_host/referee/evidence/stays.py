@@ -1,0 +1,73 @@
+"""How long robots have been in goal areas that are not theirs to be in, and sides too many in a penalty area."""
+
+from typing import NamedTuple
+
+from sim_host.referee.areas import in_goal_area, in_penalty_area
+from sim_host.referee.evidence.around import Around
+from sim_host.referee.match import Match
+from sim_host.snapshot import Snapshot
+
+
+class Stay(NamedTuple):
+    """A robot, by its place in the roster, in a goal area; every robot but the goalkeeper in its own."""
+
+    robot: int
+    end: int
+    """Sign of the x of the goal."""
+    lasted: float
+    """s."""
+
+
+class Crowd(NamedTuple):
+    """More robots of one side in a penalty area than may be there, without the goalkeeper in its own."""
+
+    robots: tuple[int, ...]
+    """By their places in the roster."""
+    end: int
+    """Sign of the x of the goal."""
+    lasted: float
+    """s for which there have been too many, whoever they were."""
+
+
+class Stays(NamedTuple):
+    """All of them, in the order of the roster."""
+
+    robots: tuple[Stay, ...] = ()
+    crowds: tuple[Crowd, ...] = ()
+
+
+NOWHERE = Stays()
+"""Nobody is anywhere that he may not stay."""
+
+
+def stays_after(match: Match, before: Stays, cyan_attacks: int, around: Around, snapshot: Snapshot, dt: float) -> Stays:
+    """The stays after one more tick of `dt` in s."""
+    pitch, robots, sides = match.pitch, snapshot.robots, match.roster.sides
+    stays: list[Stay] = []
+    crowds: dict[tuple[str, int], list[int]] = {}
+    for index in around.deep:
+        x, y = robots[index].x, robots[index].y
+        end = 1 if x > 0 else -1
+        if not in_penalty_area(pitch, end, x, y):
+            continue
+        defends = sides[index].attack(cyan_attacks) != end
+        if defends and match.is_keeper[index]:
+            continue
+        crowds.setdefault((sides[index], end), []).append(index)
+        if in_goal_area(pitch, end, x, y):
+            lasted = next((stay.lasted for stay in before.robots if stay.robot == index and stay.end == end), 0.0)
+            stays.append(Stay(index, end, lasted + dt))
+    too_many = [
+        Crowd(tuple(crowd), end, _crowded(match, before, crowd, end) + dt)
+        for (_, end), crowd in crowds.items()
+        if len(crowd) > match.book.areas.penalty_area_robots
+    ]
+    return Stays(tuple(stays), tuple(too_many)) if stays or too_many else NOWHERE
+
+
+def _crowded(match: Match, before: Stays, crowd: list[int], end: int) -> float:
+    """s for which the same side has been too many there already."""
+    side = match.roster.sides[crowd[0]]
+    return next(
+        (old.lasted for old in before.crowds if old.end == end and match.roster.sides[old.robots[0]] is side), 0.0
+    )
