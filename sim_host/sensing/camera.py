@@ -5,13 +5,14 @@ from typing import NamedTuple
 import numpy as np
 
 from schemas.profile import Sensing
+from sim_host.sensing.hulls import Hulls
 from sim_host.sensing.shutter import Shutter
-from sim_host.sensing.sight_lines import Flags, hidden
+from sim_host.sensing.sight_lines import Flags
 from sim_host.sensing.streams import Block, Floats, Streams, What, normal_pairs
-from sim_host.snapshot import BallState, Roster, Snapshot
+from sim_host.snapshot import BallState, ObstacleState, Roster, Snapshot
 
-_BALL = "ball"
-"""No robot has this name."""
+BALL = "ball"
+"""No robot and no obstacle has this name."""
 _NO_DISTANCE = 1e-9
 """m; in what direction from itself a robot is, nobody asks."""
 PER_OBSTACLE = 3
@@ -51,44 +52,50 @@ def turned_ball(ball: list[float]) -> list[float]:
 
 
 class Camera:
-    """Things are the ball and then the bodies: the robots. Arrays are robots × things."""
+    """Things are the ball and then the bodies: robots, and static obstacles. Arrays are robots × things."""
 
     def __init__(self, sensing: Sensing, roster: Roster, streams: Streams, shutter: Shutter) -> None:
-        self._sensing = s = sensing
+        self._sensing = sensing
         self._streams = streams
         self._shutter = shutter
-        self._names = roster.names
-        self._radius = np.array([model.body.radius for model in roster.models])
-        self._height = height = np.array([model.body.height for model in roster.models])
-        robots, bodies = np.arange(len(roster.names)), np.arange(len(height))
-        self._rows = robots[:, None]
-        self._near = np.array([s.ball_position] + [s.obstacle_position] * len(bodies)) ** 2
-        self._growth = np.array([s.range_noise, s.bearing_noise])[:, None, None]
-        self._range = np.array([s.ball_range] + [s.obstacle_range] * len(bodies))
-        self._dropout = np.array([s.ball_dropout] + [s.obstacle_dropout] * len(bodies))
-        self._is_other = np.ones((len(robots), len(bodies) + 1), dtype=bool)
-        self._is_other[robots, robots + 1] = False
-        self._is_tall = np.empty((len(bodies), len(robots), len(bodies) + 1), dtype=bool)
-        """Hull × eye × thing: whether it is high enough to hide it; the ball's part changes with the ball's height."""
-        self._is_tall[:, :, 1:] = (height[:, None] >= height)[:, None, :]
-        self._is_tall[bodies, :, bodies + 1] = False
-        self._luck = Block(self._draw)
+        self._roster = roster
+        self._rows = np.arange(len(roster.names))[:, None]
+        self._growth = np.array([sensing.range_noise, sensing.bearing_noise])[:, None, None]
         self._ball_luck = Block(self._draw_ball)
+        self._lay_out(())
+
+    def _lay_out(self, obstacles: tuple[ObstacleState, ...]) -> None:
+        """What is the same in every picture of the same bodies."""
+        s, roster = self._sensing, self._roster
+        self._obstacles = obstacles
+        self._hulls = Hulls(roster.models, obstacles)
+        self._names = (BALL, *roster.names, *(one.name for one in obstacles))
+        bodies = len(self._names) - 1
+        self._near = np.array([s.ball_position] + [s.obstacle_position] * bodies) ** 2
+        self._range = np.array([s.ball_range] + [s.obstacle_range] * bodies)
+        self._dropout = np.array([s.ball_dropout] + [s.obstacle_dropout] * bodies)
+        self._is_other = np.arange(-1, bodies) != self._rows
+        self._luck = Block(self._draw)
 
     def take(self, snapshot: Snapshot, robots: Floats, frame: Floats) -> Picture:
         """A picture, in a tick in which one is taken.
 
         `robots`: their states in the field frame, one column each; `frame`: as `Perception` makes it.
         """
+        if snapshot.obstacles != self._obstacles:
+            self._lay_out(snapshot.obstacles)
         number = self._shutter.number(snapshot.tick)
         luck = self._luck.at(number)
         eyes = robots[:2]
-        bodies = np.concatenate((np.array(snapshot.ball[:2])[:, None], eyes), axis=1)
-        places = bodies[:, None, :] - eyes[:, :, None]
+        things = np.concatenate((np.array(snapshot.ball[:2])[:, None], self._hulls.places(robots)), axis=1)
+        places = things[:, None, :] - eyes[:, :, None]
         square = places[0] * places[0] + places[1] * places[1]
         distance = np.sqrt(square)
-        found = self._find(places, square, distance, snapshot.ball.z)
+        found: Flags = distance <= self._range
+        found &= self._is_other
         found &= luck[2] >= self._dropout
+        if self._sensing.occlusion == "hulls":
+            found &= ~self._hulls.hidden(places, square, robots, snapshot.ball.z)
         x, y = self._blurred(places, square, distance, luck)
         sign, dx, dy, _, c, s = frame[:, :, None]
         seen_x = c * x - s * y + (sign * eyes[0][:, None] + dx)
@@ -100,15 +107,6 @@ class Camera:
             found=found[:, 0].tolist(),
             obstacles=self._nearest_first(away[:, 1:], seen_x[:, 1:], seen_y[:, 1:], found[:, 1:]),
         )
-
-    def _find(self, places: Floats, square: Floats, distance: Floats, ball_height: float) -> Flags:
-        """What is near enough and not hidden; nobody sees itself."""
-        found: Flags = distance <= self._range
-        found &= self._is_other
-        if self._sensing.occlusion == "hulls":
-            self._is_tall[:, :, 0] = (self._height >= ball_height)[:, None]
-            found &= ~hidden(places, square, self._radius, self._is_tall)
-        return found
 
     def _blurred(self, places: Floats, square: Floats, distance: Floats, luck: Floats) -> Floats:
         """Places as seen from the eyes, with noise along the line of sight and across it."""
@@ -135,7 +133,7 @@ class Camera:
         """The bodies that were found, in the order of their square distance: it tells nobody's name."""
         order = square.argsort(axis=1, kind="stable")
         numbers = np.empty((*square.shape, PER_OBSTACLE))
-        numbers[..., 0], numbers[..., 1], numbers[..., 2] = x, y, self._radius
+        numbers[..., 0], numbers[..., 1], numbers[..., 2] = x, y, self._hulls.reach
         rows = numbers[self._rows, order].reshape(len(square), -1).tolist()
         counts = found.sum(axis=1).tolist()
         return [row[: PER_OBSTACLE * count] for row, count in zip(rows, counts, strict=True)]
@@ -145,12 +143,13 @@ class Camera:
 
     def _draw(self, numbers: range) -> Floats:
         """Per picture: noise along and across the line of sight, and luck against dropouts; (3, robots, things)."""
-        drawn = self._streams.between(What.SEEN, self._names, (_BALL, *self._names), self._ticks(numbers))
+        drawn = self._streams.between(What.SEEN, self._roster.names, self._names, self._ticks(numbers))
         noise = normal_pairs(drawn[..., :2]) * (drawn[..., 3:] < self._sensing.noise_rate)
         return np.ascontiguousarray(np.moveaxis(np.concatenate((noise, drawn[..., 2:3]), axis=-1), -1, 1))
 
     def _draw_ball(self, numbers: range) -> Floats:
         """Per picture: noise of the ball's height, vx and vy, noisy when its place is; (3, robots)."""
         ticks, s = self._ticks(numbers), self._streams
-        is_noisy = s.between(What.SEEN, self._names, (_BALL,), ticks)[:, :, 0, 3:] < self._sensing.noise_rate
-        return np.ascontiguousarray(np.moveaxis(s.normals(What.BALL, self._names, ticks, 3) * is_noisy, 2, 1))
+        robots = self._roster.names
+        is_noisy = s.between(What.SEEN, robots, (BALL,), ticks)[:, :, 0, 3:] < self._sensing.noise_rate
+        return np.ascontiguousarray(np.moveaxis(s.normals(What.BALL, robots, ticks, 3) * is_noisy, 2, 1))

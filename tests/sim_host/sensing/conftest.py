@@ -12,7 +12,7 @@ from schemas.robot_model import RobotModel
 from schemas.side import Side
 from sim_host.sensing.perception import Percept, Perception
 from sim_host.sensing.streams import Streams
-from sim_host.snapshot import BallState, RobotState, Roster, Snapshot
+from sim_host.snapshot import BallState, ObstacleState, RobotState, Roster, Snapshot
 
 TICK = 0.02
 Place = tuple[float, ...]
@@ -59,12 +59,14 @@ class Scenery:
         whole: Sensing = sensing.pop("sensing", PERFECT)
         streams = Streams(sensing.pop("seed", 1))
         self.attacks = 1
+        self.obstacles: tuple[ObstacleState, ...] = ()
         self.tick = 0
         self.perception = Perception(replace(whole, **sensing), self.roster, streams, TICK)
 
     def look(self) -> list[Seen]:
         """Everybody's percept of the next tick."""
-        snapshot = Snapshot(self.tick, self.tick * TICK, self.roster, tuple(self.robots), self.ball, None, ())
+        bodies = self.roster, tuple(self.robots), self.ball
+        snapshot = Snapshot(self.tick, self.tick * TICK, *bodies, None, (), obstacles=self.obstacles)
         self.tick += 1
         return [seen_of(percept) for percept in self.perception.at(snapshot, self.attacks)]
 

@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 from pytest import approx
 
+from schemas.obstacle import Shape, StaticObstacle
 from schemas.profile import load_profile
 from schemas.robot_model import RobotModel
 from sim_host.sensing.shutter import Shutter
+from sim_host.snapshot import ObstacleState
 
 RADIUS = 0.245
 HEIGHT = 0.798
@@ -77,6 +79,84 @@ def test_a_taller_robot_is_seen_over_a_smaller_one(scenery):
     models = (standard, standard, replace(standard, body=tall), standard)
     seen = scenery(robots, (0.0, 5.0), roster=replace(roster, models=models), **HULLS).look()
     assert [[round(row[0]) for row in one.obstacles] for one in seen] == [[2, 4], [0, 4], [2, 6], [4]]
+
+
+def box(name, x, y, heading=0.0, size=(0.4, 2.0, 1.0)):
+    return ObstacleState.of(StaticObstacle(name=name, shape=Shape.BOX, place=[x, y], heading=heading, size=list(size)))
+
+
+def cylinder(name, x, y, radius=0.5, height=1.0):
+    return ObstacleState.of(StaticObstacle(name=name, shape=Shape.CYLINDER, place=[x, y], radius=radius, height=height))
+
+
+def test_static_obstacles_are_seen_among_the_robots_with_the_radius_of_the_circle_around_them(scenery):
+    """Their places are perceived as those of robots: in the team frame, nearest first, unlabelled."""
+    made = scenery([(0, 0), (3, 0)], (0.0, 1.0), 1)
+    made.obstacles = (cylinder("barrel", 0.0, 2.0), box("wall", -4.0, 0.0, 0.3))
+    mine, theirs = made.look()
+    expected = [(0, 2, 0.5), (3, 0, RADIUS), (-4, 0, math.hypot(0.2, 1.0))]
+    assert np.array(mine.obstacles) == approx(np.array(expected))
+    assert theirs.obstacles[0] == approx((0.0, 0.0, RADIUS)) and theirs.obstacles[1][:2] == approx((0.0, -2.0))
+
+
+def test_obstacles_put_down_and_taken_away_while_running_come_and_go_and_change_no_other_noise(scenery):
+    noise = {"obstacle_position": 0.05, "ball_position": 0.05, "ball_dropout": 0.1}
+    made, plain = (scenery([(0, 0), (3, 0)], (0.0, 1.0), **noise) for _ in range(2))
+    for tick in range(60):
+        made.obstacles = (cylinder("barrel", 0.0, 2.0),) if 20 <= tick < 40 else ()
+        one, other = made.look()[0], plain.look()[0]
+        assert one.ball == other.ball and one.visible == other.visible
+        assert [row for row in one.obstacles if row[2] == RADIUS] == other.obstacles
+        assert len(one.obstacles) == 1 + (20 <= tick < 40)
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.4, 1.2, math.pi / 2, -2.0])
+@pytest.mark.parametrize("aside", [0.0, 0.9, 1.1, -0.9, -1.1, 3.0])
+def test_a_box_hides_what_lies_behind_its_own_outline(scenery, heading, aside):
+    """A box of 0.4 × 2 m, 3 m away; whether the line meets its outline, by a walk along it in steps of 1 mm."""
+    made = scenery([(0, 0)], (6.0, 0.0), **HULLS)
+    made.obstacles = (box("wall", 3.0, aside, heading),)
+    x = np.arange(0.0, 6.0, 0.001) - 3.0
+    c, s = math.cos(heading), math.sin(heading)
+    inside = (np.abs(c * x - s * aside) < 0.2) & (np.abs(-s * x - c * aside) < 1.0)
+    assert made.look()[0].visible == (not inside.any())
+
+
+@pytest.mark.parametrize(("x", "seen"), [(1.0, False), (2.7, True), (-1.0, True)])
+def test_a_box_beside_behind_or_behind_the_eye_hides_nothing(scenery, x, seen):
+    made = scenery([(0, 0)], (2.0, 0.0), **HULLS)
+    made.obstacles = (box("wall", x, 0.0),)
+    assert made.look()[0].visible == seen
+
+
+def test_a_ball_is_seen_over_a_low_box_and_a_robot_too(scenery):
+    made = scenery([(0, 0), (4, 0)], (2.0, 0.0, 0.11), **HULLS)
+    for height, ball, robot in ((0.1, True, True), (0.3, False, True), (1.0, False, False)):
+        made.obstacles = (box("wall", 1.0, 0.0, 0.0, (0.4, 2.0, height)),)
+        one = made.look()[0]
+        assert one.visible == ball
+        assert any(row[0] == approx(4.0) for row in one.obstacles) == robot
+
+
+@pytest.mark.parametrize(("heading", "seen"), [(0.0, False), (math.pi / 2, True), (math.pi, False)])
+def test_the_frame_of_a_robot_hides_as_it_stands(scenery, heading, seen):
+    """A frame 1 m wide across the front: the line passes 0.4 m beside the robot's middle, along its heading."""
+    robots = [(0, 0.4), (2, 0.0, heading)]
+    roster = scenery(robots, (4.0, 0.4)).roster
+    standard = roster.models[0]
+    wide = replace(standard, body=replace(standard.body, frame_width=1.0, frame_depth=0.1))
+    one = scenery(robots, (4.0, 0.4), roster=replace(roster, models=(standard, wide)), **HULLS).look()[0]
+    assert one.visible == seen
+    assert one.obstacles[0][2] == approx(wide.body.reach)
+
+
+def test_a_robot_sees_past_its_own_frame(scenery):
+    robots = [(0, 0, 0.0), (4, 0)]
+    roster = scenery(robots, (0.4, 0.0)).roster
+    standard = roster.models[0]
+    wide = replace(standard, body=replace(standard.body, frame_width=1.0, frame_depth=0.1))
+    one = scenery(robots, (0.4, 0.0), roster=replace(roster, models=(wide, standard)), **HULLS).look()[0]
+    assert one.visible and len(one.obstacles) == 1
 
 
 def test_without_occlusion_robots_see_through_each_other(scenery):

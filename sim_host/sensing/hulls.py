@@ -1,0 +1,73 @@
+"""What stands on the pitch as cameras see it from above: robots and obstacles, round and square, and what they hide."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from schemas.obstacle import Shape
+from schemas.robot_model import RobotModel
+from sim_host.sensing.sight_lines import Flags, through_boxes, through_circles
+from sim_host.sensing.streams import Floats
+from sim_host.snapshot import ObstacleState
+
+
+class Hulls:
+    """Bodies are the robots and then the obstacles; things are the ball and then the bodies."""
+
+    def __init__(self, models: Sequence[RobotModel], obstacles: Sequence[ObstacleState]) -> None:
+        robots = [model.body for model in models]
+        self.reach = np.array([body.reach for body in robots] + [one.radius for one in obstacles])
+        """Radius of the circle around each body, m."""
+        self._height = np.array([body.height for body in robots] + [one.height for one in obstacles])
+        is_round = [1.0] * len(robots) + [float(one.shape is Shape.CYLINDER) for one in obstacles]
+        radius = [body.radius for body in robots] + [one.radius for one in obstacles]
+        self._radius = np.array(radius) * is_round
+        self._places = np.array([(one.x, one.y) for one in obstacles]).reshape(-1, 2).T
+        self._headings = np.array([one.heading for one in obstacles])
+        self._lay_out_boxes(models, obstacles)
+        self._lay_out_heights(len(robots))
+
+    def _lay_out_boxes(self, models: Sequence[RobotModel], obstacles: Sequence[ObstacleState]) -> None:
+        """Frames of robots, and square obstacles: whose they are, how far before its middle, half depth and width."""
+        boxes = [
+            (place, model.body.radius - model.body.frame_depth / 2, model.body.frame_depth, model.body.frame_width)
+            for place, model in enumerate(models)
+            if model.body.frame_width
+        ]
+        boxes += [
+            (len(models) + place, 0.0, one.size_x, one.size_y)
+            for place, one in enumerate(obstacles)
+            if one.shape is Shape.BOX
+        ]
+        numbers = np.array(boxes).reshape(-1, 4).T
+        self._owner, self._ahead, self._halves = numbers[0].astype(int), numbers[1], numbers[2:] / 2.0
+
+    def _lay_out_heights(self, eyes: int) -> None:
+        """Hull × eye × thing: whether it is another's hull, and high enough to hide the thing."""
+        bodies = np.arange(len(self._height))
+        self._is_others = bodies[:, None] != np.arange(eyes)
+        is_tall = np.concatenate((self._height[:, None] > 0.0, self._height[:, None] >= self._height), axis=1)
+        is_tall[bodies, bodies + 1] = False
+        self._may_hide = is_tall[:, None, :] & self._is_others[:, :, None]
+
+    def places(self, robots: Floats) -> Floats:
+        """x and y of all bodies, shape (2, bodies), the robots being there."""
+        return np.concatenate((robots[:2], self._places), axis=1)
+
+    def hidden(self, places: Floats, square: Floats, robots: Floats, ball_height: float) -> Flags:
+        """Whether a hull stands before a thing and is as high, shape (robots, things).
+
+        `places` of the things as seen from each robot, m, shape (2, robots, things), and their `square` distance. A
+        thing is hidden when the line to its middle passes through a hull that does not stand farther away.
+        """
+        self._may_hide[:, :, 0] = (self._height >= ball_height)[:, None] & self._is_others
+        hides = through_circles(places, square, places[:, :, 1:], self._radius)
+        hides &= self._may_hide
+        found: Flags = np.logical_or.reduce(hides, axis=0)
+        if len(self._owner):
+            headings = np.concatenate((robots[3], self._headings))[self._owner]
+            ahead = self._ahead * np.stack((np.cos(headings), np.sin(headings)))
+            centres = np.swapaxes(places[:, :, 1:][:, :, self._owner], 1, 2) + ahead[:, :, None]
+            hides = through_boxes(places, centres, headings, self._halves) & self._may_hide[self._owner]
+            found |= np.logical_or.reduce(hides, axis=0)
+        return found
