@@ -27,6 +27,10 @@ STILL = frozenset({TeamPhase.PRE_GAME, TeamPhase.STOPPED, TeamPhase.HALF_TIME, T
 """Phases in which nobody has anything to do."""
 _PARKING_SPEED = 1.5
 """m/s."""
+_AT_THE_CENTRE = Ball(0.0, 0.0)
+"""Where a ball is that may be anywhere."""
+_AIR = 0.1
+"""m between two robots that pass each other."""
 
 
 class Action(NamedTuple):
@@ -91,7 +95,7 @@ class Player(ABC):
         scene = self._world.take_in(sight)
         order = sight.order
         self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits
-        action = self._obey(scene, order) or self._search(scene) or self.play(scene, order)
+        action = self._obey(scene, order) or self._search(scene, order) or self.play(scene, order)
         if not scene.kicker_ready:
             action = action._replace(kick=None, pass_to=None)  # it would be refused: keep the ball, and aim
         self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - scene.dt)
@@ -119,17 +123,16 @@ class Player(ABC):
             return Action("", "hold", Drive())
         return None
 
-    def _search(self, scene: Scene) -> Action | None:
+    def _search(self, scene: Scene, order: CoachOrder | None) -> Action | None:
         """In play, when nobody has seen the ball for long: the keeper guards the goal, the others drive around."""
-        if scene.ball is not None or scene.game.phase is not TeamPhase.PLAY:
+        is_test = order is not None and order.mode is CoachMode.TEST
+        if scene.ball is not None or scene.game.phase is not TeamPhase.PLAY or is_test:
             return None
-        setup, me = self.setup, scene.me
+        pitch, reach, me = self.setup.pitch, self.setup.robot.reach, scene.me
         if self.is_keeper:
-            return Action(
-                "", "look for the ball", keep_goal(me, Ball(0.0, 0.0), setup.pitch, setup.robot.radius, self.limits)
-            )
-        x, y = search_place(self.briefing.number, scene.game.clock, setup.pitch)
-        blocked = circles(scene.others, 2.0 * setup.robot.radius + 0.1)
+            return Action("", "look for the ball", keep_goal(me, _AT_THE_CENTRE, pitch, reach, self.limits))
+        x, y = search_place(self.briefing.number, scene.game.clock, pitch)
+        blocked = circles(scene.others, 2.0 * reach + _AIR)
         return Action("", "look for the ball", go_around(me, x, y, me.heading, blocked, self.limits))
 
     def _park(self, scene: Scene) -> Drive:

@@ -52,7 +52,7 @@ class Simple(Player):
         self._pressed = self._pressed + scene.dt if pressed else 0.0
         self._remember_promise(scene)
         if scene.ball is None:
-            return Action(self._role, "look for the ball", Drive(omega=1.0))
+            return Action(self._role, "wait", Drive())
         ball, phase = scene.ball.now, scene.game.phase
         spot = (scene.game.spot.x, scene.game.spot.y) if scene.game.spot is not None else (ball.x, ball.y)
         if self.is_keeper:

@@ -1,0 +1,74 @@
+"""CPU of sensing and of writing sights for ten robots, against the physics of the same ticks, in one run.
+
+Sensing: what all robots perceive, `Perception.at`, mean of ticks with and without a picture. Sights: the whole of
+`Sights.at`, sensing included. Physics: setting velocities, stepping and reading in the bare engine, as often as a tick
+has steps; and `World.advance`, which is the same with actuation, dribbling and contacts.
+"""
+
+import statistics
+import time
+from collections.abc import Callable
+
+from bench_host_step import commands
+
+from schemas.match_config import load_match
+from sim_host.sensing.perception import Perception
+from sim_host.sensing.streams import Streams
+from sim_host.simulation import Simulation
+from sim_host.world.engine import Engine
+
+ROUNDS = 12
+TICKS = 128
+
+
+class Timed:
+    """A function that adds up the CPU time of its calls."""
+
+    def __init__(self, function: Callable[..., object]) -> None:
+        self._function = function
+        self.seconds = 0.0
+
+    def __call__(self, *given: object) -> object:
+        """Call it."""
+        began = time.thread_time()
+        result = self._function(*given)
+        self.seconds += time.thread_time() - began
+        return result
+
+
+def main() -> None:
+    """Print the median cost of each in a tick."""
+    simulation = Simulation(load_match(None, {"duration": 86_400}))
+    profile, roster = simulation.profile, simulation.roster
+    perception = Perception(profile.sensing, roster, Streams(2), profile.time.tick)
+    raw = Engine(profile, roster)
+    drives = [(0.3, 0.1 * place, 0.3) for place in range(len(roster.names))]
+
+    def physics() -> None:
+        for _ in range(profile.time.steps_per_tick):
+            raw.drive(drives)
+            raw.step()
+            raw.read()
+
+    rows = []
+    for _ in range(ROUNDS):
+        raw.rebuild(simulation.world.snapshot().robots, simulation.world.snapshot().ball)
+        sense, bare = Timed(perception.at), Timed(physics)
+        write, advance = Timed(simulation._sights.at), Timed(simulation.world.advance)
+        simulation._sights.at, simulation.world.advance = write, advance  # type: ignore[method-assign, assignment]
+        for _ in range(TICKS):
+            simulation.step(commands(simulation))
+            sense(simulation.world.snapshot(), simulation.state.cyan_attacks)
+            bare()
+        del simulation._sights.at, simulation.world.advance
+        rows.append([timed.seconds / TICKS * 1e6 for timed in (sense, write, bare, advance)])
+    sensing, sights, physics_us, world = (statistics.median(column) for column in zip(*rows, strict=True))
+    print(
+        f"a tick of ten robots: sensing {sensing:.0f} us, sights with it {sights:.0f} us; physics {physics_us:.0f} us "
+        f"raw (set, step, read), {world:.0f} us with actuation; sensing / raw physics {sensing / physics_us:.2f} "
+        f"(below 1), sights / physics {sights / world:.2f} (below 1)"
+    )
+
+
+if __name__ == "__main__":
+    main()
