@@ -16,7 +16,7 @@ from schemas.match_config import MatchConfig
 from schemas.parameters import ParameterDeed, ParametersReply, ParametersRequest, Value
 from schemas.profile import STANDARD, Profile
 from schemas.rule_book import RuleBook, load_rule_book
-from schemas.scene import SceneReply, SceneRequest, load_scene
+from schemas.scene import Scene, SceneReply, SceneRequest, load_scene
 from schemas.side import Side
 from sim_host.actuation.commands import Commands
 from sim_host.due import Due
@@ -73,7 +73,7 @@ class Simulation:
         self.book: RuleBook = load_rule_book(config.rules)
         self._streams = Streams(config.seed)
         self._engine = fingerprint()
-        start = load_scene(config.scene) if config.scene is not None else start_scene(config, self.profile)
+        start = self._start_scene()
         self._scenes = Scenes(start, start)
         began = opened(start, "")
         if config.scene is not None:
@@ -93,6 +93,11 @@ class Simulation:
         self._begin_senses()
         self._due = Due(began.placements)
         self.now = self._begin()
+
+    def _start_scene(self) -> Scene:
+        if self.config.scene is not None:
+            return load_scene(self.config.scene)
+        return start_scene(self.config, self.profile, self.book.restarts)
 
     @property
     def profile(self) -> Profile:
@@ -284,7 +289,7 @@ class Simulation:
             duration=config.duration,
             kick_off=config.referee.kick_off,
             automatic=config.referee.automatic,
-            starts=start_poses(self.roster, p.field),
+            starts=start_poses(self.roster, p.field, self.book.restarts),
         )
 
     def _told(self, done: Due, snapshot: Snapshot) -> Iterator[GameEvent]:

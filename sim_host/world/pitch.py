@@ -29,6 +29,11 @@ def boundary(pitch: Field) -> list[Box]:
     return ends + sides
 
 
+def fixed_boxes(pitch: Field) -> list[Box]:
+    """Everything of a pitch that robots can run into."""
+    return [*boundary(pitch), *(box for goal in goals(pitch) for box in (*goal.frame, *goal.net))]
+
+
 class Goal(NamedTuple):
     """One goal: the hard frame, and the net box behind it that a ball enters and rests in."""
 

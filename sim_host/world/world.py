@@ -11,6 +11,7 @@ from sim_host.actuation.ball_handling import BallHandling, BallReport
 from sim_host.actuation.chassis import Chassis
 from sim_host.snapshot import ObstacleState, Roster, Snapshot
 from sim_host.world.engine import Engine
+from sim_host.world.impact import Impacts
 
 _NOTHING = BallReport()
 
@@ -35,6 +36,7 @@ class World:
         self._engine = Engine(profile, roster)
         self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
         self._ball = BallHandling(profile, roster.models, self._engine)
+        self._impacts = Impacts(profile.time, roster.models, profile.field)
         self.tick = 0
         self._obstacles: tuple[ObstacleState, ...] = ()
         self._chain = b""
@@ -59,7 +61,7 @@ class World:
     def put_obstacle(self, obstacle: StaticObstacle) -> None:
         """Put an obstacle down, between two ticks; one of the same name goes."""
         self._engine.put_obstacle(ObstacleState.of(obstacle))
-        self._obstacles = self._engine.obstacles
+        self._count_obstacles()
 
     def remove_obstacle(self, name: str) -> None:
         """Take an obstacle away, between two ticks.
@@ -68,7 +70,11 @@ class World:
             KeyError: none is named so.
         """
         self._engine.remove_obstacle(name)
+        self._count_obstacles()
+
+    def _count_obstacles(self) -> None:
         self._obstacles = self._engine.obstacles
+        self._impacts.stand(self._obstacles)
 
     def rebuild(self) -> None:
         """Make a checkpoint: equal poses and velocities in a world that remembers nothing else."""
@@ -88,7 +94,8 @@ class World:
         self._engine = Engine(profile, roster)
         for obstacle in obstacles:
             self._engine.put_obstacle(ObstacleState.of(obstacle))
-        self._obstacles = self._engine.obstacles
+        self._impacts = Impacts(profile.time, roster.models, profile.field)
+        self._count_obstacles()
         aside = self._engine.robot_states(None)
         self._roster = roster
         self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
@@ -105,8 +112,11 @@ class World:
         engine, ball = self._engine, self._ball
         ordered = [inputs[name] for name in self._roster.names]
         report = ball.begin(self.tick, self._robots, self._ball_state, ordered)
+        pairs, fixed = self._impacts.due(self._robots)
         for drives in self._chassis.plan(self._robots, ordered):
             ball.before_step(drives)
+            if pairs or fixed:
+                engine.bring_together(pairs, fixed, drives)
             engine.drive(drives)
             engine.step()
             ball.after_step(report)

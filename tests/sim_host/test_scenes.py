@@ -15,6 +15,7 @@ from schemas.match_config import MatchConfig, load_match
 from schemas.message import VERSION
 from schemas.obstacle import Shape, StaticObstacle
 from schemas.parameters import ParameterDeed, ParametersRequest
+from schemas.rule_book import load_rule_book
 from schemas.scene import (
     Scene,
     SceneBall,
@@ -98,7 +99,8 @@ def applied(tick: Tick) -> Applied:
 def simulated_again(config: MatchConfig, recorded: list[Applied]) -> list[str]:
     """The hash chain of the same match, from its inputs alone."""
     tuning = Tuning.of(config)
-    robots, obstacles, chains = opened(start_scene(config, tuning.profile), "").stage.robots, config.obstacles, []
+    start = start_scene(config, tuning.profile, load_rule_book(config.rules).restarts)
+    robots, obstacles, chains = opened(start, "").stage.robots, config.obstacles, []
     world = World(tuning.profile, Roster.cast(robots, tuning.types))
     for obstacle in obstacles:
         world.put_obstacle(obstacle)

@@ -1,0 +1,75 @@
+"""Which robots could run so deep into another body in one physics step that they have to be brought to it first."""
+
+import math
+from collections.abc import Iterable, Sequence
+
+from schemas.profile import Field, TimeSteps
+from schemas.robot_model import RobotModel
+from sim_host.snapshot import ObstacleState, RobotState
+from sim_host.world.pitch import fixed_boxes
+
+DEEP = 0.01
+"""m that a body may sink into another in one step: what the engine's contacts take away again in a few."""
+
+Pairs = list[tuple[int, int]]
+
+
+class Impacts:
+    """Looks for robots that close in fast, once a tick; costs less the fewer there are."""
+
+    def __init__(self, time: TimeSteps, models: Sequence[RobotModel], pitch: Field) -> None:
+        self._tick = time.tick
+        self._fast = DEEP / time.physics_step
+        self._reaches = [model.body.reach for model in models]
+        self._strikes = [model.body.reach if model.body.frame_width else 0.0 for model in models]
+        """m from the axis at which a turning hull strikes; a round one slides past."""
+        self._gains = [max(model.drive.acceleration, model.drive.deceleration) * time.tick for model in models]
+        self._boxes = [(box.x, box.y, box.half_x, box.half_y) for box in fixed_boxes(pitch)]
+        self._free_x, self._free_y = pitch.goal_line, pitch.touch_line + pitch.border
+        """m; inside these there is no box of the pitch."""
+        self._obstacles: list[tuple[float, float, float]] = []
+
+    def stand(self, obstacles: Iterable[ObstacleState]) -> None:
+        """Take note of what stands on the pitch."""
+        self._obstacles = [(obstacle.x, obstacle.y, obstacle.radius) for obstacle in obstacles]
+
+    def due(self, robots: Sequence[RobotState]) -> tuple[Pairs, Pairs]:
+        """Pairs of robots, and pairs of a robot and a fixed body, that may meet too fast within the tick.
+
+        Fixed bodies are counted through: the boxes of the pitch, then the obstacles.
+        """
+        gains, strikes = self._gains, self._strikes
+        extra = [gains[i] + abs(robot.omega) * strikes[i] for i, robot in enumerate(robots)]
+        speeds = [math.hypot(robot.vx, robot.vy) + extra[i] for i, robot in enumerate(robots)]
+        ways = [self._reaches[i] + speed * self._tick for i, speed in enumerate(speeds)]
+        quick = [i for i, speed in enumerate(speeds) if speed > self._fast]
+        return self._robots(robots, extra, ways), [pair for i in quick for pair in self._fixed(i, robots[i], ways[i])]
+
+    def _robots(self, robots: Sequence[RobotState], extra: list[float], ways: list[float]) -> Pairs:
+        order = sorted(range(len(robots)), key=[robot.x for robot in robots].__getitem__)
+        widest, pairs = max(ways), []
+        for number, one in enumerate(order, 1):
+            a, way = robots[one], ways[one]
+            for other in order[number:]:
+                b = robots[other]
+                dx, dy = b.x - a.x, b.y - a.y
+                if dx > way + widest:
+                    break
+                apart = math.hypot(dx, dy)
+                if apart > way + ways[other]:
+                    continue
+                approach = ((a.vx - b.vx) * dx + (a.vy - b.vy) * dy) / max(apart, 1e-9)
+                if approach + extra[one] + extra[other] > self._fast:
+                    pairs.append((min(one, other), max(one, other)))
+        return sorted(pairs)
+
+    def _fixed(self, place: int, robot: RobotState, way: float) -> Pairs:
+        x, y, found = robot.x, robot.y, []
+        if abs(x) + way > self._free_x or abs(y) + way > self._free_y:
+            for number, (at_x, at_y, half_x, half_y) in enumerate(self._boxes):
+                if math.hypot(max(abs(x - at_x) - half_x, 0.0), max(abs(y - at_y) - half_y, 0.0)) < way:
+                    found.append((place, number))
+        for number, (at_x, at_y, radius) in enumerate(self._obstacles, len(self._boxes)):
+            if math.hypot(x - at_x, y - at_y) - radius < way:
+                found.append((place, number))
+        return found

@@ -1,0 +1,60 @@
+"""Where robots stand when a half begins: legally, whoever kicks off."""
+
+import itertools
+import math
+
+import pytest
+
+from schemas.game import Phase
+from schemas.match_config import load_match
+from schemas.profile import load_profile
+from schemas.rule_book import load_rule_book
+from schemas.side import Side
+from sim_host.referee.core import Referee
+from sim_host.referee.positions import standing_wrong
+from sim_host.referee.state import Restart
+from sim_host.snapshot import BallState, RobotState, Roster, Snapshot
+from sim_host.start import start_poses
+
+
+def a_match(profile_name, rules, **overrides):
+    config = load_match(None, {"profile": profile_name, **overrides})
+    profile, book = load_profile(profile_name), load_rule_book(rules)
+    roster = Roster.of(config, profile)
+    starts = start_poses(roster, profile.field, book.restarts)
+    settings = {"duration": None, "kick_off": Side.CYAN, "automatic": True, "starts": starts}
+    referee = Referee(book, profile.field, profile.ball, roster, **settings)
+    robots = tuple(
+        RobotState(pose.x, pose.y, 0.4, pose.heading, 0.0, 0.0, 0.0, False)
+        for pose in (starts[name] for name in roster.names)
+    )
+    snapshot = Snapshot(0, 0.0, roster, robots, BallState(0, 0, 0.11, 0, 0, 0), None, ())
+    return referee, snapshot
+
+
+@pytest.mark.parametrize("taker", list(Side))
+@pytest.mark.parametrize("rules", ["friendly", "msl", "paper"])
+@pytest.mark.parametrize("profile", ["msl", "paper"])
+def test_at_the_start_all_stand_legally_for_a_kick_off_of_either_side(profile, rules, taker):
+    """Rule book 10.4: the side that does not kick off 3 m away, to the whole robot, its own side 2 m."""
+    referee, snapshot = a_match(profile, rules)
+    state = referee.begin()
+    assert standing_wrong(referee._match, state, Restart(Phase.KICK_OFF, taker, (0.0, 0.0)), snapshot) is None
+
+
+def test_a_robot_with_a_wide_frame_starts_as_far_away_as_its_frame_asks_for():
+    wide = {f"cyan{number}": "keeper" for number in range(1, 6)}
+    referee, snapshot = a_match("msl", "msl", **{"teams.cyan.types": wide})
+    kick_off = Restart(Phase.KICK_OFF, Side.MAGENTA, (0.0, 0.0))
+    assert standing_wrong(referee._match, referee.begin(), kick_off, snapshot) is None
+    nearest = min(math.hypot(robot.x, robot.y) for robot in snapshot.robots[:5])
+    assert nearest > 3.0 + math.hypot(0.245, 0.30)
+
+
+@pytest.mark.parametrize("profile", ["msl", "paper"])
+def test_robots_start_apart_from_each_other_and_on_the_pitch(profile):
+    _, snapshot = a_match(profile, "msl")
+    pitch, reach = load_profile(profile).field, snapshot.roster.models[0].body.reach
+    for one, other in itertools.combinations(snapshot.robots, 2):
+        assert math.hypot(one.x - other.x, one.y - other.y) > 2 * reach + 0.1
+    assert all(abs(r.x) + reach <= pitch.goal_line and abs(r.y) + reach < pitch.touch_line for r in snapshot.robots)
