@@ -2,7 +2,7 @@
 
 import typer
 
-from arena.commands import agent, coach, host, info, match, parameters, record, scene, scenes, schema, topics
+from arena.commands import agent, coach, drive, host, info, match, parameters, record, scene, scenes, schema, topics
 from arena.front import Front
 
 app = typer.Typer(
@@ -21,6 +21,7 @@ app.add_typer(coach.app, name="coach")
 app.add_typer(parameters.app, name="parameters")
 app.add_typer(scene.app, name="scene")
 app.command("scenes")(scenes.scenes)
+app.command("drive")(drive.drive)
 app.command("record")(record.record)
 app.command("info")(info.info)
 app.command("topics")(topics.topics)

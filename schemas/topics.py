@@ -13,6 +13,7 @@ from schemas.coach import CoachOrder
 from schemas.command import Command
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import ActionReply, GameEvent, GameState, RefereeAction
+from schemas.hand import HandDrive
 from schemas.host import Applied, Belief, Health, Invalid, RecorderProgress, Setup, SetupRequest
 from schemas.message import Message
 from schemas.parameters import ParametersReply, ParametersRequest
@@ -147,6 +148,16 @@ COMMAND = Topic(
     Delivery.EVERY,
     True,
     "what this robot does",
+)
+HAND = Topic(
+    "robot/{robot}/hand",
+    HandDrive,
+    Party.OPERATOR,
+    (Party.HOST,),
+    "20 Hz of wall time while somebody drives",
+    Delivery.EVERY,
+    False,
+    "a person drives this robot in place of its brain",
 )
 BELIEF = Topic(
     "team/{side}/belief/{robot}",
@@ -289,6 +300,7 @@ TOPICS: dict[str, Topic] = {
     "world_ball": WORLD_BALL,
     "sight": SIGHT,
     "command": COMMAND,
+    "hand": HAND,
     "belief": BELIEF,
     "order": ORDER,
     "state": STATE,

@@ -7,6 +7,7 @@ from schemas.profile import Profile
 from sim_host.attendance import Attendance
 from sim_host.complaints import Complaints
 from sim_host.desk import Desk
+from sim_host.hands import Hands
 from sim_host.inbox import Inbox
 from sim_host.outbox import Outbox
 from sim_host.pace import Lockstep, Pace, Realtime
@@ -25,6 +26,7 @@ class Host:
         self._complaints = Complaints()
         self.inbox = Inbox(bus, self.simulation.roster, self._complaints)
         self.attendance = Attendance(bus, self.inbox.ledgers)
+        self._hands = Hands(bus, self._complaints)
         self._config = config
         self._clock = bus.clock
         self._desk = Desk(bus, self.simulation, self._complaints)
@@ -77,6 +79,7 @@ class Host:
         self.attendance.update()
         self._attend()
         self._stamp(self.simulation.now.tick + 1)
+        commands = self._hands.lay_over(self.simulation.now.tick, self._roster.names, commands)
         tick = self.simulation.step(commands, self._desk.actions, self._send_sight)
         self._outbox.truth(tick, self.simulation.state)
         self._desk.reply(tick.replies)
@@ -120,6 +123,9 @@ class Host:
         """Note what was refused, and say when a robot falls silent or is heard again."""
         for name, count in tick.refused.items():
             self.inbox.ledgers[name].refused += count
+        for name, driven in self._hands.changes():
+            text = f"{name} is driven by hand" if driven else f"{name} is given back to its brain"
+            self._tell_of_agent(tick, name, "hand", text)
         for name, was_silent in self._silent.items():
             ledger = self.inbox.ledgers[name]
             if ledger.idle:
@@ -130,18 +136,23 @@ class Host:
                 continue
             self._silent[name] = silent
             text = f"{name} does not answer, its robot rests" if silent else f"{name} answers"
-            self._outbox.event(
-                GameEvent(
-                    tick=tick.tick,
-                    time=tick.time,
-                    clock=self.simulation.state.clock,
-                    kind=EventKind.AGENT,
-                    rule="attendance",
-                    side=self.simulation.roster.side_of(name),
-                    robot=name,
-                    text=text,
-                )
+            self._tell_of_agent(tick, name, "attendance", text)
+
+    def _tell_of_agent(self, tick: Tick, name: str, rule: str, text: str) -> None:
+        if name not in self._roster.names:
+            return
+        self._outbox.event(
+            GameEvent(
+                tick=tick.tick,
+                time=tick.time,
+                clock=self.simulation.state.clock,
+                kind=EventKind.AGENT,
+                rule=rule,
+                side=self._roster.side_of(name),
+                robot=name,
+                text=text,
             )
+        )
 
     def _report(self, tick: Tick) -> None:
         """Say how the host is doing, when it is time to, and of one invalid payload at most: a flood is not echoed."""

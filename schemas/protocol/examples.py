@@ -15,6 +15,7 @@ from schemas.game import (
     Score,
     TeamPhase,
 )
+from schemas.hand import HandDrive
 from schemas.host import (
     Applied,
     AppliedInput,
@@ -99,6 +100,7 @@ def _robot() -> tuple[Message, ...]:
             radio=_RADIO,
             acknowledges_order=_ORDER.sequence,
         ),
+        HandDrive(drive=Drive(vx=1.0, omega=-1.0), dribble=True),
         Belief(tick=_TICK + 1, time=_TIME + 0.02, robot="cyan2", radio=_RADIO),
         _ORDER,
     )

@@ -13,7 +13,20 @@ from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.match_config import MatchConfig
 from schemas.topics import TOPICS
 
-COMMANDS = ("match", "host", "agent", "coach", "record", "info", "topics", "schema", "parameters", "scene", "scenes")
+COMMANDS = (
+    "match",
+    "host",
+    "agent",
+    "coach",
+    "record",
+    "info",
+    "topics",
+    "schema",
+    "parameters",
+    "scene",
+    "scenes",
+    "drive",
+)
 NOBODY = "--connect=tcp/127.0.0.1:9"
 
 
@@ -64,6 +77,7 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "a scene without a host": (["scene", "reset", NOBODY], "no host answers there"),
     "a velocity beyond reason": (["scene", "place", "ball", "0", "0", "--vx", "nan"], "scene place: place.0.vx is"),
     "an obstacle without a shape": (["scene", "add-obstacle", "wall", "0", "0"], "give --radius and --height"),
+    "a drive without a terminal": (["drive", "cyan2"], "drive reads keys from a terminal"),
     "a recording that is not there": (["info", "no.mcap"], "no.mcap"),
     "a schema that is not there": (["schema", "sihgt"], 'did you mean "sight"?'),
     "a topic without message": (["schema", "alive"], 'schema of "alive"'),

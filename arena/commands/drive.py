@@ -1,0 +1,103 @@
+"""`touchline drive`: one robot driven by keys, in place of its brain."""
+
+import os
+import select
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from arena import options
+from arena.keyboard import KEYS, Hand, Speeds, pressed, said, status
+from arena.seat import seat as _seat
+from schemas.errors import MatchFailedError, TouchlineError, did_you_mean
+from schemas.hand import HandDrive
+from schemas.topics import HAND
+
+if TYPE_CHECKING:
+    from schemas.bus.contract import Bus
+
+_PERIOD = 0.05
+"""s of wall time between two words to the host."""
+
+_USUAL = Speeds()
+
+Keys = Callable[[float], str]
+"""What was typed, waiting up to so many s for it."""
+
+
+def drive(
+    robot: Annotated[str, typer.Argument(metavar="ROBOT", help="cyan1, magenta3, …")],
+    speed: Annotated[float, typer.Option(min=0.0, max=20.0, help="m/s along each axis.")] = _USUAL.drive,
+    turn: Annotated[float, typer.Option(min=0.0, max=50.0, help="rad/s.")] = _USUAL.turn,
+    kick: Annotated[float, typer.Option(min=0.1, max=40.0, help="m/s.")] = _USUAL.kick,
+    connect: options.Connect = options.DEFAULT_ENDPOINT,
+    match: options.Match = options.DEFAULT_MATCH,
+) -> None:
+    """Drive one robot of a running match by keys; Ctrl-C gives it back to its brain.
+
+    Arrows move, comma and period turn, z switches the dribbler, x the kind of kick, and space kicks.
+
+    Example: touchline drive cyan2 --speed 2
+    """
+    with _terminal() as keys, _seat(connect, match) as bus:
+        typer.echo(", ".join(f"{'space' if key == ' ' else key}: {words}" for key, (words, _) in KEYS.items()))
+        drive_by_keys(bus, robot, keys, Speeds(speed, turn, kick), lambda line: typer.echo(line))
+
+
+def drive_by_keys(bus: "Bus", robot: str, keys: Keys, speeds: Speeds, say: Callable[[str], None]) -> None:
+    """Drive until the keys are interrupted; the robot is given back in any case.
+
+    Raises:
+        TouchlineError: no robot of the match has that name.
+        MatchFailedError: the host went away.
+    """
+    from coach_gateway.gateway import Gateway
+
+    names = [name for team in Gateway(bus).setup().teams.values() for name in team.robots]
+    if robot not in names:
+        raise TouchlineError(f'robot is "{robot}", who does not play; {did_you_mean(robot, names)}')
+    words, hand, clock = bus.publisher(HAND, robot=robot), Hand(), bus.clock
+    say(status(hand))
+    try:
+        while bus.connected():
+            before, hand = hand, pressed(hand, keys(_PERIOD), clock.now())
+            words.put(said(hand, speeds, clock.now()))
+            hand = replace(hand, kicks=False)
+            if status(hand) != status(before):
+                say(status(hand))
+    except KeyboardInterrupt:
+        say(f"{robot} is given back")
+        return
+    finally:
+        words.put(HandDrive(release=True))
+    raise MatchFailedError("the host is gone")
+
+
+@contextmanager
+def _terminal() -> Iterator[Keys]:
+    """The keys of the terminal, each as soon as it is pressed.
+
+    Raises:
+        TouchlineError: stdin is no terminal.
+    """
+    if not sys.stdin.isatty():
+        raise TouchlineError("drive reads keys from a terminal, and stdin is none; run it in a terminal of its own")
+    import termios
+    import tty
+
+    descriptor = sys.stdin.fileno()
+    before = termios.tcgetattr(descriptor)
+
+    def keys(timeout: float) -> str:
+        ready, _, _ = select.select([descriptor], [], [], timeout)
+        return os.read(descriptor, 256).decode(errors="ignore") if ready else ""
+
+    try:
+        tty.setcbreak(descriptor)
+        yield keys
+    finally:
+        termios.tcsetattr(descriptor, termios.TCSADRAIN, before)
