@@ -10,7 +10,7 @@ from schemas.command import Drive, Kick, Radio
 from schemas.match_config import MatchConfig
 from schemas.message import Message, Name, Part
 from schemas.obstacle import StaticObstacle
-from schemas.parameters import ParameterName, Value
+from schemas.parameters import ParameterName, Setting
 from schemas.profile import STANDARD, Ball, Dribble, Kicker, Profile, RobotBody, TimeSteps
 from schemas.profile import Drive as DriveLimits
 from schemas.profile import Field as Pitch
@@ -61,7 +61,7 @@ class Setup(Message):
     """Type → model; `standard` for every robot that no type is given for."""
     engine: dict[str, str] = {}
     """Fingerprint of what computes the world: engine version, the maths library's answers."""
-    parameters: dict[ParameterName, Value] = {}
+    parameters: dict[ParameterName, Setting] = {}
     """Live parameters that are not what the match began with, and their values; the numbers above have them already."""
 
     @classmethod
@@ -71,7 +71,7 @@ class Setup(Message):
         profile: Profile,
         book: RuleBook,
         engine: Mapping[str, str] = _NOTHING,
-        parameters: Mapping[str, Value] = _NOTHING,
+        parameters: Mapping[str, Setting] = _NOTHING,
     ) -> Self:
         """The setup of a match that runs with the numbers of `profile`."""
         return cls(
@@ -170,7 +170,7 @@ class Applied(Message):
     """The world was rebuilt from poses and velocities before this tick: re-simulation may begin here."""
     remade: bool = False
     """The world was built anew, with the parameters, robots and obstacles in force, before bodies were placed."""
-    parameters: dict[ParameterName, Value] = {}
+    parameters: dict[ParameterName, Setting] = {}
     """Live parameters that were changed before this tick, and their new values."""
     robots: list[RosterEntry] | None = None
     """Who takes part from this tick on, in the order of the roster; nothing where that is as before."""

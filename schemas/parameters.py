@@ -12,6 +12,8 @@ ParameterName = Annotated[str, StringConstraints(pattern=r"^[a-z_0-9]+(\.[a-z_0-
 
 Value = StrictInt | StrictFloat | str | list[StrictFloat | StrictInt]
 """A number in the parameter's unit, a word, or a list of numbers."""
+Setting = Value | None
+"""What a parameter is set to; nothing for a number of a type of robots that is the standard robot's again."""
 
 
 class ParameterDeed(StrEnum):

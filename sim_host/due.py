@@ -6,7 +6,7 @@ from typing import Any
 
 from schemas.game import EventKind
 from schemas.host import Placement
-from schemas.parameters import Value
+from schemas.parameters import Setting
 
 
 @dataclass(slots=True)
@@ -19,7 +19,7 @@ class Due:
     """Numbers, robots or obstacles of the world have changed."""
     begins_anew: bool = False
     """Another episode begins: what robots answer to the tick before means nothing."""
-    parameters: dict[str, Value] = field(default_factory=dict)
+    parameters: dict[str, Setting] = field(default_factory=dict)
     """Those that were changed, and their new values."""
     recast: bool = False
     """Other robots take part."""

@@ -3,7 +3,7 @@
 import math
 from collections import deque
 from dataclasses import dataclass, field
-from heapq import heappop, heappush
+from heapq import heapify, heappop, heappush
 
 from schemas.command import Radio
 from schemas.profile import Radio as Air
@@ -47,6 +47,7 @@ class RadioAir:
         self._air = air
         self._roster = roster
         self._tick_s = tick
+        self._streams = streams
         names = roster.names
         self._luck = Block(lambda ticks: streams.between(What.AIR, names, names, ticks))
         """Per tick: speaker × listener × (loss, jitter, nothing, nothing)."""
@@ -63,6 +64,25 @@ class RadioAir:
     def change(self, air: Air) -> None:
         """Another air for all words from now on; those under way arrive as they would have."""
         self._air = air
+
+    def handed_on(self, roster: Roster) -> "RadioAir":
+        """For other robots: what was said, is under way and was heard stays with those who stay on their side."""
+        heir, before = RadioAir(self._air, roster, self._tick_s, self._streams), self._roster
+        place = {
+            old: roster.names.index(name)
+            for old, name in enumerate(before.names)
+            if name in roster.names and roster.side_of(name) is before.side_of(name)
+        }
+        heir._teams = self._teams
+        heir._under_way = [
+            (arrives, said, place[speaker], place[mate], word)
+            for arrives, said, speaker, mate, word in self._under_way
+            if speaker in place and mate in place
+        ]
+        heapify(heir._under_way)
+        for old, new in place.items():
+            heir._heard[new] = {place[speaker]: word for speaker, word in self._heard[old].items() if speaker in place}
+        return heir
 
     def say(self, tick: int, speaker: str, word: Radio) -> str | None:
         """Send a word to all teammates; returns why it was refused, or nothing."""

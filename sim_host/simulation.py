@@ -13,7 +13,7 @@ from schemas.errors import TouchlineError
 from schemas.game import ActionReply, EventKind, GameEvent, Phase, RefereeAction
 from schemas.host import AppliedInput, Placement, Setup, TeamSetup
 from schemas.match_config import MatchConfig
-from schemas.parameters import ParameterDeed, ParametersReply, ParametersRequest, Value
+from schemas.parameters import ParameterDeed, ParametersReply, ParametersRequest, Setting
 from schemas.profile import STANDARD, Profile
 from schemas.rule_book import RuleBook, load_rule_book
 from schemas.scene import Scene, SceneReply, SceneRequest, load_scene
@@ -90,7 +90,9 @@ class Simulation:
             self.world.put_obstacle(obstacle)
         self.orders: dict[Side, CoachOrder] = {}
         self._commands = Commands(self.roster.names, self._watchdog, self.roster.still)
-        self._begin_senses()
+        self._radio = self._new_radio()
+        self._perception = self._new_perception()
+        self._sights = Sights(self.roster, self._perception, self._radio)
         self._due = Due(began.placements)
         self.now = self._begin()
 
@@ -258,8 +260,12 @@ class Simulation:
             self.state = self.referee.begin_at(staged.game, staged.ball)
         elif staged.placements or self._stage.robots != before.robots:
             self.state = replace(self.state, evidence=NOTHING)  # nobody ran or dribbled there
-        if anew or self._stage.robots != before.robots:
-            self._begin_senses()
+        if anew:
+            self._radio, self._perception = self._new_radio(), self._new_perception()
+        elif self._stage.robots != before.robots:
+            self._radio = self._radio.handed_on(self.roster)
+            self._perception = self._perception.handed_on(self.tuning.sensing, self.roster)
+        self._sights = Sights(self.roster, self._perception, self._radio)
         told = Commands((), self._watchdog) if anew else self._commands
         self._commands = told.handed_on(self.roster.names, self._watchdog, self.roster.still)
 
@@ -271,12 +277,13 @@ class Simulation:
         """Ticks."""
         return self.profile.safety.watchdog / self.profile.time.tick
 
-    def _begin_senses(self) -> None:
-        """Radio and sensors of those who take part now: nothing was said or seen yet."""
-        p = self.profile
-        self._radio = RadioAir(p.radio, self.roster, p.time.tick, self._streams)
-        self._perception = Perception(self.tuning.sensing, self.roster, self._streams, p.time.tick)
-        self._sights = Sights(self.roster, self._perception, self._radio)
+    def _new_radio(self) -> RadioAir:
+        """The radio of those who take part now, with nothing said yet."""
+        return RadioAir(self.profile.radio, self.roster, self.profile.time.tick, self._streams)
+
+    def _new_perception(self) -> Perception:
+        """The sensors of those who take part now, who have seen nothing yet."""
+        return Perception(self.tuning.sensing, self.roster, self._streams, self.profile.time.tick)
 
     def _make_referee(self) -> Referee:
         """The referee of those who take part now; what happened so far is in its state."""
@@ -329,7 +336,9 @@ class Simulation:
         return {**fields, "episode": self.episode, "chain": self.world.chain()}
 
 
-def _in_words(value: Value) -> str:
+def _in_words(value: Setting) -> str:
+    if value is None:
+        return "the standard robot's"
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 

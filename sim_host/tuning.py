@@ -1,16 +1,17 @@
 """The numbers of a running match by their names: those it began with, those in force, and what may be changed."""
 
 import dataclasses
+import functools
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple, get_type_hints
 
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.match_config import MatchConfig
 from schemas.noise import PRESETS, sensing_of
-from schemas.parameters import Parameter, ParameterDeed, ParametersRequest, Value
-from schemas.profile import SECTIONS, Profile, Sensing, check_consistent, load_profile
+from schemas.parameters import Parameter, ParameterDeed, ParametersRequest, Setting, Value
+from schemas.profile import SECTIONS, TYPE_SECTIONS, Changes, Profile, Sensing, check_consistent, load_profile
 from schemas.quantity import Choice, Quantity, checked, meanings
 from schemas.robot_model import RobotModel, types_of
 
@@ -18,6 +19,7 @@ PRESET = "noise.preset"
 """The one parameter that is no number of the profile: whose noise robots perceive with."""
 _OWN_NOISE = "profile"
 _MATCH_FILE = "the match file"
+_STANDARD_ROBOT = "the standard robot"
 
 _TIME = "time steps are fixed for a match: everything is counted in ticks"
 _SIZE = "sizes are fixed for a match: robots, referee and recording were told them"
@@ -33,6 +35,9 @@ FIXED: Mapping[str, str] = {
 """Section or parameter → why it cannot be changed while the match runs; all others can."""
 
 
+TYPES = "types"
+
+
 class _Place(NamedTuple):
     """Where a parameter stands in a profile, and what it means."""
 
@@ -40,16 +45,34 @@ class _Place(NamedTuple):
     key: str
     meaning: Quantity | Choice
     kind: Any
+    type: str | None = None
+    """The type of robots whose number it is; nothing for the profile's own."""
+
+    def of(self, profile: Profile) -> Any:
+        """The value that is in force."""
+        section = getattr(profile, self.section)
+        own = self.own(profile)
+        return getattr(section, self.key) if own is None else own
+
+    def own(self, profile: Profile) -> Any:
+        """The value that a type has for itself; nothing where it is as the standard robot."""
+        return profile.types[self.type].get(self.section, {}).get(self.key) if self.type is not None else None
 
 
-def _places() -> Iterator[tuple[str, _Place]]:
+@functools.cache
+def _places(types: tuple[str, ...]) -> Mapping[str, _Place]:
+    """Name → place, for a profile that knows these types of robots."""
+    places = {}
     for section, cls in SECTIONS.items():
         hints = get_type_hints(cls)
         for key, meaning in meanings(cls).items():
-            yield f"{section}.{key}", _Place(section, key, meaning, hints[key])
+            places[f"{section}.{key}"] = _Place(section, key, meaning, hints[key])
+    for one in types:
+        own = {f"{TYPES}.{one}.{name}": place for name, place in places.items() if place.section in TYPE_SECTIONS}
+        places |= {name: place._replace(type=one) for name, place in own.items() if place.type is None}
+    return places
 
 
-_PLACES: Mapping[str, _Place] = dict(_places())
 _PRESET_MEANING = Choice("what robots perceive with: the profile's own noise, or a named one", PRESETS)
 
 
@@ -126,7 +149,7 @@ class Tuning:
             if name == PRESET:
                 checked(value, _PRESET_MEANING, str, PRESET)
                 continue
-            place = _PLACES[name]
+            place = self._places[name]
             if place.section == "sensing" and preset != _OWN_NOISE:
                 raise TouchlineError(
                     f'{name} has no effect while {PRESET} is "{preset}"; set {PRESET} to "{_OWN_NOISE}" with it'
@@ -134,9 +157,18 @@ class Tuning:
             fit[name] = checked(value, place.meaning, place.kind, name)
         return self.laid_over(fit if PRESET not in values else {**fit, PRESET: preset})
 
-    def since(self, before: "Tuning") -> dict[str, Value]:
-        """What differs from an earlier state: name → value now."""
-        return {name: self.value(name) for name in self._names() if self.value(name) != before.value(name)}
+    def since(self, before: "Tuning") -> dict[str, Setting]:
+        """What differs from an earlier state: name → what it is set to now."""
+        now, then = self._settings(), before._settings()
+        return {name: setting for name, setting in now.items() if setting != then[name]}
+
+    def _settings(self) -> dict[str, Setting]:
+        """Every parameter; of a type's number that is the standard robot's, nothing."""
+        numbers = {
+            name: _listed(place.of(self.profile) if place.type is None else place.own(self.profile))
+            for name, place in self._places.items()
+        }
+        return {**numbers, PRESET: self.preset}
 
     def _reset(self, names: Iterable[str]) -> "Tuning":
         """What is named as the match began with it; fixed parameters are passed over where a section is named."""
@@ -144,41 +176,63 @@ class Tuning:
         for name in asked:
             if name in self._names():
                 self._check_live(name)
-        meant = [name for name in self._expanded(asked) if _why_fixed(name) is None]
-        return self.laid_over({name: self.at_start.value(name) for name in meant})
+        meant = self._expanded(asked) if asked else self._names()
+        began = self.at_start._settings()
+        return self.laid_over({name: began[name] for name in meant if _why_fixed(name) is None})
 
-    def laid_over(self, fit: Mapping[str, Any]) -> "Tuning":
-        """The same with these values, each of which is known to be fit: name → value.
+    def laid_over(self, settings: Mapping[str, Any]) -> "Tuning":
+        """The same with these settings, each of which is known to be fit.
 
         Raises:
             TouchlineError: they do not fit each other.
         """
         sections: dict[str, dict[str, Any]] = {}
-        for name, value in fit.items():
-            if name != PRESET:
-                place = _PLACES[name]
-                sections.setdefault(place.section, {})[place.key] = tuple(value) if isinstance(value, list) else value
+        types = {name: {section: dict(own) for section, own in changes.items()} for name, changes in self._types()}
+        for name, setting in settings.items():
+            if name == PRESET:
+                continue
+            place, value = self._places[name], tuple(setting) if isinstance(setting, list) else setting
+            if place.type is None:
+                sections.setdefault(place.section, {})[place.key] = value
+            elif value is None:
+                types[place.type].get(place.section, {}).pop(place.key, None)
+            else:
+                types[place.type].setdefault(place.section, {})[place.key] = value
         changed: dict[str, Any] = {
             section: dataclasses.replace(getattr(self.profile, section), **numbers)
             for section, numbers in sections.items()
         }
-        profile = dataclasses.replace(self.profile, **changed)
+        kept = {name: {section: own for section, own in changes.items() if own} for name, changes in types.items()}
+        profile = dataclasses.replace(self.profile, types=kept, **changed)
         check_consistent(profile)
-        return dataclasses.replace(self, profile=profile, preset=fit.get(PRESET, self.preset))
+        return dataclasses.replace(self, profile=profile, preset=settings.get(PRESET, self.preset))
+
+    @property
+    def _places(self) -> Mapping[str, _Place]:
+        return _places(tuple(self.profile.types))
+
+    def _types(self) -> Iterable[tuple[str, Changes]]:
+        return self.profile.types.items()
 
     def _names(self) -> list[str]:
-        return [*_PLACES, PRESET]
+        return [*self._places, PRESET]
 
     def _expanded(self, names: Iterable[str]) -> list[str]:
-        """The parameters that are meant, each once, in the order of the profile."""
-        known = self._names()
+        """The parameters that are meant, each once, in the order of the profile.
+
+        Nothing named stands for all, but for the numbers of types that are the standard robot's.
+        """
+        known, asked = self._names(), list(names)
         meant: set[str] = set()
-        for name in names:
+        for name in asked:
             below = [other for other in known if other == name or other.startswith(f"{name}.")]
             if not below:
                 raise TouchlineError(_unknown(name, known))
             meant.update(below)
-        return [name for name in known if name in meant] if meant else known
+        if asked:
+            return [name for name in known if name in meant]
+        now, began = self._settings(), self.at_start._settings()
+        return [name for name in known if now[name] is not None or began[name] is not None]
 
     def _check_live(self, name: str) -> None:
         known = self._names()
@@ -190,10 +244,11 @@ class Tuning:
 
     def value(self, name: str) -> Value:
         """A parameter in force, by its name."""
-        return self.preset if name == PRESET else _listed(_at(self.profile, name))
+        return self.preset if name == PRESET else _listed(self._places[name].of(self.profile))
 
     def _parameter(self, name: str) -> Parameter:
-        meaning = _PRESET_MEANING if name == PRESET else _PLACES[name].meaning
+        place = self._places.get(name)
+        meaning = _PRESET_MEANING if place is None else place.meaning
         why = _why_fixed(name)
         about: dict[str, Any] = {"unit": "", "words": []}
         if isinstance(meaning, Choice):
@@ -203,7 +258,7 @@ class Tuning:
         return Parameter(
             name=name,
             says=meaning.says,
-            origin=_MATCH_FILE if name == PRESET else self.initial.origins[name],
+            origin=_MATCH_FILE if place is None else self.initial.origins.get(name, _STANDARD_ROBOT),
             value=self.value(name),
             initial=self.at_start.value(name),
             live=why is None,
@@ -212,17 +267,14 @@ class Tuning:
         )
 
 
-def _at(profile: Profile, name: str) -> Any:
-    place = _PLACES[name]
-    return getattr(getattr(profile, place.section), place.key)
-
-
 def _listed(value: Any) -> Value:
     return list(value) if isinstance(value, tuple) else value
 
 
 def _why_fixed(name: str) -> str | None:
-    return FIXED.get(name) or FIXED.get(name.split(".", maxsplit=1)[0])
+    """Of a type's number, what holds for the standard robot's."""
+    standard = name.split(".", maxsplit=2)[2] if name.startswith(f"{TYPES}.") else name
+    return FIXED.get(standard) or FIXED.get(standard.split(".", maxsplit=1)[0])
 
 
 def _unknown(name: str, known: list[str]) -> str:

@@ -1,5 +1,6 @@
 """One picture: what the cameras of all robots find of the ball and of what stands in the way, at one tick."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -35,6 +36,16 @@ class Picture(NamedTuple):
     def nothing(cls, robots: int) -> "Picture":
         """What is known before the first picture."""
         return cls(0, [], [False] * robots, [[] for _ in range(robots)])
+
+    def of(self, places: Sequence[int | None]) -> "Picture":
+        """The same picture of other robots, each with its place in this one; one that has none sees nothing in it."""
+        seen = [None if place is None or not self.ball else place for place in places]
+        return Picture(
+            self.tick,
+            [[0.0] * 5 if place is None else self.ball[place] for place in seen],
+            [place is not None and self.found[place] for place in seen],
+            [[] if place is None else self.obstacles[place] for place in places],
+        )
 
     def turned(self) -> "Picture":
         """The same picture in team frames that have turned by π since."""

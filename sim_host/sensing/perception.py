@@ -69,6 +69,19 @@ class Perception:
         self._own = OwnMotion(sensing, roster, streams)
         self._camera = Camera(sensing, roster, streams, self._shutter)
 
+    def handed_on(self, sensing: Sensing, roster: Roster) -> "Perception":
+        """For other robots: who stays on its side has seen what it saw."""
+        heir, before = Perception(sensing, roster, self._streams, self._tick_s), self._roster
+        places = [
+            before.names.index(name) if name in before.names and before.side_of(name) is side else None
+            for name, side in zip(roster.names, roster.sides, strict=True)
+        ]
+        heir._cyan_attacks = self._cyan_attacks
+        heir._under_way = deque(picture.of(places) for picture in self._under_way)
+        heir._known = self._known.of(places)
+        heir._balls = [None if place is None else self._balls[place] for place in places]
+        return heir
+
     def at(self, snapshot: Snapshot, cyan_attacks: int) -> list[Percept]:
         """Everyone's percept, in the order of the roster; to be asked for once in every tick, in order."""
         if cyan_attacks != self._cyan_attacks:

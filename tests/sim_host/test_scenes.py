@@ -213,6 +213,20 @@ def test_a_robot_is_added_removed_and_put_back(simulation) -> None:
     busy(simulation, 10)
 
 
+def test_who_stays_has_seen_and_heard_what_it_saw_and_heard(simulation_of) -> None:
+    simulation = simulation_of(noise__preset="profile", radio__delay=0.06)
+    busy(simulation, 20)
+    before = Sight.decode(simulation.now.sights["cyan2"])
+    done(simulation, "remove", remove=["cyan1", "magenta2"])
+    tick = done(simulation, "add", robots=[robot("cyan9", -3.0, 5.0)])
+    after, new = Sight.decode(tick.sights["cyan2"]), Sight.decode(tick.sights["cyan9"])
+    assert before.ball is not None and after.ball is not None
+    assert abs(after.ball.x - before.ball.x) < 0.5
+    assert set(after.radio) == {"cyan3", "cyan4", "cyan5"}
+    assert all(heard.age < 0.12 for heard in after.radio.values())
+    assert new.radio == {} and new.ball is None
+
+
 def test_who_stays_goes_on_as_before_when_others_come_and_go(simulation_of) -> None:
     """Within a millimetre: a checkpoint rebuilds the world from poses and velocities."""
     ends = []

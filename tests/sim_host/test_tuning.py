@@ -90,3 +90,30 @@ def test_what_the_match_file_says_of_the_radio_is_what_the_match_began_with() ->
 def test_what_was_noted_of_a_change_makes_the_same_change_again(tuning: Tuning) -> None:
     changed = tuning.with_values({"drive.max_speed": 2.0, PRESET: "paper"})
     assert tuning.laid_over(changed.since(tuning)) == changed
+
+
+def test_the_numbers_of_a_type_of_robots_are_parameters_of_their_own(tuning: Tuning) -> None:
+    (slow,) = tuning.describe(["types.slow.drive.max_speed"])
+    assert (slow.value, slow.unit, slow.live) == (2.0, "m/s", True)
+    assert slow.origin == tuning.initial.origins["types.slow.drive.max_speed"]
+    changed = tuning.with_values({"types.slow.drive.max_speed": 1.0})
+    assert (changed.types["slow"].drive.max_speed, changed.profile.drive.max_speed) == (1.0, 4.0)
+    with pytest.raises(TouchlineError, match=r"types\.keeper\.robot\.frame_width cannot be changed"):
+        tuning.with_values({"types.keeper.robot.frame_width": 0.5})
+    with pytest.raises(TouchlineError, match=r"types\.slwo"):
+        tuning.describe(["types.slwo.drive.max_speed"])
+
+
+def test_what_a_type_does_not_change_follows_the_standard_robot_again_after_a_reset(tuning: Tuning) -> None:
+    own = tuning.with_values({"types.slow.kicker.max_ground_speed": 3.0})
+    assert own.since(tuning) == {"types.slow.kicker.max_ground_speed": 3.0}
+    back = own.changed(ParametersRequest(deed=ParameterDeed.RESET, names=["types.slow"]))
+    assert back.since(own) == {"types.slow.kicker.max_ground_speed": None}
+    assert back == tuning
+    assert back.with_values({"kicker.max_ground_speed": 8.0}).types["slow"].kicker.max_ground_speed == 8.0
+    assert own.laid_over(back.since(own)) == back
+
+
+def test_a_list_leaves_out_what_a_type_has_from_the_standard_robot(tuning: Tuning) -> None:
+    listed = {parameter.name for parameter in tuning.describe()}
+    assert "types.slow.drive.max_speed" in listed and "types.slow.kicker.max_ground_speed" not in listed
