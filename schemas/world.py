@@ -61,6 +61,10 @@ class World(Message):
     ball: BallTruth
     possession: Name | None = None
     """The robot that holds the ball."""
+    touches: list[Name] = []
+    """Robots that touched, held or kicked the ball since the tick before, in order of time; left out if nobody did."""
+    kicked: Name | None = None
+    """The robot whose kick was carried out in this tick; left out if there was none."""
     clock: float = 0.0
     """Game clock in s."""
     obstacles: dict[Name, ObstacleTruth] = {}

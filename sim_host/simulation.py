@@ -373,6 +373,10 @@ def _world_fields(snapshot: Snapshot, stuck: list[bool], clock: float, episode: 
         "clock": clock,
         "episode": episode,
     }
+    if snapshot.touches:
+        fields["touches"] = snapshot.touches
+    if snapshot.kicked is not None:
+        fields["kicked"] = snapshot.kicked
     if snapshot.obstacles:
         fields["obstacles"] = {obstacle.name: _obstacle_fields(obstacle) for obstacle in snapshot.obstacles}
     return fields

@@ -69,6 +69,7 @@ def _truth() -> tuple[Message, ...]:
             robots={"cyan2": _CYAN_2, "magenta1": _MAGENTA_1},
             ball=_BALL,
             possession="cyan2",
+            touches=["magenta1", "cyan2"],
             clock=5.2,
         ),
         RobotFrame(tick=_TICK, time=_TIME, robot=_CYAN_2, side=Side.CYAN),

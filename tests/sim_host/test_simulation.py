@@ -10,9 +10,10 @@ from pytest import approx
 from schemas.coach import CoachOrder
 from schemas.command import Command, Drive, Kick, KickMode, Radio
 from schemas.game import ActionName, EventKind, Phase, RefereeAction, TeamPhase
-from schemas.host import Applied
+from schemas.host import Applied, Placement
 from schemas.match_config import load_match
 from schemas.message import VERSION
+from schemas.scene import SceneDeed, SceneRequest
 from schemas.side import Side
 from schemas.sight import Sight
 from schemas.world import World
@@ -59,6 +60,22 @@ def test_every_sight_and_truth_is_a_valid_message(simulation: Simulation) -> Non
         assert sight(tick, name).robot == name
     World.decode(to_json({"version": VERSION, **tick.world}))
     Applied.decode(to_json({"version": VERSION, **tick.applied}))
+
+
+def test_the_world_says_who_touched_the_ball_and_whose_kick_was_carried_out(simulation: Simulation) -> None:
+    placements = [Placement(body="ball", x=-4.6, y=3.0), Placement(body="cyan2", x=-5.0, y=3.0)]
+    while not simulation.state.running:  # until START the referee puts the ball back to its spot
+        simulation.step({})
+    assert simulation.scene(SceneRequest(deed=SceneDeed.PLACE, place=placements)).accepted
+    worlds = []
+    for number in range(40):
+        kick = Kick(mode=KickMode.GROUND, speed=6.0) if number == 30 else None
+        said = {"cyan2": command(simulation, drive=Drive(vx=0.3), dribble=True, kick=kick)}
+        worlds.append(World.model_validate(simulation.step(said).world))
+    assert worlds[0].touches == [] and worlds[0].kicked is None
+    assert worlds[29].possession == "cyan2" and worlds[29].touches == ["cyan2"]
+    assert [number for number, world in enumerate(worlds) if world.kicked == "cyan2"] == [30]
+    assert worlds[30].touches == ["cyan2"] and worlds[39].touches == []
 
 
 def test_robots_begin_in_their_own_half_facing_the_goal_they_attack(simulation: Simulation) -> None:
