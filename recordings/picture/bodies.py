@@ -1,4 +1,4 @@
-"""Robots and ball on the pitch, and the trails behind them."""
+"""Robots, ball and obstacles on the pitch, and the trails behind those that move."""
 
 import math
 import re
@@ -8,15 +8,19 @@ from itertools import pairwise
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
-from matplotlib.patches import Circle, Polygon
+from matplotlib.patches import Circle, Polygon, Rectangle
+from matplotlib.transforms import Affine2D
 
 from schemas.host import Setup
+from schemas.obstacle import Shape
+from schemas.profile import RobotBody
 from schemas.side import Side
-from schemas.world import World
+from schemas.world import ObstacleTruth, World
 
 COLOURS = {Side.CYAN: "#22c3dd", Side.MAGENTA: "#e0389a"}
 _EDGES = {Side.CYAN: "#073b45", Side.MAGENTA: "#4a0730"}
 _BALL = "#ffb000"
+_OBSTACLE = "#5d6470"
 _LARGER = 1.9
 """Robots are drawn so much larger than they are: a number on one of true size is unreadable."""
 _BALL_LARGER = 1.6
@@ -29,6 +33,8 @@ Place = tuple[float, float]
 def draw_bodies(axes: Axes, setup: Setup, worlds: Sequence[World], scale: float) -> None:
     """Draw the last of `worlds`, with trails through those before; `scale` is inches on paper per metre."""
     now = worlds[-1]
+    for obstacle in now.obstacles.values():
+        _obstacle(axes, obstacle, scale)
     sides = {name: side for side, team in setup.teams.items() for name in team.robots}
     for name, robot in now.robots.items():
         if robot.off_field is not None or name not in sides:
@@ -36,7 +42,8 @@ def draw_bodies(axes: Axes, setup: Setup, worlds: Sequence[World], scale: float)
         side = sides[name]
         way = [(world.robots[name].x, world.robots[name].y) for world in worlds if name in world.robots]
         _trail(axes, way, COLOURS[side], 6.0 * scale)
-        _robot(axes, (robot.x, robot.y), robot.heading, _LARGER * setup.robot.radius, side, _number(name, setup), scale)
+        body = setup.seen_by(name).robot
+        _robot(axes, (robot.x, robot.y), robot.heading, body, side, _number(name, setup), scale)
     _trail(axes, [(world.ball.x, world.ball.y) for world in worlds], _BALL, 7.5 * scale)
     _ball(axes, now, setup.ball.radius, scale)
 
@@ -64,9 +71,26 @@ def _trail(axes: Axes, way: Sequence[Place], colour: str, width: float) -> None:
     )
 
 
-def _robot(axes: Axes, place: Place, heading: float, radius: float, side: Side, number: str, scale: float) -> None:
-    """A disc with its number, and a nose in the kicking direction."""
-    x, y = place
+def _obstacle(axes: Axes, obstacle: ObstacleTruth, scale: float) -> None:
+    """What stands on the pitch, at its true size."""
+    x, y = obstacle.x, obstacle.y
+    look = {"facecolor": _OBSTACLE, "edgecolor": "#23272e", "lw": 2.0 * scale, "zorder": 2.8}
+    if obstacle.shape is Shape.CYLINDER:
+        axes.add_patch(Circle((x, y), obstacle.radius, **look))
+        return
+    corner = x - obstacle.size_x / 2, y - obstacle.size_y / 2
+    turned = math.degrees(obstacle.heading)
+    axes.add_patch(Rectangle(corner, obstacle.size_x, obstacle.size_y, angle=turned, rotation_point="center", **look))
+
+
+def _robot(axes: Axes, place: Place, heading: float, body: RobotBody, side: Side, number: str, scale: float) -> None:
+    """A disc with its number, a nose in the kicking direction, and the frame if it has one."""
+    (x, y), radius = place, _LARGER * body.radius
+    if body.frame_width:
+        depth, width = _LARGER * body.frame_depth, _LARGER * body.frame_width
+        frame = Rectangle((radius - depth, -width / 2), depth, width, facecolor=_EDGES[side], lw=0, zorder=3.05)
+        frame.set_transform(Affine2D().rotate(heading).translate(x, y) + axes.transData)
+        axes.add_patch(frame)
     nose = [
         (x + reach * radius * math.cos(heading + turn), y + reach * radius * math.sin(heading + turn))
         for turn, reach in ((-0.5, 0.96), (0.0, 1.5), (0.5, 0.96))

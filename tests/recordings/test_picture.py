@@ -2,14 +2,22 @@ import sys
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from matplotlib.image import imread
+from matplotlib.patches import Rectangle
 
 from recordings.picture import draw, trace
-from recordings.picture.bodies import COLOURS, jumps
+from recordings.picture.bodies import COLOURS, draw_bodies, jumps
 from recordings.picture.story import Story
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score
+from schemas.host import Setup
+from schemas.match_config import load_match
+from schemas.obstacle import Shape
+from schemas.profile import load_profile
+from schemas.rule_book import load_rule_book
 from schemas.side import Side
+from schemas.world import ObstacleTruth
 
 
 def share_of(path, colour: str) -> float:
@@ -25,6 +33,23 @@ def test_a_match_is_drawn_with_the_robots_of_both_sides(recorded, tmp_path, time
     draw(recorded.path, out, times)
     for side in Side:
         assert share_of(out, COLOURS[side]) > 0.001
+
+
+def test_obstacles_and_frames_are_drawn(recorded):
+    """At their true place: a crate of 2 m by 1 m, turned, and the frame of one robot that has one."""
+    story = Story(recorded.path)
+    config = load_match(None, {"teams.cyan.types": {"cyan1": "keeper"}})
+    setup = Setup.of(config, load_profile("msl"), load_rule_book("msl"))
+    crate = ObstacleTruth(x=3.0, y=-2.0, heading=0.5, radius=1.12, height=0.5, shape=Shape.BOX, size_x=2.0, size_y=1.0)
+    world = story.moment(1.0).now.model_copy(update={"obstacles": {"crate": crate}})
+    axes = Figure().subplots()
+    draw_bodies(axes, setup, [world], 0.3)
+    boxes = [patch for patch in axes.patches if isinstance(patch, Rectangle)]
+    assert [(box.get_width(), box.get_height()) for box in boxes] == [
+        (2.0, 1.0),
+        pytest.approx((1.9 * 0.08, 1.9 * 0.6)),
+    ]
+    assert boxes[0].get_center() == pytest.approx((3.0, -2.0))
 
 
 def test_more_panels_make_a_sheet_of_more_rows(recorded, tmp_path):

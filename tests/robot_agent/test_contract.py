@@ -2,8 +2,13 @@ from pathlib import Path
 
 import pytest
 
+from robot_agent.bodies import Limits
 from robot_agent.contract import Briefing, load_brain
 from schemas.errors import TouchlineError
+from schemas.host import Setup
+from schemas.match_config import load_match
+from schemas.profile import load_profile
+from schemas.rule_book import load_rule_book
 from schemas.side import Side
 
 STUDENT = """
@@ -87,3 +92,12 @@ def test_what_is_wrong_with_a_brain_is_said_in_one_line(here, briefing, spec, sa
         load_brain(spec, briefing)
     assert said in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_a_briefing_has_the_numbers_of_the_robots_own_type() -> None:
+    types = {"cyan1": "keeper", "cyan3": "slow"}
+    config = load_match(None, {"teams.cyan.types": types})
+    setup = Setup.of(config, load_profile("msl"), load_rule_book("msl"))
+    slow, keeper, plain = (Briefing.of(name, setup).setup for name in ("cyan3", "cyan1", "magenta3"))
+    assert Limits.of(slow).speed == 2.0 < Limits.of(plain).speed
+    assert keeper.robot.reach > plain.robot.reach == plain.robot.radius

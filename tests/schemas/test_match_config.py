@@ -36,6 +36,16 @@ def test_without_a_file_it_is_five_against_five_of_the_teams_that_ship() -> None
         ('[noise]\npreset = "perfct"', "noise.preset is 'perfct'; one of profile, perfect, paper"),
         ('name = "My Match"', "name is 'My Match'; a match name is a key chunk"),
         ("teams = 3", "teams is 3"),
+        (
+            '[[obstacles]]\nname = "b"\nshape = "ball"\nplace = [0, 0]',
+            "obstacles.0.shape is 'ball'; one of cylinder, box",
+        ),
+        ('[[obstacles]]\nname = "b"\nshape = "box"\nplace = [0, 0]\nradius = 1', "a box has size = [x, y, z]"),
+        ('[[obstacles]]\nname = "b"\nshape = "box"\nplace = [0, 0]\nsise = [1, 1, 1]', 'did you mean "size"?'),
+        (
+            '[[obstacles]]\nname = "cyan1"\nshape = "cylinder"\nplace = [0, 0]\nradius = 1\nheight = 1',
+            'two bodies are named "cyan1"; every obstacle has a name of its own',
+        ),
         ("x =", "not TOML"),
     ],
 )

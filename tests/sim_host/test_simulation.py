@@ -210,3 +210,20 @@ def test_a_match_of_any_size_is_played(size: int) -> None:
     assert len(tick.sights) == size + 1
     assert len(sight(tick, "cyan1").obstacles) == size
     one.close()
+
+
+def test_a_match_with_types_and_obstacles_is_told_and_played_as_its_file_says() -> None:
+    one = simulate(
+        teams__cyan__types={"cyan1": "keeper", "cyan3": "slow"},
+        obstacles=[{"name": "crate", "shape": "box", "place": [3.0, 5.0], "heading": 0.5, "size": [0.4, 0.8, 0.6]}],
+    )
+    assert [model.type for model in one.roster.models[:4]] == ["keeper", "standard", "slow", "standard"]
+    tick = one.step({"cyan3": command(one, drive=Drive(vx=9))})
+    said = World.decode(to_json({"version": VERSION, **tick.world})).obstacles["crate"]
+    assert (said.x, said.y, said.heading, said.size_x, said.size_y, said.height) == (3.0, 5.0, 0.5, 0.4, 0.8, 0.6)
+    assert one.setup().seen_by("cyan3").drive.max_speed == 2.0
+    one.close()
+
+
+def test_a_world_without_obstacles_says_nothing_of_them(simulation: Simulation) -> None:
+    assert "obstacles" not in simulation.step({}).world

@@ -7,7 +7,7 @@ import pytest
 
 from schemas.frames import Pose
 from schemas.game import ActionName, EventKind, GameEvent, Phase, Point, RefereeAction
-from schemas.match_config import MatchConfig
+from schemas.match_config import load_match
 from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
@@ -28,6 +28,7 @@ class Bench:
         rules: str | None = None,
         mirrored: bool = False,
         dt: float = 0.02,
+        magenta_types: dict[str, str] | None = None,
         **options: Any,
     ) -> None:
         chosen = load_profile(profile)
@@ -35,7 +36,7 @@ class Bench:
         self.book = load_rule_book(rules or profile)
         self.pitch, self.radius, self.hull = chosen.field, chosen.ball.radius, chosen.robot.radius
         self.mirrored = mirrored
-        self.roster = Roster.of(MatchConfig(), chosen)
+        self.roster = Roster.of(load_match(None, {"teams.magenta.types": magenta_types or {}}), chosen)
         self.starts = {}
         for name, side in zip(self.roster.names, self.roster.sides, strict=True):
             number = int(name[-1])

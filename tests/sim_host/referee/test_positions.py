@@ -40,6 +40,15 @@ def test_distances_are_measured_to_the_whole_robot(bench, phase, robot, number):
     assert fault.startswith(f"{robot} stands {asked - EDGE - bench.hull:.2f} m from the ball")
 
 
+def test_each_robot_is_measured_by_its_own_hull(new_bench):
+    """A goalkeeper with a frame of 0.6 m reaches 0.387 m, and stands too near where a round robot does not."""
+    bench = new_bench("msl", magenta_types={"magenta3": "keeper"})
+    away = bench.book.restarts.opponent_distance + bench.hull + EDGE
+    kicker = {"cyan2": (0.0, -0.4)}
+    assert judged(bench, Phase.FREE_KICK, (0.0, 0.0), kicker | {"magenta2": (away, 0.0)}) is None
+    assert "magenta3 stands" in judged(bench, Phase.FREE_KICK, (0.0, 0.0), kicker | {"magenta3": (away, 0.0)})
+
+
 def test_the_nearest_of_the_takers_is_its_kicker_and_may_stand_at_the_ball(bench):
     assert judged(bench, Phase.FREE_KICK, (0.0, 0.0), {"cyan2": (0.0, -0.4)}) is None
 
