@@ -115,6 +115,20 @@ def test_a_changed_air_is_that_of_all_words_from_now_on() -> None:
     assert "budget" in str(air.say(41, "cyan2", Radio(role="defender")))
 
 
+def test_teammates_who_stay_when_others_come_and_go_have_heard_what_they_heard() -> None:
+    word = Radio(intention="x" * 60)
+    size = 8 * len(word.model_dump_json(exclude_defaults=True))
+    air = radio(replace(CLEAR, delay=0.04, budget=3.0 * size))
+    for tick, name in enumerate(("cyan1", "cyan2", "cyan3")):
+        air.say(tick, name, word)
+    air.listen(2)
+    roster = Roster(("cyan2", "cyan1", "cyan9"), ROSTER.sides[:3], {}, ROSTER.models[:3])
+    heir = air.handed_on(roster)
+    now = [set(json.loads(one)) for one in heir.listen(3)]
+    assert now == [{"cyan1"}, {"cyan2"}, set()], "one word heard before, one on its way"
+    assert "budget" in str(heir.say(4, "cyan9", word)), "the team has said what it has said"
+
+
 def test_the_newest_word_of_a_teammate_replaces_the_one_before() -> None:
     air = radio()
     for tick, role in enumerate(("keeper", "striker")):

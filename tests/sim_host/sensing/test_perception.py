@@ -134,6 +134,27 @@ def test_perception_changes_while_it_runs_and_keeps_what_was_seen(world):
     assert made.look()[0].visible
 
 
+def test_robots_that_stay_when_others_come_and_go_know_what_they_knew(scenery):
+    """The last of four leaves, and another comes in; the ball has been lost before."""
+    sensing = replace(sensing_of("perfect", MSL), latency=0.04, ball_range=9.0)
+    made = scenery(ROBOTS, BALL, 2, sensing=sensing)
+    for _ in range(5):
+        made.look()
+    made.ball = made.ball._replace(x=500.0)
+    for _ in range(3):
+        before = made.look()
+    names = (*made.roster.names[:3], "magenta9")
+    roster = replace(made.roster, names=names)
+    made.perception, made.roster = made.perception.handed_on(sensing, roster), roster
+    after = made.look()
+    for one, other in zip(before[:3], after[:3], strict=True):
+        assert other.ball == one.ball is not None and not other.visible
+        assert other.ball_age == approx(one.ball_age + 0.02)
+        assert len(other.obstacles) == 3
+    assert after[3].ball is None and after[3].obstacles == []
+    assert len([made.look() for _ in range(3)][-1][3].obstacles) == 3
+
+
 def test_every_number_of_sensing_changes_what_is_perceived(world):
     """No parameter without effect: each, changed alone, gives other percepts within 300 ticks."""
     others = {"noise_rate": 0.5, "occlusion": "nothing", "camera_rate": 50.0, "drift_time": 1.0, "latency": 0.1}
