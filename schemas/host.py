@@ -173,7 +173,7 @@ class Applied(Message):
     parameters: dict[ParameterName, Setting] = {}
     """Live parameters that were changed before this tick, and their new values."""
     robots: list[RosterEntry] | None = None
-    """Who takes part from this tick on, in the order of the roster; nothing where that is as before."""
+    """Who takes part from this tick on, in the order of the roster, said at tick 0; nothing where that is as before."""
     obstacles: list[StaticObstacle] | None = None
     """What else stands on the pitch from this tick on; nothing where that is as before."""
     episode: int = 1

@@ -93,7 +93,7 @@ class Simulation:
         self._radio = self._new_radio()
         self._perception = self._new_perception()
         self._sights = Sights(self.roster, self._perception, self._radio)
-        self._due = Due(began.placements)
+        self._due = Due(began.placements, recast=True, rebuilt=bool(self._stage.obstacles))
         self.now = self._begin()
 
     def _start_scene(self) -> Scene:

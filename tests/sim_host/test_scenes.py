@@ -11,11 +11,10 @@ from pytest import approx
 from schemas.command import Command, Drive, Kick, KickMode, Radio
 from schemas.game import EventKind, Phase, TeamPhase
 from schemas.host import Applied, Placement
-from schemas.match_config import MatchConfig, load_match
+from schemas.match_config import load_match
 from schemas.message import VERSION
 from schemas.obstacle import Shape, StaticObstacle
 from schemas.parameters import ParameterDeed, ParametersRequest
-from schemas.rule_book import load_rule_book
 from schemas.scene import (
     Scene,
     SceneBall,
@@ -30,11 +29,6 @@ from schemas.scene import (
 from schemas.side import Side
 from schemas.sight import Sight
 from sim_host.simulation import Simulation, Tick
-from sim_host.snapshot import Roster
-from sim_host.staging.stage import opened
-from sim_host.start import start_scene
-from sim_host.tuning import Tuning
-from sim_host.world.world import World
 
 WALL = StaticObstacle(name="wall", shape=Shape.BOX, place=[3.0, 3.0], size=[0.2, 2.0, 0.5])
 
@@ -94,30 +88,6 @@ def busy(simulation: Simulation, ticks: int) -> list[Tick]:
 def applied(tick: Tick) -> Applied:
     """What a recording keeps of a tick."""
     return Applied.decode(to_json({"version": VERSION, **tick.applied}))
-
-
-def simulated_again(config: MatchConfig, recorded: list[Applied]) -> list[str]:
-    """The hash chain of the same match, from its inputs alone."""
-    tuning = Tuning.of(config)
-    start = start_scene(config, tuning.profile, load_rule_book(config.rules).restarts)
-    robots, obstacles, chains = opened(start, "").stage.robots, config.obstacles, []
-    world = World(tuning.profile, Roster.cast(robots, tuning.types))
-    for obstacle in obstacles:
-        world.put_obstacle(obstacle)
-    for tick in recorded:
-        tuning = tuning.laid_over(tick.parameters)
-        robots = robots if tick.robots is None else tuple(tick.robots)
-        obstacles = obstacles if tick.obstacles is None else tick.obstacles
-        if tick.remade:
-            world.remake(tuning.profile, Roster.cast(robots, tuning.types), obstacles)
-        world.place(tick.placements)
-        if tick.checkpoint and tick.tick > 0:
-            world.rebuild()
-        if tick.tick > 0:
-            world.advance(tick.inputs)
-        chains.append(world.chain())
-    world.close()
-    return chains
 
 
 @pytest.mark.parametrize("name", shipped_scenes())
@@ -374,7 +344,9 @@ def test_a_match_over_takes_no_more_scenes(simulation_of) -> None:
     assert ask(simulation, "load", load="penalty").reason == "the match is over"
 
 
-def test_a_match_with_scenes_and_parameters_is_simulated_again_from_what_is_recorded(simulation_of) -> None:
+def test_a_match_with_scenes_and_parameters_is_simulated_again_from_what_is_recorded(
+    simulation_of, simulated_again
+) -> None:
     simulation = simulation_of(teams__cyan__size=3, teams__magenta__size=2, referee__automatic=False)
     recorded = [simulation.now]
     deeds: list[Callable[[], Any]] = [
