@@ -16,7 +16,7 @@ from sim_host.actuation.possession import can_hold, holder, why_not_held
 from sim_host.snapshot import BallState, RobotState
 from sim_host.world.engine import BallContacts, Engine
 
-_PRESSED = 0.01
+_PRESSED = 0.005
 """m; a held ball that is pressed this deep into another body is lost: it is never carried through one."""
 
 
@@ -109,7 +109,7 @@ class BallHandling:
 
     def after_step(self, report: BallReport) -> None:
         """Note who touched the ball."""
-        contacts: BallContacts = self._engine.ball_contacts()
+        contacts: BallContacts = self._engine.ball_contacts(self.holding)
         if self._leaving is not None:
             self._leave(self._leaving)
         if self.holding is not None:
@@ -150,7 +150,7 @@ class BallHandling:
         """Let a kicked ball collide with its kicker again as soon as it has left the hull."""
         robot, hull = self._engine.robot_now(kicker), self._models[kicker].body
         (x, y, z), *_ = self._engine.ball_now()
-        touching = hull.radius + self._profile.ball.radius
+        touching = hull.reach + self._profile.ball.radius
         if math.hypot(x - robot.x, y - robot.y) > touching or z > hull.height:
             self.hold(None)
 
