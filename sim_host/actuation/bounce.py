@@ -18,19 +18,22 @@ NO_BOUNCE = 0.2
 def bounce(ball: Ball, height: float, velocity: Vector, spin: Vector, step: float) -> tuple[Vector, Vector] | None:
     """Velocity and spin with which to begin a step that ends in a bounce; nothing when the ball does not bounce in it.
 
-    `height`: of the ball's lowest point above the ground, m; `step`: s. The impact falls into the middle of the step,
-    yet the whole step is gone through at the new speed: the height won by that is taken from the speed, so that the
-    ball rises to restitution² of where it fell from.
+    `height`: of the ball's lowest point above the ground, m; `step`: s. In the engine's sum over steps a ball of speed
+    v has fallen v²/2g + v·step/2 before, and rises v²/2g + v·step/2 with the step that begins at v: so it comes to
+    restitution² of where it fell from, wherever in the step the impact lies.
     """
     vx, vy, vz = velocity
-    impact = GRAVITY * step - vz
-    if impact < NO_BOUNCE or height > impact * step:
+    above, down, drop = max(height, 0.0), max(-vz, 0.0), GRAVITY * step
+    if height > (drop - vz) * step:
         return None
-    up, friction = ball.restitution * impact, ball.friction * (1.0 + ball.restitution) * impact
-    before = max(height, 0.0) / impact
-    rise = math.sqrt(max(up * up - 2.0 * GRAVITY * (max(height, 0.0) + up * before), 0.0))
-    (vx, vy), spin = _rubbed(ball, (vx, vy), spin, friction)
-    return (vx, vy, rise + GRAVITY * step), spin
+    fallen = above + (down + drop) * down / (2.0 * GRAVITY)
+    impact = math.sqrt(2.0 * GRAVITY * fallen)
+    if impact < NO_BOUNCE:
+        return None
+    left = max(ball.restitution**2 * fallen - above, 0.0)
+    rise = math.sqrt(drop * drop / 4.0 + 2.0 * GRAVITY * left) - drop / 2.0
+    (vx, vy), spin = _rubbed(ball, (vx, vy), spin, ball.friction * (1.0 + ball.restitution) * impact)
+    return (vx, vy, rise + drop), spin
 
 
 def _rubbed(ball: Ball, velocity: tuple[float, float], spin: Vector, most: float) -> tuple[tuple[float, float], Vector]:

@@ -1,0 +1,145 @@
+"""The three ways to dribble: what they hold, what they lose, and that none takes the ball through a body."""
+
+import math
+
+import pytest
+from pytest import approx
+
+WAYS = ("pose", "velocity", "force")
+
+
+def held_for(rig, tell, seconds, **motion):
+    """How long cyan1 keeps the ball, s, and the farthest that it was from the gap, m."""
+    ticks, worst = round(seconds / rig.profile.time.tick), 0.0
+    for tick in range(ticks):
+        snapshot = rig.tick(cyan1=tell(dribble=True, **motion))
+        if snapshot.possession != "cyan1":
+            return tick * rig.profile.time.tick, worst
+        at, gap = rig.at(snapshot, "cyan1"), rig.profile.dribble.gap
+        x, y = at.x + gap * math.cos(at.heading), at.y + gap * math.sin(at.heading)
+        worst = max(worst, math.hypot(snapshot.ball.x - x, snapshot.ball.y - y))
+    return math.inf, worst
+
+
+@pytest.mark.parametrize("way", ["pose", "velocity"])
+@pytest.mark.parametrize("backward", [1, -1])
+def test_the_papers_ways_keep_the_ball_at_top_speed_and_turn_rate(rig, build, tell, way, backward):
+    """Row 6 of section 13; equation 2, within 2 cm of the gap for three seconds of the hardest driving."""
+    rig = build(rig.profile.name, dribble={"method": way})
+    top = rig.profile.drive
+    rig.give("cyan1", -2)
+    kept, worst = held_for(rig, tell, 3.0, vx=backward * top.max_speed, omega=top.max_turn_rate)
+    assert kept == math.inf and worst < 0.02
+
+
+@pytest.mark.parametrize("motion", [{"vx": 3.0}, {"vx": -1.0}, {"vy": 2.0}, {"omega": 3.0}, {"vx": 3.0, "omega": 3.0}])
+def test_bounded_forces_keep_the_ball_in_careful_driving(build, tell, motion):
+    """On the spot up to ω² = F/(m'·gap), 3.4 rad/s, and in a turn up to ω = F/(m'·v), 3.9 rad/s at 3 m/s.
+
+    m' = m + I/r² = 0.67 kg is what a rolling ball resists with; F are the profile's `max_pull` and `max_side`.
+    """
+    rig = build(dribble={"method": "force"})
+    rig.give("cyan1", -5 if motion.get("vx", 0) > 0 else 0)
+    kept, worst = held_for(rig, tell, 2.5, **motion)
+    assert kept == math.inf and worst < 0.05
+
+
+@pytest.mark.parametrize("motion", [{"omega": 4.0}, {"vx": 3.0, "omega": 4.5}, {"vx": 20.0, "omega": 20.0}])
+def test_bounded_forces_lose_the_ball_in_a_turn_that_is_too_sharp(build, tell, motion):
+    rig = build(dribble={"method": "force"})
+    rig.give("cyan1", -5 if "vx" in motion else 0)
+    assert held_for(rig, tell, 2.5, **motion)[0] < 2.0
+
+
+@pytest.mark.parametrize(("deceleration", "keeps"), [(3.0, True), (4.0, True), (5.0, False), (8.0, False)])
+def test_bounded_forces_lose_the_ball_to_a_brake_beyond_their_pull(build, tell, deceleration, keeps):
+    """The limit is F/m' and the ball's own rolling resistance: 2.8 N / 0.67 kg + 0.5 m/s² = 4.7 m/s²."""
+    rig = build(dribble={"method": "force"}, drive={"deceleration": deceleration})
+    rig.give("cyan1", -8)
+    assert rig.run(2.0, cyan1=tell(3.0, dribble=True)).possession == "cyan1"
+    kept, _ = held_for(rig, tell, 1.2, vx=0.0)
+    assert (kept == math.inf) is keeps
+
+
+def test_stronger_wheels_keep_the_ball_where_weaker_ones_lose_it(build, tell):
+    weak, strong = (build(dribble={"method": "force", "max_side": most, "max_pull": most}) for most in (2.0, 60.0))
+    kept = []
+    for rig in (weak, strong):
+        rig.give("cyan1", -5)
+        kept.append(held_for(rig, tell, 2.0, vx=3.0, omega=4.0)[0])
+    assert kept[0] < 1.0 and kept[1] == math.inf
+
+
+def test_a_ball_drawn_by_forces_rolls_on_the_ground_and_lies_against_the_hull(rig, build, tell):
+    rig = build(rig.profile.name, dribble={"method": "force"})
+    robot, r = rig.profile.robot, rig.profile.ball.radius
+    rig.give("cyan1", -4)
+    snapshot = rig.run(2.0, cyan1=tell(2.0, dribble=True))
+    at, ball = rig.at(snapshot, "cyan1"), snapshot.ball
+    assert snapshot.possession == "cyan1"
+    assert ball.z == approx(r, abs=1e-3)
+    assert math.hypot(ball.x - at.x, ball.y - at.y) == approx(robot.radius + r, abs=0.003)
+    assert rig.ball_motion().spin[1] == approx(ball.vx / r, rel=0.05)
+
+
+def overlap_with(rig, snapshot, what):
+    """How deep the ball is in another body, m; negative in the open."""
+    field, r, (x, y, *_) = rig.profile.field, rig.profile.ball.radius, snapshot.ball
+    if what == "wall":
+        return x + r - field.goal_line - field.border
+    if what == "post":
+        half = field.post / 2
+        dx, dy = abs(x - field.goal_line - half) - half, abs(y - field.goal_width / 2 - half) - half
+        return r - math.hypot(max(dx, 0.0), max(dy, 0.0))
+    other = rig.at(snapshot, "magenta1")
+    return r + rig.profile.robot.radius - math.hypot(x - other.x, y - other.y)
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("what", ["standing robot", "oncoming robot", "robot at the edge", "post", "wall"])
+def test_no_way_takes_the_ball_through_a_body(rig, build, tell, way, what):
+    """Defect 8 of section 14: at top speed for three seconds, never more than 3 cm deep, and nothing explodes."""
+    rig = build(rig.profile.name, dribble={"method": way})
+    field, top = rig.profile.field, rig.profile.drive.max_speed
+    rig.give("cyan1", {"post": field.goal_line - 2, "wall": field.goal_line - 1}.get(what, -1.5))
+    if what == "post":
+        rig.give("cyan1", field.goal_line - 2, (field.goal_width + field.post) / 2)
+    elif what == "wall":
+        rig.give("cyan1", field.goal_line - 1, 4.0)
+    else:
+        aside = 0.9 * rig.profile.robot.radius if what == "robot at the edge" else 0.0
+        rig.place(magenta1=(1.5, aside, math.pi))
+    for _ in range(round(3 / rig.profile.time.tick)):
+        told = {"magenta1": tell(top)} if what == "oncoming robot" else {}
+        snapshot = rig.tick(cyan1=tell(top, dribble=True), **told)
+        assert overlap_with(rig, snapshot, what) < 0.03
+        assert math.hypot(*snapshot.ball[3:]) < 2.5 * top
+        assert snapshot.ball.z < 1.0
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_ball_beside_its_place_is_drawn_there_and_does_not_jump(rig, build, tell, way):
+    """From the edge of the cone, at no more than 2 m/s beside the robot's own motion."""
+    rig = build(rig.profile.name, dribble={"method": way})
+    dribble, r = rig.profile.dribble, rig.profile.ball.radius
+    away, bearing = dribble.distance - 0.005, dribble.cone / 2 - 0.02
+    rig.place(cyan1=(0, 0, 0))
+    rig.set_ball((away * math.cos(bearing), away * math.sin(bearing), r))
+    x, y = away * math.cos(bearing), away * math.sin(bearing)
+    for _ in range(30):
+        ball = rig.tick(cyan1=tell(dribble=True)).ball
+        assert math.hypot(ball.x - x, ball.y - y) <= 2.0 * rig.profile.time.tick * 1.05
+        x, y = ball.x, ball.y
+    assert (x, y) == approx((dribble.gap, 0), abs=0.02)
+
+
+def test_a_ball_between_two_robots_that_press_is_never_thrown(rig, build, tell):
+    """Squeezed head-on at full drive for three seconds: it slips out like a pip, at three times their speed at most."""
+    rig = build(rig.profile.name)
+    top = rig.profile.drive.max_speed
+    away = rig.profile.robot.radius + rig.profile.ball.radius + 0.4
+    for offset in (0.0, 0.03, 0.1):
+        rig.place(cyan1=(-away, 0, 0), magenta1=(away, offset, math.pi), ball=(0, 0, 0))
+        for _ in range(round(3 / rig.profile.time.tick)):
+            snapshot = rig.tick(cyan1=tell(top), magenta1=tell(top))
+            assert math.hypot(*snapshot.ball[3:]) < 3 * top and snapshot.ball.z < 1.0
