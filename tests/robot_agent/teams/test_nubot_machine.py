@@ -106,6 +106,14 @@ def test_the_kick_is_one_lob_at_twenty_metres_a_second(played):
     assert [(kick.mode, kick.speed) for kick in kicks] == [(KickMode.LOB, 20.0)]
 
 
+def test_a_kicker_that_charges_is_waited_for():
+    """The paper's is always charged; the league's is not."""
+    machine, now = Machine(Points()), Situation(Body(4.0, 0.0, 0.0), (4.43, 0.0), True, DT, kicker_ready=False)
+    machine._enter(State.ROTATE_BALL)
+    assert {machine.step(now).kick for _ in range(20)} == {None}
+    assert machine.step(now._replace(kicker_ready=True)).kick is not None
+
+
 def test_chasing_first_rotates_to_half_a_degree_and_then_translates(played):
     chase = [(me, doing) for state, me, doing in played.trace if state is State.CHASE_BALL]
     moves = [place for place, (_, doing) in enumerate(chase) if math.hypot(doing.vx, doing.vy) > 0.0]

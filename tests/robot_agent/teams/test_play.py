@@ -152,6 +152,18 @@ def test_after_a_kick_the_dribbler_lets_go_so_that_a_soft_kick_leaves(squad, tea
 
 
 @pytest.mark.parametrize("team", TEAMS)
+def test_who_cannot_kick_yet_keeps_the_ball_and_kicks_as_soon_as_the_kicker_is_charged(squad, team):
+    made = squad(team, {1: (-10.5, 0.0, 0.0), 2: (-0.35, 0.0, 0.0)})
+    kick = {"ball": (0.0, 0.0), "phase": TeamPhase.OUR_FREE_KICK, "spot": Point(x=0.0, y=0.0), "holding": True}
+    for _ in range(100):
+        command = made.act(kicker_ready=False, **kick)["cyan2"]
+        made.poses["cyan2"] = (-0.35, 0.0, made.poses["cyan2"][2] + 0.02 * command.drive.omega)
+        assert command.kick is None and command.dribble
+    commands = [made.act(**kick)["cyan2"] for _ in range(5)]
+    assert any(command.kick for command in commands)
+
+
+@pytest.mark.parametrize("team", TEAMS)
 def test_everybody_speaks_ten_times_a_second_and_not_all_at_once(squad, setup, team):
     made = squad(team)
     spoken = {name: [] for name in made.poses}
