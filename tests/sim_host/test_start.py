@@ -5,9 +5,12 @@ import math
 
 import pytest
 
+from schemas.command import Drive
 from schemas.game import Phase
+from schemas.host import AppliedInput, Placement
 from schemas.match_config import load_match
 from schemas.profile import load_profile
+from schemas.robot_model import RobotModel
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
 from sim_host.referee.core import Referee
@@ -15,6 +18,7 @@ from sim_host.referee.positions import standing_wrong
 from sim_host.referee.state import Restart
 from sim_host.snapshot import BallState, RobotState, Roster, Snapshot
 from sim_host.start import start_poses
+from sim_host.world.world import World
 
 
 def a_match(profile_name, rules, **overrides):
@@ -58,3 +62,33 @@ def test_robots_start_apart_from_each_other_and_on_the_pitch(profile):
     for one, other in itertools.combinations(snapshot.robots, 2):
         assert math.hypot(one.x - other.x, one.y - other.y) > 2 * reach + 0.1
     assert all(abs(r.x) + reach <= pitch.goal_line and abs(r.y) + reach < pitch.touch_line for r in snapshot.robots)
+
+
+@pytest.mark.parametrize("count", [2, 6, 10, 20, 100])
+def test_nothing_but_the_rules_keeps_a_side_at_five_robots_with_one_digit(count):
+    """Reference 13, row 23, and reference 14, defect 13: the seed could not name a sixth robot, nor a tenth.
+
+    A match file has five a side at most, as the rules do; start, world and referee take any number.
+    """
+    profile, book = load_profile("msl"), load_rule_book("msl")
+    pairs = [(f"{side}{number}", side) for side in Side for number in range(1, count // 2 + 1)]
+    roster = Roster(
+        names=tuple(name for name, _ in pairs),
+        sides=tuple(side for _, side in pairs),
+        keepers={side: f"{side}1" for side in Side},
+        models=(RobotModel.standard(profile),) * count,
+    )
+    starts = start_poses(roster, profile.field, book.restarts)
+    for (_, one), (_, other) in itertools.combinations(starts.items(), 2):
+        assert math.hypot(one.x - other.x, one.y - other.y) > 2 * profile.robot.radius
+    world = World(profile, roster)
+    world.place([Placement(body=name, x=at.x, y=at.y, heading=at.heading) for name, at in starts.items()])
+    told = dict.fromkeys(roster.names, AppliedInput(Drive(omega=1.0), dribble=False))
+    for _ in range(20):
+        snapshot = world.advance(told).snapshot
+    world.close()
+    assert len(snapshot.robots) == count
+    assert all(robot.omega == pytest.approx(1.0) for robot in snapshot.robots)
+    settings = {"duration": None, "kick_off": Side.CYAN, "automatic": True, "starts": starts}
+    referee = Referee(book, profile.field, profile.ball, roster, **settings)
+    assert referee.step(referee.begin(), snapshot, (), 0.02).state.phase is not Phase.PRE_GAME
