@@ -22,6 +22,9 @@ class Disc:
     radius: float
     bottom: float
     top: float
+    core: float | None = None
+    """How near the ball may come to the axis of a robot whose frame reaches farther than that."""
+    is_ball: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,9 +80,14 @@ def overlap(body: Disc, other: Body) -> float:
     if body.bottom >= other.top or other.bottom >= body.top:
         return -math.inf
     if isinstance(other, Disc):
-        return body.radius + other.radius - math.hypot(body.x - other.x, body.y - other.y)
+        return _to(body, other) + _to(other, body) - math.hypot(body.x - other.x, body.y - other.y)
     along, across = rotate(body.x - other.x, body.y - other.y, -other.heading)
     away_x, away_y = abs(along) - other.half_x, abs(across) - other.half_y
     if away_x <= 0.0 and away_y <= 0.0:
         return body.radius - max(away_x, away_y)
     return body.radius - math.hypot(max(away_x, 0.0), max(away_y, 0.0))
+
+
+def _to(body: Disc, other: Disc) -> float:
+    """m from the axis of a body to its hull, as another meets it."""
+    return body.radius if body.core is None or not other.is_ball else body.core

@@ -107,12 +107,12 @@ def _bodies(stage: Stage, rig: Rig) -> dict[str, Body]:
     bodies: dict[str, Body] = {}
     for entry in stage.robots:
         hull, at = rig.types[entry.type].body, stage.at[entry.name]
-        bodies[entry.name] = Disc(entry.name, at.x, at.y, hull.radius, 0.0, hull.height)
+        bodies[entry.name] = Disc(entry.name, at.x, at.y, hull.reach, 0.0, hull.height, core=hull.radius)
     for one in stage.obstacles:
         bodies[one.name] = _obstacle(one)
     radius, at = rig.ball.radius, stage.at[BALL]
     height = radius if at.z is None else at.z
-    bodies[BALL] = Disc("the ball", at.x, at.y, radius, height - radius, height + radius)
+    bodies[BALL] = Disc("the ball", at.x, at.y, radius, height - radius, height + radius, is_ball=True)
     return bodies
 
 

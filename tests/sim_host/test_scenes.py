@@ -210,6 +210,11 @@ def test_who_stays_goes_on_as_before_when_others_come_and_go(simulation_of) -> N
     assert ends[0] == approx(ends[1], abs=1e-3)
 
 
+def test_the_ball_may_lie_at_the_gap_of_a_robot_whose_frame_reaches_farther(simulation) -> None:
+    keeper, ball = robot("cyan1", 1.0, 2.0, type="keeper"), SceneBall(x=1.35, y=2.0)
+    assert ask(simulation, "load", scene=Scene(says="x", robots=[keeper], ball=ball)).accepted
+
+
 def test_obstacles_are_put_up_and_taken_away(simulation) -> None:
     tick = done(simulation, "add", obstacles=[WALL])
     assert list(tick.world["obstacles"]) == ["wall"]
@@ -299,6 +304,11 @@ REFUSED: dict[str, tuple[str, dict[str, Any], str]] = {
         "load",
         {"scene": Scene(says="x", robots=[robot("cyan9", 1.0, 2.0, type="slwo")])},
         'cyan9 has the type "slwo"; did you mean "slow"',
+    ),
+    "a robot in another's frame": (
+        "load",
+        {"scene": Scene(says="x", robots=[robot("cyan1", 1.0, 2.0, type="keeper"), robot("cyan2", 1.0, 2.52)])},
+        "cyan1 at (1, 2) would be",
     ),
     "a robot in a goal post": ("place", {"place": [Placement(body="cyan1", x=11.0, y=1.2)]}, "inside a goal"),
     "a robot on another": ("place", {"place": [Placement(body="cyan2", x=-10.5, y=0.1)]}, "inside cyan1"),
