@@ -68,12 +68,20 @@ class Player(ABC):
 
     def act(self, sight: Sight) -> Command:
         """The answer to one sight."""
+        if self._game is not None and sight.game.episode != self._game.episode:
+            self.begin_anew()
         if self._last is not None and self._may_go_on(sight, self._last):
             self._last = self._last.model_copy(update={"answers_tick": sight.tick, "radio": None})
         else:
             self._last = self._decide(sight)
             self._game = sight.game
         return self._last
+
+    def begin_anew(self) -> None:
+        """Another episode begins: what was believed of the world is void."""
+        self._world = WorldModel(self.briefing)
+        self._lets_go = 0.0
+        self._last = None
 
     def _may_go_on(self, sight: Sight, last: Command) -> bool:
         """Whether nothing asks for a decision: far from the ball, nothing to say, the same game, the same order."""

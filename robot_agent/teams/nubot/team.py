@@ -55,6 +55,11 @@ class NuBot(Player):
         self._machine = Machine(self._points)
         self._role = HOLDS
 
+    def begin_anew(self) -> None:
+        """The paper's reset of the world: its machine begins again, from whatever state."""
+        super().begin_anew()
+        self._machine.restart()
+
     def play(self, scene: Scene, order: CoachOrder | None) -> Action:
         """Keep, play the ball, or hold the place."""
         ball = scene.ball

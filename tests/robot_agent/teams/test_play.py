@@ -187,6 +187,19 @@ def test_a_ball_that_nobody_sees_is_looked_for_and_the_keeper_stays(squad, setup
 
 
 @pytest.mark.parametrize("team", TEAMS)
+def test_what_was_believed_is_void_in_another_episode(squad, team):
+    """Reference 13, row 22: a reset restarts what robots do."""
+    made = squad(team, {2: (0.0, 0.0, 0.0)})
+    brain = made.brains["cyan2"]
+    for episode, anew in ((1, False), (2, True), (2, False)):
+        believed = brain._world
+        sight = made.sight("cyan2", ball=(3.0, 1.0))
+        brain.act(sight.model_copy(update={"game": sight.game.model_copy(update={"episode": episode})}))
+        made.tick += 1
+        assert (brain._world is not believed) is anew
+
+
+@pytest.mark.parametrize("team", TEAMS)
 def test_both_sides_do_the_same_in_the_same_situation(squad, team):
     sides = [squad(team, side=side) for side in Side]
     for _ in range(30):
