@@ -27,6 +27,40 @@ class Phase(StrEnum):
     FULL_TIME = "full_time"
 
 
+class Stage(StrEnum):
+    """Which part of the match is being played."""
+
+    REGULAR = "regular"
+    EXTRA_TIME = "extra_time"
+    SHOOT_OUT = "shoot_out"
+
+
+class Mode(StrEnum):
+    """Who decides: the referee, people alone, or the referee with people who may overrule it."""
+
+    AUTOMATIC = "automatic"
+    MANUAL = "manual"
+    MIXED = "mixed"
+
+
+class Card(StrEnum):
+    """What a robot is shown."""
+
+    YELLOW = "yellow"
+    RED = "red"
+
+
+class OffField(StrEnum):
+    """Why a robot does not take part."""
+
+    SECOND_YELLOW = "second_yellow"
+    RED_CARD = "red_card"
+    REPAIR = "repair"
+    SUBSTITUTION = "substitution"
+    SILENT = "silent"
+    PARKED = "parked"
+
+
 SIDED = frozenset({Phase.KICK_OFF, Phase.FREE_KICK, Phase.GOAL_KICK, Phase.THROW_IN, Phase.CORNER, Phase.PENALTY})
 """Restarts that one side takes."""
 
@@ -88,6 +122,27 @@ class Score(Part):
     cyan: Annotated[int, Field(ge=0)] = 0
     magenta: Annotated[int, Field(ge=0)] = 0
 
+    def of(self, side: Side) -> int:
+        """The goals of one side."""
+        return self.cyan if side is Side.CYAN else self.magenta
+
+    def plus(self, side: Side, goals: int = 1) -> "Score":
+        """The same with more goals for one side."""
+        added = {side.value: self.of(side) + goals}
+        return Score(**{other.value: self.of(other) for other in Side} | added)
+
+
+class Standing(Part):
+    """How one robot stands with the referee."""
+
+    yellow: Annotated[int, Field(ge=0)] = 0
+    """Yellow cards that count toward the next punishment."""
+    red: Annotated[int, Field(ge=0)] = 0
+    off_field: OffField | None = None
+    """Why it does not take part, or nothing."""
+    left: float | None = None
+    """Off the field: s until it may come back, at the next stoppage; nothing when no time brings it back."""
+
 
 class GameState(Message):
     """The game as the referee sees it, in the field frame."""
@@ -100,13 +155,25 @@ class GameState(Message):
     running: bool = False
     """START was given; before that, robots take their positions and nobody may play the ball."""
     half: Annotated[int, Field(ge=1)] = 1
+    """Counts on through extra time."""
+    stage: Stage = Stage.REGULAR
     clock: float = 0.0
     """Game clock in s: playing time of this half and those before it."""
+    effective: float = 0.0
+    """Effective playing time in s: how long the ball has been in play."""
     score: Score = Score()
+    shoot_out: Score | None = None
+    """Goals of the penalty shoot-out, while there is one and after it."""
     cyan_attacks: Annotated[int, Field(ge=-1, le=1)] = 1
     """Sign of the x direction that cyan attacks."""
     spot: Point | None = None
     """Where the ball is placed for the restart."""
+    left: float | None = None
+    """s until the limit of what is going on: START, ball in play, end of a break or of a shoot-out's attempt."""
+    robots: dict[Name, Standing] = {}
+    """Robots with a card, or off the field; all others are there and unpunished."""
+    proposal: str | None = None
+    """Mixed officiating: what the referee has proposed and not yet carried out."""
     episode: int = 1
     """Counts the starts: the match's own, each scene that is loaded, each reset."""
 
@@ -121,6 +188,11 @@ class GameView(Part):
     our_score: int
     their_score: int
     spot: Point | None = None
+    stage: Stage = Stage.REGULAR
+    left: float | None = None
+    """s until the limit of what is going on: START, ball in play, end of a break or of a shoot-out's attempt."""
+    robots: dict[Name, Standing] = {}
+    """Our robots with a card, or off the field; all others are there and unpunished."""
     episode: int = 1
     """Another number than before: the world was set up anew, and what was believed of it is void."""
 
@@ -133,9 +205,18 @@ class EventKind(StrEnum):
     START = "start"
     IN_PLAY = "in_play"
     GOAL = "goal"
+    NO_GOAL = "no_goal"
+    SHOT = "shot"
+    FOUL = "foul"
+    CARD = "card"
+    OFF_FIELD = "off_field"
+    ON_FIELD = "on_field"
+    PROPOSAL = "proposal"
     BALL_OUT = "ball_out"
     STALL = "stall"
+    PARKING = "parking"
     HALF_TIME = "half_time"
+    FORFEIT = "forfeit"
     FULL_TIME = "full_time"
     ACTION = "action"
     AGENT = "agent"
@@ -154,9 +235,17 @@ class GameEvent(Message):
     """The rule or action that decided, by its file name."""
     side: Side | None = None
     robot: Name | None = None
-    """Who did it: the scorer, the last to touch the ball."""
+    """Who did it: the scorer, the last to touch the ball, the offender."""
+    robots: list[Name] = []
+    """All robots that it is about, where there are more than one."""
     place: Point | None = None
     score: Score | None = None
+    measured: float | None = None
+    """The quantity that broke the rule, in `unit`."""
+    limit: float | None = None
+    """What the rule allows or asks, in the same unit."""
+    unit: str = ""
+    card: Card | None = None
     text: str
     """One sentence for people, with the measured quantity where there is one."""
 
@@ -175,6 +264,15 @@ class ActionName(StrEnum):
     DROP_BALL = "drop_ball"
     PLACE_BALL = "place_ball"
     GOAL = "goal"
+    YELLOW_CARD = "yellow_card"
+    RED_CARD = "red_card"
+    REPAIR = "repair"
+    SUBSTITUTE = "substitute"
+    PARK = "park"
+    ENTER = "enter"
+    CONFIRM = "confirm"
+    OVERRULE = "overrule"
+    UNDO = "undo"
     END_HALF = "end_half"
     END_GAME = "end_game"
 
@@ -185,7 +283,7 @@ class RefereeAction(Message):
     action: ActionName
     side: Side | None = None
     robot: Name | None = None
-    """Who scored, for a goal."""
+    """Who scored, for a goal; whom a card, a repair, a substitution or the parking is for."""
     place: Point | None = None
     """Field frame; where a restart takes its spot from, by default where the ball lies."""
     source: str = "coach"

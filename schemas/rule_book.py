@@ -21,6 +21,14 @@ class Periods:
     halves: Annotated[int, Quantity("1", "number of halves", 1, 2)]
     half_duration: Annotated[float, Quantity("s", "length of one half, unless the match file says another", 1, 7200)]
     half_time_break: Annotated[float, Quantity("s", "break between halves", 0, 1200)]
+    parking: Annotated[float, Quantity("s", "time to park, after each half, before the break or the end", 0, 120)]
+    needs_winner: Annotated[int, Quantity("1", "1: a level match goes on; the match file may say otherwise", 0, 1)]
+    extra_halves: Annotated[int, Quantity("1", "halves of extra time; 0 for none", 0, 2)]
+    extra_half_duration: Annotated[float, Quantity("s", "length of one of them; scaled as the halves are", 1, 7200)]
+    shoot_out_kicks: Annotated[int, Quantity("1", "penalties of each side in a shoot-out; 0 for none", 0, 20)]
+    shoot_out_series: Annotated[int, Quantity("1", "times that a shoot-out is played while it is level", 1, 10)]
+    shoot_out_break: Annotated[float, Quantity("s", "break before a shoot-out", 0, 1200)]
+    shoot_out_limit: Annotated[float, Quantity("s", "after START, a goal of the shoot-out falls within", 1, 120)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +39,13 @@ class Restarts:
     signal_to_start: Annotated[float, Quantity("s", "time to take positions, from the signal to START", 0, 60)]
     positions_limit: Annotated[float, Quantity("s", "START waits this long at most for robots that stand wrong", 0, 60)]
     time_limit: Annotated[float, Quantity("s", "after START, the ball is in play at the latest", 1, 60)]
-    in_play_distance: Annotated[float, Quantity("m", "the ball is in play after moving this far", 0, 5)]
+    penalty_limit: Annotated[float, Quantity("s", "the same at a penalty: time to reach the ball", 1, 60)]
+    in_play_distance: Annotated[float, Quantity("m", "the ball is in play after rolling freely this far", 0, 5)]
+    drag_distance: Annotated[float, Quantity("m", "the taker may move the ball this far before its kick", 0, 10)]
+    drop_robots_to_score: Annotated[int, Quantity("1", "robots that touch a dropped ball before a goal counts", 1, 2)]
+    moves_offenders: Annotated[int, Quantity("1", "1: who stands wrong at the limit is moved; 0: is left there", 0, 1)]
+    position_card: Annotated[int, Quantity("1", "1: who stands wrong at the limit gets a yellow card", 0, 1)]
+    restart_fouls: Annotated[int, Quantity("1", "1: early, double and dragging touches are fouls; 0: not", 0, 1)]
     opponent_distance: Annotated[float, Quantity("m", "opponents stay this far from the ball, whole robot", 0, 10)]
     teammate_distance: Annotated[float, Quantity("m", "all but the kicker stay this far, whole robot", 0, 10)]
     drop_ball_distance: Annotated[float, Quantity("m", "everyone stays this far at a drop ball, whole robot", 0, 10)]
@@ -49,9 +63,40 @@ class Stall:
     still_duration: Annotated[float, Quantity("s", "a ball still for this long is dropped", 1, 120)]
 
 
+@dataclass(frozen=True, slots=True)
+class Discipline:
+    """What cards lead to; 0 switches a punishment off."""
+
+    yellows_to_suspension: Annotated[int, Quantity("1", "yellow cards of one robot that suspend it", 0, 10)]
+    suspension: Annotated[float, Quantity("s", "playing time that a suspended robot is off the field", 0, 1200)]
+    yellows_to_red: Annotated[int, Quantity("1", "yellow cards of one robot that make a red one", 0, 10)]
+    red_duration: Annotated[float, Quantity("s", "playing time off after a red card; 0: for good", 0, 1200)]
+    red_growth: Annotated[float, Quantity("s", "that much more for each red card its side had before", 0, 600)]
+    reds_to_removal: Annotated[
+        int, Quantity("1", "with every so many reds of a side, its robot is out for good", 0, 20)
+    ]
+    reset_each_half: Annotated[int, Quantity("1", "1: yellow cards are forgotten at half time", 0, 1)]
+
+
+@dataclass(frozen=True, slots=True)
+class People:
+    """Robots that leave and come back."""
+
+    least_robots: Annotated[int, Quantity("1", "a side that cannot field this many forfeits; 0: never", 0, 5)]
+    forfeit_goals: Annotated[int, Quantity("1", "goals by which a forfeited match is won at least", 0, 20)]
+    repair: Annotated[float, Quantity("s", "a robot taken out for repair stays out this long", 0, 600)]
+    repairs_at_once: Annotated[int, Quantity("1", "robots of a side in repair at the same time", 0, 5)]
+    substitutions: Annotated[int, Quantity("1", "of a side in one match", 0, 20)]
+    substitution: Annotated[float, Quantity("s", "from a robot's leaving to its substitute's coming", 0, 600)]
+    silent_limit: Annotated[float, Quantity("s", "a robot whose program is gone is taken out; 0: never", 0, 600)]
+    returns_per_stoppage: Annotated[int, Quantity("1", "robots of a side that come back in one stoppage", 1, 5)]
+
+
 SECTIONS: dict[str, type] = {
     "periods": Periods,
     "restarts": Restarts,
+    "discipline": Discipline,
+    "people": People,
     "stall": Stall,
     "scrum": Scrum,
     "scoring": Scoring,
@@ -70,6 +115,8 @@ class RuleBook:
     name: str
     periods: Periods
     restarts: Restarts
+    discipline: Discipline
+    people: People
     stall: Stall
     scrum: Scrum
     scoring: Scoring

@@ -86,7 +86,7 @@ class Sights:
         """Robot → its `schemas.sight.Sight` as JSON; each is sent as soon as it is written."""
         percepts = self._perception.at(snapshot, state.cyan_attacks)
         heard = self._radio.listen(snapshot.tick)
-        games = {side: to_json(game_view(state, side, episode)) for side in Side}
+        games = {side: to_json(game_view(state, side, self._roster, episode)) for side in Side}
         told = {side: to_json(orders.get(side)) for side in Side}
         time = repr(snapshot.time).encode()
         sights = {}

@@ -117,6 +117,8 @@ class Snapshot:
     """Robots that touched, held or kicked the ball since the tick before, in order of time, from contacts and kicks."""
     kicked: str | None = None
     """The robot whose kick was carried out in this tick."""
+    silent: tuple[str, ...] = ()
+    """Robots whose program is gone or does not answer, in the order of the roster."""
     contacts: tuple[tuple[int, int], ...] = ()
     """Pairs of robots that touch each other, by their places in the roster, the first one first and in its order."""
     ball_spin: tuple[float, float] = (0.0, 0.0)

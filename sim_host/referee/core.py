@@ -5,18 +5,22 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from schemas.frames import Pose
-from schemas.game import RESTARTS, ActionReply, GameEvent, Phase, RefereeAction
+from schemas.game import RESTARTS, ActionReply, GameEvent, Mode, Phase, RefereeAction
 from schemas.host import Placement
 from schemas.profile import Ball, Field
 from schemas.rule_book import RuleBook
 from schemas.scene import SceneGame
 from schemas.side import Side
 from sim_host.referee.actions import obey
-from sim_host.referee.flow import carry_out, progress
+from sim_host.referee.authority import judge, time_is_up
+from sim_host.referee.call import Restart, Spot
+from sim_host.referee.flow import progress
 from sim_host.referee.match import Match
 from sim_host.referee.rules import first_decision
 from sim_host.referee.scene import look
-from sim_host.referee.state import RefereeState, Spot
+from sim_host.referee.set_piece import begun
+from sim_host.referee.state import RefereeState
+from sim_host.referee.timing import Timing
 from sim_host.referee.turn import Turn
 from sim_host.snapshot import Roster, Snapshot
 
@@ -50,6 +54,9 @@ class Referee:
         kick_off: Side,
         automatic: bool,
         starts: Mapping[str, Pose],
+        mode: Mode = Mode.AUTOMATIC,
+        proposal: float = 0.0,
+        winner: bool | None = None,
     ) -> None:
         """The constants of a match.
 
@@ -58,17 +65,21 @@ class Referee:
             kick_off: who kicks off the first half.
             automatic: the match begins at the first step; otherwise it waits for an action.
             starts: start pose of each robot in the field frame, for cyan attacking +x.
+            mode: who decides.
+            proposal: s that people have to overrule a decision, in mixed officiating.
+            winner: whether a level match goes on until somebody wins; as the rule book says when not given.
 
         Raises:
             TouchlineError: a robot of the roster has no start pose.
         """
         periods = book.periods
         half = periods.half_duration if duration is None else duration / periods.halves
-        self._match = Match(book, pitch, ball, roster, half, kick_off, automatic, starts)
+        goes_on = bool(periods.needs_winner) if winner is None else winner
+        self._match = Match(book, pitch, ball, roster, half, kick_off, automatic, starts, mode, proposal, goes_on)
 
     def begin(self) -> RefereeState:
         """The state before the first tick."""
-        return RefereeState(Phase.PRE_GAME, half_limit=self._match.half_duration, kick_off=self._match.kick_off)
+        return RefereeState(Phase.PRE_GAME, Timing(self._match.half_duration), self._match.kick_off)
 
     def begin_at(self, game: SceneGame, ball: Spot) -> RefereeState:
         """The state with which a scene begins: in the first half, a restart to be taken from where the ball lies."""
@@ -80,21 +91,35 @@ class Referee:
             side=game.side,
             spot=ball if is_restart else None,
             running=running,
-            clock=game.clock,
-            clock_runs=running or game.phase not in (Phase.PRE_GAME, Phase.KICK_OFF),
+            timing=Timing(
+                self._match.half_duration,
+                clock=game.clock,
+                runs=running or game.phase not in (Phase.PRE_GAME, Phase.KICK_OFF),
+            ),
+            set_piece=begun(Restart(game.phase, game.side, ball)) if is_restart and running else None,
             score=game.score,
         )
 
     def step(self, state: RefereeState, snapshot: Snapshot, actions: Sequence[RefereeAction], dt: float) -> Ruling:
         """Judge one tick of `dt` in s: the rules on what happened, then the actions, then what time brings."""
-        scene = look(self._match, state, snapshot, dt)
-        found = first_decision(scene)
-        if found is None and not actions and scene.state.phase is Phase.PLAY:
-            return Ruling(scene.state)
-        turn = Turn(self._match, snapshot, scene.state)
-        if found is not None:
-            rule, decision = found
-            carry_out(turn, rule.name, decision)
+        match = self._match
+        scene = look(match, state, snapshot, dt)
+        now = scene.state
+        found = None if time_is_up(now.proposal) else first_decision(scene, clocks_alone=match.mode is Mode.MANUAL)
+        if found is None and not actions and is_quiet(now):
+            return Ruling(now)
+        turn = Turn(match, snapshot, now)
+        judge(turn, found)
         replies = tuple(obey(turn, action) for action in actions)
         progress(turn)
         return Ruling(turn.state, tuple(turn.events), tuple(turn.placements), replies, turn.checkpoint)
+
+
+def is_quiet(state: RefereeState) -> bool:
+    """Whether time alone brings nothing about: the ball is in play, and nobody waits for anything."""
+    return (
+        state.phase is Phase.PLAY
+        and state.set_piece is None
+        and not state.people.silent
+        and not time_is_up(state.proposal)
+    )

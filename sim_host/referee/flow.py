@@ -3,11 +3,16 @@
 import dataclasses
 from collections.abc import Callable, Mapping
 
-from schemas.game import RESTARTS, EventKind, Phase, Score
+from schemas.game import RESTARTS, EventKind, Phase, Score, Stage
 from schemas.side import Side
-from sim_host.referee import restart
+from sim_host.referee import discipline, restart
+from sim_host.referee.bench import bench_pose
+from sim_host.referee.call import Restart, Spot
 from sim_host.referee.decision import Decision
-from sim_host.referee.state import Restart, Spot
+from sim_host.referee.shoot_out import ShootOut
+from sim_host.referee.spots import restart_at
+from sim_host.referee.state import RefereeState
+from sim_host.referee.timing import reached
 from sim_host.referee.turn import Turn
 
 RULE = "flow"
@@ -22,17 +27,29 @@ def carry_out(turn: Turn, rule: str, decision: Decision) -> None:
         end_half(turn, rule, decision.text)
         return
     if decision.goal_for is not None:
-        turn.state = dataclasses.replace(turn.state, score=_one_more(turn.state.score, decision.goal_for))
+        turn.state = dataclasses.replace(turn.state, score=turn.state.score.plus(decision.goal_for))
+    if decision.shot_scored is not None:
+        _count_shot(turn, decision.shot_scored)
     turn.say(
         decision.kind,
         rule,
         decision.text,
         side=decision.side,
         robot=decision.robot,
+        robots=decision.robots,
         place=decision.place,
-        score=turn.state.score if decision.goal_for is not None else None,
+        score=_score_said(turn.state, decision),
+        measured=decision.measured,
+        limit=decision.limit,
+        unit=decision.unit,
+        card=decision.card,
     )
-    restart.stop(turn, rule, decision.restart)
+    if decision.card is not None and decision.robot is not None:
+        discipline.show(turn, rule, decision.robot, decision.card)
+    if decision.shot_scored is not None:
+        next_penalty(turn, rule)
+    else:
+        restart.stop(turn, rule, decision.restart)
 
 
 def kick_off_after_goal(scorers: Side) -> Restart:
@@ -42,37 +59,87 @@ def kick_off_after_goal(scorers: Side) -> Restart:
 
 def begin_half(turn: Turn) -> None:
     """Signal the kick-off of the half."""
+    loser = forfeiter(turn)
+    if loser is not None:
+        forfeit(turn, loser)
+        return
     restart.signal(turn, Restart(Phase.KICK_OFF, turn.state.kick_off, CENTRE))
 
 
 def end_half(turn: Turn, rule: str, text: str) -> None:
-    """End the half at once: a break, or full time after the last half."""
-    if turn.state.half >= turn.match.book.periods.halves:
+    """End the half at once: robots park, then comes a break, or full time when nothing follows."""
+    kind = EventKind.HALF_TIME if what_follows(turn) is not None else EventKind.PARKING
+    if kind is EventKind.PARKING and not turn.book.periods.parking:
         end_match(turn, rule, text)
         return
-    _rest(turn, Phase.HALF_TIME)
-    turn.say(EventKind.HALF_TIME, rule, text, score=turn.state.score)
+    turn.say(kind, rule, text, score=turn.state.score)
+    if turn.book.periods.parking:
+        _rest(turn, Phase.PARKING, turn.book.periods.parking)
+    else:
+        _rest(turn, Phase.HALF_TIME, _break(turn))
 
 
 def end_match(turn: Turn, rule: str, text: str) -> None:
     """Full time."""
-    _rest(turn, Phase.FULL_TIME)
+    _rest(turn, Phase.FULL_TIME, None)
     turn.say(EventKind.FULL_TIME, rule, text, score=turn.state.score)
 
 
-def change_sides(turn: Turn) -> None:
-    """Begin the next half: other direction, everybody at the start poses of it, the other side kicks off."""
-    state = turn.state
-    turn.state = dataclasses.replace(
-        state,
-        half=state.half + 1,
-        half_limit=state.clock + turn.match.half_duration,
-        kick_off=state.kick_off.opponent,
-        cyan_attacks=-state.cyan_attacks,
+def what_follows(turn: Turn) -> Stage | None:
+    """The stage of the next half or of the shoot-out, or nothing when the match is over with this one."""
+    state, periods = turn.state, turn.book.periods
+    if state.stage is Stage.SHOOT_OUT:
+        return None
+    if state.half < periods.halves:
+        return Stage.REGULAR
+    if state.half > periods.halves and state.half < periods.halves + periods.extra_halves:
+        return Stage.EXTRA_TIME
+    if not turn.match.needs_winner or state.score.cyan != state.score.magenta:
+        return None
+    if state.half == periods.halves and periods.extra_halves:
+        return Stage.EXTRA_TIME
+    return Stage.SHOOT_OUT if periods.shoot_out_kicks else None
+
+
+def go_on(turn: Turn) -> None:
+    """Begin what follows after a break, or end the match."""
+    stage = what_follows(turn)
+    if stage is None:
+        score = turn.state.score
+        end_match(turn, RULE, f"full time, cyan {score.cyan} : {score.magenta} magenta")
+    elif stage is Stage.SHOOT_OUT:
+        _begin_shoot_out(turn)
+    else:
+        _change_sides(turn, stage)
+
+
+def forfeiter(turn: Turn) -> Side | None:
+    """The side that cannot field as many robots as the rule book asks for; of two, the one with fewer."""
+    least = turn.book.people.least_robots
+    if not least:
+        return None
+    fielded = {side: discipline.can_play(turn, side) for side in Side}
+    short = [side for side in Side if fielded[side] < least]
+    return min(short, key=lambda side: fielded[side], default=None)
+
+
+def forfeit(turn: Turn, loser: Side) -> None:
+    """End the match: won by the other side, by as many goals as the rule book says at least."""
+    state, winner = turn.state, loser.opponent
+    goals = max(0, state.score.of(loser) + turn.book.people.forfeit_goals - state.score.of(winner))
+    turn.state = dataclasses.replace(state, score=state.score.plus(winner, goals))
+    left, least = discipline.can_play(turn, loser), turn.book.people.least_robots
+    turn.say(
+        EventKind.FORFEIT,
+        RULE,
+        f"{loser} forfeits: it can field {left} robots, {least} are asked",
+        side=loser,
+        score=turn.state.score,
+        measured=left,
+        limit=least,
+        unit="robots",
     )
-    for name in turn.match.roster.names:
-        turn.place_robot(name, turn.match.starts[name].team(turn.state.cyan_attacks))
-    begin_half(turn)
+    end_match(turn, RULE, f"full time, {winner} wins by forfeit")
 
 
 def progress(turn: Turn) -> None:
@@ -80,6 +147,86 @@ def progress(turn: Turn) -> None:
     step = PROGRESS.get(turn.state.phase)
     if step is not None:
         step(turn)
+    restart.release(turn)
+    discipline.progress(turn)
+    if turn.state.people.away and turn.state.phase in HALF_ON:
+        loser = forfeiter(turn)
+        if loser is not None:
+            forfeit(turn, loser)
+
+
+def next_penalty(turn: Turn, rule: str) -> None:
+    """After an attempt: the other side's, another series, or the end."""
+    state, periods = turn.state, turn.book.periods
+    out = state.shoot_out
+    if out is None:
+        return
+    kicks = periods.shoot_out_kicks
+    leader = out.leader(kicks)
+    said = f"cyan {out.goals.cyan} : {out.goals.magenta} magenta"
+    if leader is not None:
+        end_match(turn, rule, f"{leader} wins the penalty shoot-out, {said}")
+        return
+    if out.is_played(kicks):
+        if out.series >= periods.shoot_out_series:
+            end_match(turn, rule, f"the penalty shoot-out is undecided after {out.series} series, {said}")
+            return
+        out = out.repeated()
+        turn.state = dataclasses.replace(state, shoot_out=out)
+    restart.stop(turn, rule, penalty_for(turn, out.next_side()))
+
+
+def penalty_for(turn: Turn, side: Side) -> Restart:
+    """A penalty of a side, from the mark it attacks."""
+    return restart_at(turn.match, turn.state, Phase.PENALTY, side, CENTRE)
+
+
+def _count_shot(turn: Turn, scored: bool) -> None:
+    state = turn.state
+    if state.shoot_out is not None and state.side is not None:
+        turn.state = dataclasses.replace(state, shoot_out=state.shoot_out.counted(state.side, scored))
+
+
+def _score_said(state: RefereeState, decision: Decision) -> Score | None:
+    if decision.shot_scored is not None and state.shoot_out is not None:
+        return state.shoot_out.goals
+    return state.score if decision.goal_for is not None else None
+
+
+def _change_sides(turn: Turn, stage: Stage) -> None:
+    """Begin the next half: other direction, everybody at the start poses of it, the other side kicks off."""
+    state, match = turn.state, turn.match
+    duration = match.half_duration if stage is Stage.REGULAR else match.extra_half_duration
+    turn.state = dataclasses.replace(
+        state,
+        half=state.half + 1,
+        stage=stage,
+        timing=dataclasses.replace(state.timing, limit=state.clock + duration),
+        kick_off=state.kick_off.opponent,
+        cyan_attacks=-state.cyan_attacks,
+        people=discipline.forgotten(state.people, turn.book.discipline),
+        before=None,
+    )
+    _carry(turn)
+    begin_half(turn)
+
+
+def _begin_shoot_out(turn: Turn) -> None:
+    """Everybody at the start poses; the side that would have kicked off begins."""
+    state = turn.state
+    out = ShootOut(state.kick_off.opponent)
+    turn.state = dataclasses.replace(state, stage=Stage.SHOOT_OUT, shoot_out=out, before=None)
+    _carry(turn)
+    restart.signal(turn, penalty_for(turn, out.next_side()))
+
+
+def _carry(turn: Turn) -> None:
+    """Carry everybody to the start poses, and who is off the field to the bench of the half."""
+    for name in turn.match.roster.names:
+        if name in turn.state.people.away:
+            turn.place_robot(name, bench_pose(turn.match, turn.state, name))
+        else:
+            turn.place_robot(name, turn.match.starts[name].team(turn.state.cyan_attacks))
 
 
 def _before_match(turn: Turn) -> None:
@@ -89,7 +236,7 @@ def _before_match(turn: Turn) -> None:
 
 def _stopped(turn: Turn) -> None:
     pending = turn.state.pending
-    if pending is not None and restart.reached(turn.state.timer, turn.match.book.restarts.stop_to_signal):
+    if pending is not None and reached(turn.state.timing.timer, turn.book.restarts.stop_to_signal):
         restart.signal(turn, pending)
 
 
@@ -99,31 +246,46 @@ def _restarting(turn: Turn) -> None:
         restart.move_on(turn, signalled)
 
 
+def _parking(turn: Turn) -> None:
+    if not reached(turn.state.timing.timer, turn.book.periods.parking):
+        return
+    if what_follows(turn) is None:
+        go_on(turn)
+    else:
+        _rest(turn, Phase.HALF_TIME, _break(turn))
+
+
 def _resting(turn: Turn) -> None:
-    if restart.reached(turn.state.timer, turn.match.book.periods.half_time_break):
-        change_sides(turn)
+    if reached(turn.state.timing.timer, _break(turn)):
+        go_on(turn)
 
 
 PROGRESS: Mapping[Phase, Callable[[Turn], None]] = {
     Phase.PRE_GAME: _before_match,
     Phase.STOPPED: _stopped,
+    Phase.PARKING: _parking,
     Phase.HALF_TIME: _resting,
 } | dict.fromkeys(RESTARTS, _restarting)
 """Phase → what time brings about in it; in the others, nothing."""
 
 
-def _rest(turn: Turn, phase: Phase) -> None:
+def _break(turn: Turn) -> float:
+    """s of the break before what follows."""
+    periods = turn.book.periods
+    return periods.shoot_out_break if what_follows(turn) is Stage.SHOOT_OUT else periods.half_time_break
+
+
+def _rest(turn: Turn, phase: Phase, until: float | None) -> None:
+    state = turn.state
     turn.state = dataclasses.replace(
-        turn.state,
+        state,
         phase=phase,
         side=None,
         spot=None,
         running=False,
-        clock_runs=False,
         pending=None,
-        timer=0.0,
+        set_piece=None,
+        proposal=None,
+        people=discipline.new_stoppage(state.people),
+        timing=state.timing.anew(until, runs=False),
     )
-
-
-def _one_more(score: Score, side: Side) -> Score:
-    return Score(cyan=score.cyan + (side is Side.CYAN), magenta=score.magenta + (side is Side.MAGENTA))

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from schemas.errors import TouchlineError
 from schemas.frames import Pose
+from schemas.game import Mode
 from schemas.profile import Ball, Field
 from schemas.rule_book import RuleBook
 from schemas.side import Side
@@ -27,6 +28,12 @@ class Match:
     """The match begins by itself; otherwise it waits for the action `start`."""
     starts: Mapping[str, Pose]
     """Start pose of each robot in the field frame, for cyan attacking +x."""
+    mode: Mode = Mode.AUTOMATIC
+    """Who decides."""
+    proposal: float = 0.0
+    """s that people have to overrule a decision, in mixed officiating."""
+    needs_winner: bool = False
+    """A level match goes on with extra time and a shoot-out."""
     reaches: tuple[float, ...] = field(init=False)
     """m; how far each robot of the roster reaches from its centre."""
     out_x: float = field(init=False)
@@ -39,6 +46,12 @@ class Match:
     """m²; how far the centres of ball and robot may be apart, squared, for it to be at the ball; in roster order."""
     is_keeper: tuple[bool, ...] = field(init=False)
     """Whether each robot of the roster is its side's goalkeeper."""
+
+    @property
+    def extra_half_duration(self) -> float:
+        """Playing time of one half of extra time in s: as much shorter or longer than its book says as the halves."""
+        periods = self.book.periods
+        return periods.extra_half_duration * self.half_duration / periods.half_duration
 
     def __post_init__(self) -> None:
         missing = [name for name in self.roster.names if name not in self.starts]

@@ -1,14 +1,47 @@
-"""Where robots may stand before START: distances to the whole robot, own halves at a kick-off, areas at a penalty."""
+"""Where robots may stand before START: distances to the whole robot, own halves at a kick-off, areas at a penalty.
 
+Robots off the field stand nowhere: they are not looked at.
+"""
+
+import dataclasses
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
-from schemas.game import Phase
+from schemas.frames import Pose
+from schemas.game import Phase, Stage
 from sim_host.referee.areas import in_goal_area, in_penalty_area
+from sim_host.referee.call import Restart, Spot
 from sim_host.referee.match import Match
-from sim_host.referee.state import RefereeState, Restart
+from sim_host.referee.state import RefereeState
 from sim_host.snapshot import Snapshot
+
+_ROOM = 0.2
+"""m; how much farther than the rules ask a robot is set down that is moved, and how much air it has to others."""
+_BEARINGS = 24
+"""Directions from the ball that are tried for it."""
+_RINGS = 8
+"""Distances that are tried, 1 m apart."""
+
+
+class Fault(NamedTuple):
+    """One robot that stands wrong."""
+
+    robot: str
+    text: str
+    """Who and how, in one phrase."""
+    measured: float | None = None
+    """m."""
+    limit: float | None = None
+    """m that are asked."""
+
+
+class Wrong(NamedTuple):
+    """What is wrong with one robot's place: a phrase, and what was measured and asked, m."""
+
+    phrase: str
+    measured: float | None = None
+    limit: float | None = None
 
 
 class LineUp(NamedTuple):
@@ -18,6 +51,8 @@ class LineUp(NamedTuple):
     state: RefereeState
     restart: Restart
     snapshot: Snapshot
+    there: tuple[int, ...]
+    """Robots on the field."""
     kicker: int | None
     """The taker's robot nearest to the ball; a drop ball has none."""
     free: tuple[int, ...]
@@ -32,32 +67,87 @@ class LineUp(NamedTuple):
         roster = self.match.roster
         return roster.keepers.get(roster.sides[index]) == roster.names[index]
 
+    def takes(self, index: int) -> bool:
+        """Whether a robot is of the side that takes the restart."""
+        return self.match.roster.sides[index] is self.restart.side
 
-def standing_wrong(match: Match, state: RefereeState, restart: Restart, snapshot: Snapshot) -> str | None:
-    """Who stands wrong for the restart and by how much, in one phrase; nothing when all stand legally."""
-    line_up = LineUp(match, state, restart, snapshot, None, ())
-    line_up = line_up._replace(kicker=_kicker(line_up), free=_free_defenders(line_up))
-    for index, name in enumerate(match.roster.names):
-        for check in CHECKS[restart.phase]:
-            fault = check(line_up, index)
-            if fault is not None:
-                return f"{name} stands {fault}"
-    return None
+
+def standing_wrong(match: Match, state: RefereeState, restart: Restart, snapshot: Snapshot) -> tuple[Fault, ...]:
+    """Who stands wrong for the restart and by how much, each once, in the order of the roster."""
+    line_up = _line_up(match, state, restart, snapshot)
+    checks = _checks(state, restart)
+    faults = []
+    for index in line_up.there:
+        for check in checks:
+            wrong = check(line_up, index)
+            if wrong is not None:
+                name = match.roster.names[index]
+                faults.append(Fault(name, f"{name} stands {wrong.phrase}", wrong.measured, wrong.limit))
+                break
+    return tuple(faults)
+
+
+def legal_spot(match: Match, state: RefereeState, restart: Restart, snapshot: Snapshot, fault: Fault) -> Pose:
+    """Where a robot that stands wrong is moved: on the field, near its bearing from the ball, in nobody's way.
+
+    It stays where it is when there is no such place.
+    """
+    line_up = _line_up(match, state, restart, snapshot)
+    index = match.roster.names.index(fault.robot)
+    robot = snapshot.robots[index]
+    for x, y in _around(line_up, index):
+        moved = (*snapshot.robots[:index], robot._replace(x=x, y=y), *snapshot.robots[index + 1 :])
+        tried = line_up._replace(snapshot=dataclasses.replace(snapshot, robots=moved))
+        if all(check(tried, index) is None for check in _checks(state, restart)) and _has_room(tried, index):
+            return Pose(x, y, math.atan2(restart.spot[1] - y, restart.spot[0] - x))
+    return Pose(robot.x, robot.y, robot.heading)
+
+
+def _line_up(match: Match, state: RefereeState, restart: Restart, snapshot: Snapshot) -> LineUp:
+    away = state.people.away
+    there = tuple([index for index, name in enumerate(match.roster.names) if name not in away])
+    line_up = LineUp(match, state, restart, snapshot, there, None, ())
+    return line_up._replace(kicker=_kicker(line_up), free=_free_defenders(line_up))
+
+
+def _around(line_up: LineUp, index: int) -> Iterator[Spot]:
+    """Places on the field around the ball, the nearest ring first, from the robot's own bearing to both sides."""
+    pitch, robot, (x, y) = line_up.match.pitch, line_up.snapshot.robots[index], line_up.restart.spot
+    if line_up.is_keeper(index):
+        yield line_up.own_end(index) * (pitch.goal_line - line_up.match.reaches[index] - _ROOM), 0.0
+    bearing = math.atan2(robot.y - y, robot.x - x)
+    nearest = _asked(line_up, index) + line_up.match.reaches[index] + _ROOM
+    for ring in range(_RINGS):
+        for step in range(_BEARINGS):
+            turn = (step + 1) // 2 * (1 if step % 2 else -1) * math.tau / _BEARINGS
+            away = nearest + ring
+            place = x + away * math.cos(bearing + turn), y + away * math.sin(bearing + turn)
+            if abs(place[0]) <= pitch.goal_line and abs(place[1]) <= pitch.touch_line:
+                yield place
+
+
+def _has_room(line_up: LineUp, index: int) -> bool:
+    robots, reaches = line_up.snapshot.robots, line_up.match.reaches
+    here = robots[index][:2]
+    return all(
+        math.dist(here, robots[other][:2]) > reaches[index] + reaches[other] + _ROOM
+        for other in line_up.there
+        if other != index
+    )
 
 
 def _kicker(line_up: LineUp) -> int | None:
-    sides, restart = line_up.match.roster.sides, line_up.restart
-    own = [index for index, side in enumerate(sides) if side is restart.side]
+    own = [index for index in line_up.there if line_up.takes(index)]
     return min(own, key=lambda index: _from_ball(line_up, index), default=None)
 
 
 def _free_defenders(line_up: LineUp) -> tuple[int, ...]:
     """The goalkeeper in its own penalty area (ours), one more there outside the goal area (rule book, set pieces)."""
-    match, restart, robots = line_up.match, line_up.restart, line_up.snapshot.robots
+    match, robots = line_up.match, line_up.snapshot.robots
     inside = [
         index
-        for index, side in enumerate(match.roster.sides)
-        if side is not restart.side
+        for index in line_up.there
+        if not line_up.takes(index)
         and in_penalty_area(match.pitch, line_up.own_end(index), robots[index].x, robots[index].y)
     ]
     keepers = [index for index in inside if line_up.is_keeper(index)]
@@ -77,44 +167,69 @@ def _from_ball(line_up: LineUp, index: int) -> float:
     return math.dist(line_up.restart.spot, (robot.x, robot.y)) - line_up.match.reaches[index]
 
 
-def _near_ball(line_up: LineUp, index: int) -> str | None:
-    if index == line_up.kicker or index in line_up.free:
+def _asked(line_up: LineUp, index: int) -> float:
+    """m that a robot other than the kicker keeps from the ball."""
+    numbers = line_up.match.book.restarts
+    if line_up.restart.phase is Phase.DROP_BALL:
+        return numbers.drop_ball_distance
+    is_mate = line_up.takes(index) and line_up.restart.phase is not Phase.PENALTY
+    return numbers.teammate_distance if is_mate else numbers.opponent_distance
+
+
+def _near_ball(line_up: LineUp, index: int) -> Wrong | None:
+    is_dropped = line_up.restart.phase is Phase.DROP_BALL
+    if not is_dropped and (index == line_up.kicker or index in line_up.free):
         return None
-    restarts = line_up.match.book.restarts
-    takes = line_up.match.roster.sides[index] is line_up.restart.side
-    return _nearer_than(line_up, index, restarts.teammate_distance if takes else restarts.opponent_distance)
+    distance, asked = _from_ball(line_up, index), _asked(line_up, index)
+    if distance >= asked:
+        return None
+    return Wrong(f"{distance:.2f} m from the ball, {asked:.2f} m asked", distance, asked)
 
 
-def _near_dropped_ball(line_up: LineUp, index: int) -> str | None:
-    return _nearer_than(line_up, index, line_up.match.book.restarts.drop_ball_distance)
-
-
-def _nearer_than(line_up: LineUp, index: int, asked: float) -> str | None:
-    distance = _from_ball(line_up, index)
-    return f"{distance:.2f} m from the ball, {asked:.2f} m asked" if distance < asked else None
-
-
-def _in_other_half(line_up: LineUp, index: int) -> str | None:
+def _in_other_half(line_up: LineUp, index: int) -> Wrong | None:
     """The whole robot stays in its own half, of the kicker its centre."""
     hull = 0.0 if index == line_up.kicker else line_up.match.reaches[index]
     over = hull - line_up.snapshot.robots[index].x * line_up.own_end(index)
-    return f"{over:.2f} m in the other half" if over > 0 else None
+    return Wrong(f"{over:.2f} m in the other half", over, 0.0) if over > 0 else None
 
 
-def _wrong_at_penalty(line_up: LineUp, index: int) -> str | None:
+def _wrong_at_penalty(line_up: LineUp, index: int) -> Wrong | None:
     """The defending goalkeeper waits in its goal area, all but the kicker out of the penalty area and away."""
     if index == line_up.kicker:
         return None
     pitch, robot = line_up.match.pitch, line_up.snapshot.robots[index]
     end = 1 if line_up.restart.spot[0] > 0 else -1
     if line_up.is_keeper(index) and line_up.own_end(index) == end:
-        return None if in_goal_area(pitch, end, robot.x, robot.y) else "outside its goal area"
+        return None if in_goal_area(pitch, end, robot.x, robot.y) else Wrong("outside its goal area")
     if in_penalty_area(pitch, end, robot.x, robot.y, line_up.match.reaches[index]):
-        return "in the penalty area"
-    return _nearer_than(line_up, index, line_up.match.book.restarts.opponent_distance)
+        return Wrong("in the penalty area")
+    return _near_ball(line_up, index)
 
 
-Check = Callable[[LineUp, int], str | None]
+def _wrong_at_shoot_out(line_up: LineUp, index: int) -> Wrong | None:
+    """The kicker waits in the centre circle, the goalkeeper in its goal area, all others beyond the halfway line."""
+    pitch, robot = line_up.match.pitch, line_up.snapshot.robots[index]
+    end = 1 if line_up.restart.spot[0] > 0 else -1
+    away = math.hypot(robot.x, robot.y)
+    if index == line_up.kicker:
+        radius = pitch.centre_circle_radius
+        return None if away <= radius else Wrong(f"{away:.2f} m from the centre mark", away, radius)
+    if line_up.is_keeper(index) and line_up.own_end(index) == end:
+        return None if in_goal_area(pitch, end, robot.x, robot.y) else Wrong("outside its goal area")
+    over = robot.x * end + line_up.match.reaches[index]
+    if over > 0:
+        return Wrong(f"{over:.2f} m over the halfway line", over, 0.0)
+    clear = away - line_up.match.reaches[index]
+    if clear < pitch.centre_circle_radius:
+        return Wrong("in the centre circle", clear, pitch.centre_circle_radius)
+    return None
+
+
+def _checks(state: RefereeState, restart: Restart) -> "tuple[Check, ...]":
+    return SHOOT_OUT if state.stage is Stage.SHOOT_OUT else CHECKS[restart.phase]
+
+
+Check = Callable[[LineUp, int], Wrong | None]
 
 CHECKS: Mapping[Phase, tuple[Check, ...]] = {
     Phase.KICK_OFF: (_in_other_half, _near_ball),
@@ -123,6 +238,7 @@ CHECKS: Mapping[Phase, tuple[Check, ...]] = {
     Phase.THROW_IN: (_near_ball,),
     Phase.CORNER: (_near_ball,),
     Phase.PENALTY: (_wrong_at_penalty,),
-    Phase.DROP_BALL: (_near_dropped_ball,),
+    Phase.DROP_BALL: (_near_ball,),
 }
 """Restart → what is asked of every robot."""
+SHOOT_OUT: tuple[Check, ...] = (_wrong_at_shoot_out,)

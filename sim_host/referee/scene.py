@@ -7,6 +7,8 @@ from typing import NamedTuple
 from schemas.game import Phase
 from sim_host.referee.evidence import NOTHING, observe
 from sim_host.referee.match import Match
+from sim_host.referee.set_piece import followed
+from sim_host.referee.shoot_out import ShootOut
 from sim_host.referee.state import RefereeState
 from sim_host.snapshot import BallState, Snapshot
 
@@ -40,16 +42,20 @@ def look(match: Match, state: RefereeState, snapshot: Snapshot, dt: float) -> Sc
     """The scene of this tick: clock and timers moved on by `dt` in s, touches and stillness of the ball taken in."""
     ball = snapshot.ball
     now = ball[:3]
-    clock = min(state.clock + dt, state.half_limit) if state.clock_runs else state.clock
-    slow = state.phase is Phase.PLAY and _is_still(ball, match.book.stall.still_speed)
+    in_play = state.phase is Phase.PLAY
+    slow = in_play and _is_still(ball, match.book.stall.still_speed)
     moved_on = dataclasses.replace(
         state,
-        clock=clock,
-        timer=state.timer + dt,
+        timing=state.timing.after(dt, in_play),
+        set_piece=followed(state.set_piece, snapshot, in_play, dt),
+        people=state.people.after(snapshot.silent, dt, state.timing.runs),
+        proposal=None if state.proposal is None else state.proposal.after(dt),
         still=state.still + dt if slow else 0.0,
         ball=now,
         evidence=observe(match, state.evidence, state.cyan_attacks, snapshot, dt) if state.running else NOTHING,
     )
+    if state.shoot_out is not None and state.running:
+        moved_on = dataclasses.replace(moved_on, shoot_out=_approached(match, moved_on, snapshot, state.shoot_out))
     inside = abs(ball.x) <= match.out_x and abs(ball.y) <= match.out_y
     crossing = None if inside or state.ball is None else crossed(match, state.ball, now)
     return Scene(match, moved_on, snapshot, crossing)
@@ -72,6 +78,15 @@ def crossed(match: Match, before: tuple[float, float, float], now: tuple[float, 
     share, line = first
     x, y, z = (b + share * (n - b) for b, n in zip(before, now, strict=True))
     return Crossing(line, x, y, z)
+
+
+def _approached(match: Match, state: RefereeState, snapshot: Snapshot, out: ShootOut) -> ShootOut:
+    """The shoot-out with how near the ball has come to the goal in the hold of its taker."""
+    holder, side = snapshot.possession, state.side
+    if holder is None or side is None or snapshot.roster.side_of(holder) is not side:
+        return out
+    near = match.pitch.goal_line - snapshot.ball.x * state.attack(side)
+    return dataclasses.replace(out, nearest=near if out.nearest is None else min(near, out.nearest))
 
 
 def _is_still(ball: BallState, speed: float) -> bool:

@@ -9,8 +9,9 @@ from collections.abc import Callable, Iterable, Mapping
 from schemas.game import Phase
 from schemas.side import Side
 from sim_host.referee.areas import in_a_penalty_area
+from sim_host.referee.call import Restart, Spot
 from sim_host.referee.match import Match
-from sim_host.referee.state import RefereeState, Restart, Spot
+from sim_host.referee.state import RefereeState
 
 
 def restart_at(match: Match, state: RefereeState, phase: Phase, side: Side | None, place: Spot) -> Restart:

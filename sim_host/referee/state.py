@@ -1,22 +1,16 @@
 """The referee's state between two ticks: everything it remembers, and nothing else."""
 
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
-from schemas.game import GameState, Phase, Point, Score
+from schemas.game import GameState, Phase, Point, Score, Stage
 from schemas.side import Side
+from sim_host.referee.call import Restart, Spot
+from sim_host.referee.decision import Proposal
 from sim_host.referee.evidence import NOTHING, Evidence
-
-Spot = tuple[float, float]
-"""A point on the ground: x and y in m, field frame."""
-
-
-class Restart(NamedTuple):
-    """A way to bring the ball back into play: which, for whom (nobody at a drop ball), and from where."""
-
-    phase: Phase
-    side: Side | None
-    spot: Spot
+from sim_host.referee.people import People
+from sim_host.referee.set_piece import SetPiece
+from sim_host.referee.shoot_out import ShootOut
+from sim_host.referee.timing import Timing
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,8 +18,7 @@ class RefereeState:
     """The game as the referee remembers it; times in s, places in m in the field frame."""
 
     phase: Phase
-    half_limit: float
-    """Game clock at which this half ends."""
+    timing: Timing
     kick_off: Side
     """Who kicks off this half."""
     side: Side | None = None
@@ -35,17 +28,21 @@ class RefereeState:
     running: bool = False
     """START was given."""
     half: int = 1
-    clock: float = 0.0
-    """Playing time of this half and those before it."""
-    clock_runs: bool = False
-    """From the first START of a half to its end, also through stoppages."""
+    """Counts on through extra time."""
+    stage: Stage = Stage.REGULAR
     score: Score = field(default_factory=Score)
     cyan_attacks: int = 1
     """Sign of the x direction that cyan attacks."""
     pending: Restart | None = None
     """What will be signalled after STOP; nothing when people have to decide."""
-    timer: float = 0.0
-    """Time since STOP, the signal, START, or the beginning of the break."""
+    set_piece: SetPiece | None = None
+    """The restart that was started last, until nothing of it binds anybody."""
+    people: People = field(default_factory=People)
+    shoot_out: ShootOut | None = None
+    proposal: Proposal | None = None
+    """Mixed officiating: what is decided unless people overrule it."""
+    before: "RefereeState | None" = None
+    """The state before the last decision, for `undo`."""
     still: float = 0.0
     """How long the ball in play has not moved."""
     ball: tuple[float, float, float] | None = None
@@ -60,6 +57,11 @@ class RefereeState:
         return touch.robot if touch is not None else None
 
     @property
+    def clock(self) -> float:
+        """Playing time of this half and those before it."""
+        return self.timing.clock
+
+    @property
     def restart(self) -> Restart | None:
         """The restart that is signalled and not yet in play, or nothing."""
         return Restart(self.phase, self.side, self.spot) if self.spot is not None else None
@@ -70,6 +72,7 @@ class RefereeState:
 
     def game_state(self, tick: int, time: float, episode: int = 1) -> GameState:
         """The state as it is published, at that tick and simulated time in s, of that episode."""
+        people = self.people
         return GameState(
             tick=tick,
             time=time,
@@ -77,10 +80,16 @@ class RefereeState:
             side=self.side,
             running=self.running,
             half=self.half,
+            stage=self.stage,
             clock=self.clock,
+            effective=self.timing.effective,
             score=self.score,
+            shoot_out=None if self.shoot_out is None else self.shoot_out.goals,
             cyan_attacks=self.cyan_attacks,
             spot=point(self.spot),
+            left=self.timing.left,
+            robots=people.standings(sorted({*people.records, *people.away})),
+            proposal=None if self.proposal is None else self.proposal.text,
             episode=episode,
         )
 

@@ -3,11 +3,13 @@
 from dataclasses import dataclass, field
 
 from schemas.frames import Pose
-from schemas.game import EventKind, GameEvent, Score
+from schemas.game import Card, EventKind, GameEvent, Score
 from schemas.host import Placement
+from schemas.rule_book import RuleBook
 from schemas.side import Side
+from sim_host.referee.call import Spot
 from sim_host.referee.match import Match
-from sim_host.referee.state import RefereeState, Spot, point
+from sim_host.referee.state import RefereeState, point
 from sim_host.snapshot import Snapshot
 
 
@@ -30,10 +32,18 @@ class Turn:
         *,
         side: Side | None = None,
         robot: str | None = None,
+        robots: tuple[str, ...] = (),
         place: Spot | None = None,
         score: Score | None = None,
+        measured: float | None = None,
+        limit: float | None = None,
+        unit: str = "",
+        card: Card | None = None,
     ) -> None:
-        """Add an event of this tick; `rule` is the file name of the rule or action that decided."""
+        """Add an event of this tick; `rule` is the file name of the rule or action that decided.
+
+        `measured` is the quantity that broke the rule and `limit` what it allows or asks, both in `unit`.
+        """
         event = GameEvent(
             tick=self.snapshot.tick,
             time=self.snapshot.time,
@@ -42,8 +52,13 @@ class Turn:
             rule=rule,
             side=side,
             robot=robot,
+            robots=list(robots),
             place=point(place),
             score=score,
+            measured=None if measured is None else round(measured, 4),
+            limit=limit,
+            unit=unit,
+            card=card,
             text=text,
         )
         self.events.append(event)
@@ -57,6 +72,11 @@ class Turn:
         """Where the ball lies: where it was set down in this tick, or where it was seen."""
         down = [(placement.x, placement.y) for placement in self.placements if placement.body == "ball"]
         return down[-1] if down else (self.snapshot.ball.x, self.snapshot.ball.y)
+
+    @property
+    def book(self) -> RuleBook:
+        """The numbers that this match is refereed by."""
+        return self.match.book
 
     def place_robot(self, name: str, pose: Pose) -> None:
         """Have a robot set down at rest."""

@@ -1,7 +1,7 @@
 """How the referee says places, restarts and touches in its sentences."""
 
 from schemas.game import ActionName, Phase
-from sim_host.referee.state import Restart, Spot
+from sim_host.referee.call import Restart, Spot
 
 HYPHENATED = frozenset({"kick_off", "throw_in"})
 """Names that people write with a hyphen."""

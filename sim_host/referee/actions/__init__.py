@@ -5,20 +5,30 @@ from dataclasses import dataclass
 
 from schemas.game import ActionName, ActionReply, EventKind, RefereeAction
 from sim_host.referee.actions import (
+    confirm,
     corner,
     drop_ball,
     end_game,
     end_half,
+    enter,
     free_kick,
     goal,
     goal_kick,
     kick_off,
+    overrule,
+    park,
     penalty,
     place_ball,
+    red_card,
+    repair,
     start,
     stop,
+    substitute,
     throw_in,
+    undo,
+    yellow_card,
 )
+from sim_host.referee.authority import remember
 from sim_host.referee.turn import Turn
 from sim_host.referee.wording import at, spoken
 
@@ -29,10 +39,12 @@ class Action:
 
     why_illegal: Callable[[Turn, RefereeAction], str | None]
     apply: Callable[[Turn, RefereeAction], None]
+    can_be_undone: bool = True
+    """It decides something; the others only let the game go on, or decide what is proposed."""
 
 
 ACTIONS: Mapping[ActionName, Action] = {
-    ActionName.START: Action(start.why_illegal, start.apply),
+    ActionName.START: Action(start.why_illegal, start.apply, can_be_undone=False),
     ActionName.STOP: Action(stop.why_illegal, stop.apply),
     ActionName.KICK_OFF: Action(kick_off.why_illegal, kick_off.apply),
     ActionName.FREE_KICK: Action(free_kick.why_illegal, free_kick.apply),
@@ -41,8 +53,17 @@ ACTIONS: Mapping[ActionName, Action] = {
     ActionName.CORNER: Action(corner.why_illegal, corner.apply),
     ActionName.PENALTY: Action(penalty.why_illegal, penalty.apply),
     ActionName.DROP_BALL: Action(drop_ball.why_illegal, drop_ball.apply),
-    ActionName.PLACE_BALL: Action(place_ball.why_illegal, place_ball.apply),
+    ActionName.PLACE_BALL: Action(place_ball.why_illegal, place_ball.apply, can_be_undone=False),
     ActionName.GOAL: Action(goal.why_illegal, goal.apply),
+    ActionName.YELLOW_CARD: Action(yellow_card.why_illegal, yellow_card.apply),
+    ActionName.RED_CARD: Action(red_card.why_illegal, red_card.apply),
+    ActionName.REPAIR: Action(repair.why_illegal, repair.apply),
+    ActionName.SUBSTITUTE: Action(substitute.why_illegal, substitute.apply),
+    ActionName.PARK: Action(park.why_illegal, park.apply),
+    ActionName.ENTER: Action(enter.why_illegal, enter.apply),
+    ActionName.CONFIRM: Action(confirm.why_illegal, confirm.apply, can_be_undone=False),
+    ActionName.OVERRULE: Action(overrule.why_illegal, overrule.apply, can_be_undone=False),
+    ActionName.UNDO: Action(undo.why_illegal, undo.apply, can_be_undone=False),
     ActionName.END_HALF: Action(end_half.why_illegal, end_half.apply),
     ActionName.END_GAME: Action(end_game.why_illegal, end_game.apply),
 }
@@ -58,7 +79,10 @@ def obey(turn: Turn, action: RefereeAction) -> ActionReply:
     place = (action.place.x, action.place.y) if action.place is not None else None
     owner = f" for {action.side}" if action.side is not None else ""
     where = f" at {at(place)}" if place is not None else ""
-    asked = f"{action.source} asks: {spoken(action.action)}{owner}{where}"
+    who = f" for {action.robot}" if action.robot is not None and action.side is None else ""
+    asked = f"{action.source} asks: {spoken(action.action)}{owner}{who}{where}"
     turn.say(EventKind.ACTION, action.action, asked, side=action.side, robot=action.robot, place=place)
+    if row.can_be_undone:
+        remember(turn)
     row.apply(turn, action)
     return ActionReply(accepted=True)

@@ -2,13 +2,13 @@
 
 from schemas.game import RefereeAction
 from sim_host.referee import flow
-from sim_host.referee.actions.legality import no_half
+from sim_host.referee.actions.legality import a_shoot_out, no_half
 from sim_host.referee.turn import Turn
 
 
 def why_illegal(turn: Turn, _action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    return no_half(turn)
+    return no_half(turn) or a_shoot_out(turn)
 
 
 def apply(turn: Turn, action: RefereeAction) -> None:

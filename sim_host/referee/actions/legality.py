@@ -1,6 +1,7 @@
 """The questions that several actions ask before they may be done; each answers with a reason against it, or nothing."""
 
-from schemas.game import Phase, RefereeAction
+from schemas.game import Phase, RefereeAction, Stage
+from sim_host.referee.discipline import spoken_reason
 from sim_host.referee.flow import HALF_ON
 from sim_host.referee.turn import Turn
 from sim_host.referee.wording import at, spoken
@@ -14,6 +15,54 @@ def no_half(turn: Turn) -> str | None:
     if turn.state.phase in HALF_ON:
         return None
     return f"no half is being played, the phase is {turn.state.phase}"
+
+
+def no_match(turn: Turn) -> str | None:
+    """The match must have begun and not be over."""
+    if turn.state.phase not in (Phase.PRE_GAME, Phase.FULL_TIME):
+        return None
+    return f"no match is being played, the phase is {turn.state.phase}"
+
+
+def a_shoot_out(turn: Turn) -> str | None:
+    """The penalty shoot-out must not be on."""
+    return "the penalty shoot-out is on" if turn.state.stage is Stage.SHOOT_OUT else None
+
+
+def no_robot(turn: Turn, action: RefereeAction) -> str | None:
+    """A robot must be named, and take part."""
+    names = turn.match.roster.names
+    if action.robot is None:
+        return f"no robot is named; name one of {', '.join(names)}"
+    return no_such_robot(turn, action)
+
+
+def named_robot(action: RefereeAction) -> str:
+    """The robot that `no_robot` has asked for.
+
+    Raises:
+        ValueError: none is named.
+    """
+    if action.robot is None:
+        raise ValueError(f"{action.action} names no robot")
+    return action.robot
+
+
+def off_field(turn: Turn, action: RefereeAction) -> str | None:
+    """The robot must be on the field."""
+    away = turn.state.people.away.get(named_robot(action))
+    return None if away is None else f"{action.robot} is off the field already: {spoken_reason(away.why)}"
+
+
+def sent_off(turn: Turn, action: RefereeAction) -> str | None:
+    """The robot must not be sent off for good."""
+    away = turn.state.people.away.get(named_robot(action))
+    return f"{action.robot} is sent off for good" if away is not None and away.for_good else None
+
+
+def no_proposal(turn: Turn) -> str | None:
+    """Something must be proposed."""
+    return None if turn.state.proposal is not None else "nothing is proposed"
 
 
 def no_side(action: RefereeAction) -> str | None:

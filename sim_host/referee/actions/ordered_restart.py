@@ -4,7 +4,7 @@ import dataclasses
 
 from schemas.game import SIDED, Phase, RefereeAction
 from sim_host.referee import restart
-from sim_host.referee.actions.legality import FIXED, a_place, a_side, bad_place, no_half, no_side
+from sim_host.referee.actions.legality import FIXED, a_place, a_shoot_out, a_side, bad_place, no_half, no_side
 from sim_host.referee.spots import restart_at
 from sim_host.referee.turn import Turn
 
@@ -13,6 +13,7 @@ def why_illegal(turn: Turn, action: RefereeAction, phase: Phase) -> str | None:
     """A reason against ordering this restart, or nothing."""
     return (
         no_half(turn)
+        or (a_shoot_out(turn) if phase is not Phase.PENALTY else None)
         or (no_side(action) if phase in SIDED else a_side(action))
         or (a_place(action, phase) if phase in FIXED else bad_place(turn, action))
     )
@@ -26,6 +27,7 @@ def apply(turn: Turn, action: RefereeAction, phase: Phase) -> None:
     place = (action.place.x, action.place.y) if action.place is not None else turn.ball_spot
     ordered = restart_at(turn.match, turn.state, phase, action.side, place)
     if turn.state.phase is Phase.STOPPED:
-        turn.state = dataclasses.replace(turn.state, pending=ordered)
+        timing = dataclasses.replace(turn.state.timing, until=turn.book.restarts.stop_to_signal)
+        turn.state = dataclasses.replace(turn.state, pending=ordered, timing=timing)
     else:
         restart.stop(turn, action.action, ordered)

@@ -4,7 +4,7 @@ import dataclasses
 
 from schemas.game import Phase, RefereeAction
 from sim_host.referee.actions.legality import FIXED, a_place, bad_place, no_half
-from sim_host.referee.state import Restart
+from sim_host.referee.call import Restart
 from sim_host.referee.turn import Turn
 
 
@@ -28,7 +28,8 @@ def apply(turn: Turn, action: RefereeAction) -> None:
     if turn.state.pending is not None:
         turn.state = dataclasses.replace(turn.state, pending=turn.state.pending._replace(spot=spot))
     elif turn.state.phase is not Phase.STOPPED:
-        turn.state = dataclasses.replace(turn.state, spot=spot, timer=0.0)
+        timing = turn.state.timing.anew(turn.state.timing.until)
+        turn.state = dataclasses.replace(turn.state, spot=spot, timing=timing)
 
 
 def _due(turn: Turn) -> Restart | None:

@@ -1,9 +1,9 @@
 """Start: brings the game on by one step, whatever it is waiting for.
 
-Before the match it signals the first kick-off, in the break the next half's. Of a signalled restart it gives START
-at once, also while robots stand wrong. After STOP it signals the restart that is due without waiting any longer; when
-none is due, because people stopped the game, it signals a drop ball where the ball lies, or the
-kick-off if the half has not begun.
+Before the match it signals the first kick-off, in the break or while robots park the next half's. Of a signalled
+restart it gives START at once, also while robots stand wrong. After STOP it signals the restart that is due without
+waiting any longer; when none is due, because people stopped the game, it signals a drop ball where the ball lies, or
+the kick-off if the half has not begun.
 """
 
 from collections.abc import Callable, Mapping
@@ -37,7 +37,7 @@ def _after_stop(turn: Turn) -> None:
     due = turn.state.pending
     if due is not None:
         restart.signal(turn, due)
-    elif turn.state.clock_runs:
+    elif turn.state.timing.runs:
         restart.signal(turn, restart_at(turn.match, turn.state, Phase.DROP_BALL, None, turn.ball_spot))
     else:
         flow.begin_half(turn)
@@ -51,7 +51,8 @@ def _signalled(turn: Turn) -> None:
 
 STEPS: Mapping[Phase, Callable[[Turn], None]] = {
     Phase.PRE_GAME: flow.begin_half,
-    Phase.HALF_TIME: flow.change_sides,
+    Phase.PARKING: flow.go_on,
+    Phase.HALF_TIME: flow.go_on,
     Phase.STOPPED: _after_stop,
 } | dict.fromkeys(RESTARTS, _signalled)
 """Phase → what START means in it."""

@@ -3,8 +3,20 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from schemas.game import Stage
 from sim_host.referee.decision import Decision
-from sim_host.referee.rules import goal, goal_line, half_end, lost_ball, stall, touch_line
+from sim_host.referee.rules import (
+    double_touch,
+    dragged,
+    early_touch,
+    goal,
+    goal_line,
+    half_end,
+    lost_ball,
+    shoot_out,
+    stall,
+    touch_line,
+)
 from sim_host.referee.scene import Scene
 
 
@@ -18,6 +30,9 @@ class Rule:
 
 
 RULES: tuple[Rule, ...] = (
+    Rule("early_touch", early_touch.judge),
+    Rule("double_touch", double_touch.judge),
+    Rule("dragged", dragged.judge),
     Rule("goal", goal.judge),
     Rule("touch_line", touch_line.judge),
     Rule("goal_line", goal_line.judge),
@@ -29,13 +44,21 @@ RULES: tuple[Rule, ...] = (
 RUNNING = RULES
 """The rules that judge after START."""
 HALTED = tuple(rule for rule in RULES if not rule.while_running)
-"""The rules that judge at any time."""
+"""The rules that judge at any time: those on the clocks, which are all that judge where people officiate."""
+SHOOT_OUT: tuple[Rule, ...] = (Rule("shoot_out", shoot_out.judge),)
+"""The rules of the penalty shoot-out."""
 
 
-def first_decision(scene: Scene) -> tuple[Rule, Decision] | None:
+def first_decision(scene: Scene, *, clocks_alone: bool = False) -> tuple[Rule, Decision] | None:
     """The first rule that decides in this tick, with what it decides."""
-    for rule in RUNNING if scene.state.running else HALTED:
+    for rule in _rules(scene, clocks_alone):
         decision = rule.judge(scene)
         if decision is not None:
             return rule, decision
     return None
+
+
+def _rules(scene: Scene, clocks_alone: bool) -> tuple[Rule, ...]:
+    if clocks_alone or not scene.state.running:
+        return HALTED
+    return SHOOT_OUT if scene.state.stage is Stage.SHOOT_OUT else RUNNING

@@ -1,10 +1,17 @@
-"""Goal: the whole ball over the goal line, between the posts and under the bar; own goals count for the other side."""
+"""Goal: the whole ball over the goal line, between the posts and under the bar; own goals count for the other side.
 
-from schemas.game import EventKind
+After a restart a goal of the side that took it counts once a second robot of that side has touched the ball, after a
+drop ball once two robots have, in a penalty at once (rule book, set pieces). A ball that goes in before is a goal kick.
+What is measured is how many robots have touched the ball since START; the other side's having won the ball ends it.
+"""
+
+from schemas.game import Card, EventKind, Phase
 from schemas.side import Side
 from sim_host.referee.decision import Decision
 from sim_host.referee.flow import kick_off_after_goal
 from sim_host.referee.scene import Crossing, Line, Scene
+from sim_host.referee.set_piece import why_no_goal
+from sim_host.referee.spots import restart_at
 from sim_host.referee.wording import at, touched
 
 
@@ -17,6 +24,21 @@ def judge(scene: Scene) -> Decision | None:
     robot = scene.state.last_touch
     own = robot is not None and scene.match.roster.side_of(robot) is not scorers
     place = (crossing.x, crossing.y)
+    lack = why_no_goal(scene.state.set_piece, scene.match.book, scene.match.roster, scorers)
+    if lack is not None:
+        touched_by, asked = lack
+        return Decision(
+            kind=EventKind.NO_GOAL,
+            text=f"no goal: {touched_by} robots have touched the ball since the restart, {asked} are asked",
+            restart=restart_at(scene.match, scene.state, Phase.GOAL_KICK, scorers.opponent, place),
+            side=scorers,
+            robot=robot,
+            place=place,
+            measured=touched_by,
+            limit=asked,
+            unit="robots",
+            card=Card.YELLOW if scene.match.book.fouls.direct_goal == "yellow" else None,
+        )
     what = "own goal" if own else "goal"
     return Decision(
         kind=EventKind.GOAL,

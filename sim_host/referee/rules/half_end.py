@@ -2,14 +2,14 @@
 
 from schemas.game import EventKind
 from sim_host.referee.decision import Decision
-from sim_host.referee.restart import reached
 from sim_host.referee.scene import Scene
+from sim_host.referee.timing import reached
 
 
 def judge(scene: Scene) -> Decision | None:
     """The end of the half at once, or nothing."""
     state = scene.state
-    if not state.clock_runs or not reached(state.clock, state.half_limit):
+    if not state.timing.runs or not reached(state.clock, state.timing.limit):
         return None
     return Decision(
         kind=EventKind.HALF_TIME,

@@ -2,9 +2,9 @@
 
 from schemas.game import EventKind, Phase
 from sim_host.referee.decision import Decision
-from sim_host.referee.restart import reached
 from sim_host.referee.scene import Scene
 from sim_host.referee.spots import restart_at
+from sim_host.referee.timing import reached
 from sim_host.referee.wording import at
 
 

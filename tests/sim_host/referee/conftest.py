@@ -62,26 +62,35 @@ class Bench:
     def _turned(self, x: float, y: float) -> tuple[float, float]:
         return (-x, -y) if self.mirrored else (x, y)
 
-    def snapshot(self, touches: Sequence[str] = ()) -> Snapshot:
+    def snapshot(
+        self,
+        touches: Sequence[str] = (),
+        kicked: str | None = None,
+        possession: str | None = None,
+        silent: Sequence[str] = (),
+    ) -> Snapshot:
         robots = tuple(
             RobotState(*self._turned(*self.robots[self.robot(name)]), 0.4, 0.0, 0.0, 0.0, 0.0, False)
             for name in self.roster.names
         )
         ball = BallState(*self._turned(*self.ball[:2]), self.ball[2], *self.velocity)
         seen = tuple(self.robot(name) for name in touches)
-        return Snapshot(self.at, self.at * self.dt, self.roster, robots, ball, None, seen)
+        kicker, holder = (None if name is None else self.robot(name) for name in (kicked, possession))
+        gone = tuple(self.robot(name) for name in silent)
+        return Snapshot(self.at, self.at * self.dt, self.roster, robots, ball, holder, seen, kicked=kicker, silent=gone)
 
     def tick(
         self,
         ball: Sequence[float] | None = None,
         touches: Sequence[str] = (),
         actions: Sequence[RefereeAction] = (),
+        **seen: Any,
     ) -> Ruling:
-        """One tick with the ball at `ball` (x, y and perhaps z)."""
+        """One tick with the ball at `ball` (x, y and perhaps z); `seen` as `snapshot` takes it."""
         self.at += 1
         if ball is not None:
             self.ball = (ball[0], ball[1], ball[2] if len(ball) > 2 else self.radius)
-        ruling = self.referee.step(self.state, self.snapshot(touches), actions, self.dt)
+        ruling = self.referee.step(self.state, self.snapshot(touches, **seen), actions, self.dt)
         self.state = ruling.state
         self.events.extend(ruling.events)
         for placement in ruling.placements:
@@ -106,8 +115,10 @@ class Bench:
     def playing(self, ball: Sequence[float] = (1.0, 0.0), touches: Sequence[str] = ("cyan2",)) -> "Bench":
         """Bring the game into play, with the ball at `ball`, touched last by `touches`."""
         self.until(lambda state: state.running)
-        self.tick((1.0, 0.0), touches)
-        assert self.state.phase is Phase.PLAY
+        takers = [name for name in self.roster.names if self.roster.side_of(name) is self.state.side][1:3]
+        self.tick((1.0, 0.0), [self.robot(takers[0])] if touches else [])
+        self.tick((1.0, 0.0), [self.robot(name) for name in takers[::-1]] if touches else [])
+        assert self.state.phase is Phase.PLAY and (self.state.set_piece is None or not touches)
         self.tick(ball, touches)
         assert self.state.phase is Phase.PLAY
         return self

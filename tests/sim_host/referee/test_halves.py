@@ -25,14 +25,14 @@ def test_a_half_ends_at_once_when_its_time_is_up(new_bench, halted):
     bench.playing()
     if halted:
         bench.ask("stop")
-    bench.until(lambda state: state.phase is Phase.HALF_TIME)
+    bench.until(lambda state: state.phase is Phase.PARKING)
     assert bench.state.clock == pytest.approx(5.0)
     assert (bench.events[-1].kind, bench.events[-1].rule) == (EventKind.HALF_TIME, "half_end")
 
 
 def test_without_a_duration_a_half_lasts_as_the_rule_book_says(new_bench):
     bench = new_bench(rules="friendly")
-    assert bench.state.half_limit == load_rule_book("friendly").periods.half_duration
+    assert bench.state.timing.limit == load_rule_book("friendly").periods.half_duration
 
 
 def test_after_the_break_sides_are_changed_and_the_other_side_kicks_off(bench):
@@ -43,18 +43,21 @@ def test_after_the_break_sides_are_changed_and_the_other_side_kicks_off(bench):
     bench.robots["cyan2"] = (3.0, 3.0)
     bench.until(lambda state: state.phase is Phase.KICK_OFF)
     state = bench.state
-    assert bench.events[-1].time - ended == pytest.approx(bench.book.periods.half_time_break)
+    pause = bench.book.periods.parking + bench.book.periods.half_time_break
+    assert bench.events[-1].time - ended == pytest.approx(pause)
     assert (state.half, state.cyan_attacks, state.side, state.clock) == (2, -1, Side.MAGENTA, clock)
     for name, pose in bench.starts.items():
         assert bench.robots[name] == pytest.approx((-pose.x, -pose.y))
     bench.until(lambda state: state.running)
-    assert bench.events[-1].time - ended < bench.book.periods.half_time_break + bench.book.restarts.signal_to_start + 1
+    assert bench.events[-1].time - ended < pause + bench.book.restarts.signal_to_start + 1
 
 
 def test_carried_robots_face_the_direction_they_attack(bench):
     bench.playing()
     bench.ask("end_half")
-    placed = [p for ruling in bench.run(bench.book.periods.half_time_break + 0.1) for p in ruling.placements]
+    periods = bench.book.periods
+    rulings = bench.run(periods.parking + periods.half_time_break + 0.1)
+    placed = [placement for ruling in rulings for placement in ruling.placements]
     heading = next(p.heading for p in placed if p.body == "cyan1")
     assert heading == pytest.approx(bench.starts["cyan1"].team(-1).heading)
 
@@ -73,6 +76,7 @@ def test_a_match_ends_with_its_last_half_and_stays_so(new_bench):
     bench.until(lambda state: state.phase is Phase.FULL_TIME, 120.0)
     assert bench.state.clock == pytest.approx(4.0) and bench.state.half == 2
     assert bench.kinds().count(EventKind.FULL_TIME) == 1
+    assert bench.events[-1].time - bench.events[-2].time == pytest.approx(bench.book.periods.parking)
     ended = len(bench.events)
     bench.run(5.0)
     assert bench.state.phase is Phase.FULL_TIME and len(bench.events) == ended

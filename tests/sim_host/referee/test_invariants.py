@@ -56,9 +56,9 @@ def sound_step(bench, ball, touches, asked):
     goals = [event for event in ruling.events if event.kind is EventKind.GOAL]
     assert after.score.cyan - before.score.cyan == sum(goal.side is Side.CYAN for goal in goals)
     assert after.score.magenta - before.score.magenta == sum(goal.side is Side.MAGENTA for goal in goals)
-    assert before.clock <= after.clock <= after.half_limit
+    assert before.clock <= after.clock <= after.timing.limit
     assert len(ruling.replies) == len(asked)
-    assert after.running <= after.clock_runs
+    assert after.running <= after.timing.runs
     assert (after.spot is not None) == (after.phase in RESTARTS)
     for placement in ruling.placements:
         assert abs(placement.x) <= bench.pitch.goal_line and abs(placement.y) <= bench.pitch.touch_line

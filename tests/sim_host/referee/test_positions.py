@@ -4,8 +4,8 @@ import pytest
 
 from schemas.game import Phase
 from schemas.side import Side
+from sim_host.referee.call import Restart
 from sim_host.referee.positions import standing_wrong
-from sim_host.referee.state import Restart
 
 EDGE = 0.01
 
@@ -14,7 +14,8 @@ def judged(bench, phase, spot, robots, taker=Side.CYAN):
     bench.robots.update(robots)
     side = None if phase is Phase.DROP_BALL else taker
     match = bench.referee._match
-    return standing_wrong(match, bench.state, Restart(phase, side, spot), bench.snapshot())
+    faults = standing_wrong(match, bench.state, Restart(phase, side, spot), bench.snapshot())
+    return faults[0].text if faults else None
 
 
 def test_robots_far_away_stand_legally_at_every_restart(bench):

@@ -37,7 +37,8 @@ def test_a_throw_in_runs_through_stop_signal_start_and_in_play_in_their_times(be
     bench.until(lambda state: state.running)
     assert moment(bench, START) - moment(bench, RESTART) == pytest.approx(numbers.signal_to_start)
     assert bench.state.phase is Phase.THROW_IN
-    bench.tick((1.0, spot[1] - numbers.in_play_distance + 0.01), ["magenta2"])
+    bench.tick(spot, ["magenta2"], kicked="magenta2")
+    bench.tick((1.0, spot[1] - numbers.in_play_distance + 0.01))
     assert bench.state.phase is Phase.THROW_IN
     bench.tick((1.0, spot[1] - numbers.in_play_distance - 0.01))
     assert bench.state.phase is Phase.PLAY and bench.state.side is None and bench.state.spot is None
@@ -116,5 +117,6 @@ def test_a_ball_that_leaves_before_it_is_in_play_is_out(bench):
     bench.playing()
     bench.ask("throw_in", Side.CYAN, (0.0, 5.0))
     bench.until(lambda state: state.running)
-    ruling = bench.tick((0.0, bench.pitch.touch_line + bench.radius + 0.01), ["cyan2"])
+    bench.tick(bench.state.spot, ["cyan2"], kicked="cyan2")
+    ruling = bench.tick((0.0, bench.pitch.touch_line + bench.radius + 0.01))
     assert ruling.events[0].rule == "touch_line" and ruling.state.pending.side is Side.MAGENTA
