@@ -6,8 +6,8 @@ from schemas.game import RESTARTS, EventKind, Mode, Phase, Stage
 from sim_host.referee import flow, restart
 from sim_host.referee.bench import bench_pose, entry_pose
 from sim_host.referee.call import Restart
-from sim_host.referee.evidence import NOTHING
 from sim_host.referee.decision import Decision, Proposal
+from sim_host.referee.evidence import NOTHING
 from sim_host.referee.rules import Rule
 from sim_host.referee.spots import restart_at
 from sim_host.referee.state import RefereeState

@@ -43,7 +43,7 @@ def test_at_the_start_all_stand_legally_for_a_kick_off_of_either_side(profile, r
     """Rule book 10.4: the side that does not kick off 3 m away, to the whole robot, its own side 2 m."""
     referee, snapshot = a_match(profile, rules)
     state = referee.begin()
-    assert standing_wrong(referee._match, state, Restart(Phase.KICK_OFF, taker, (0.0, 0.0)), snapshot) is None
+    assert standing_wrong(referee._match, state, Restart(Phase.KICK_OFF, taker, (0.0, 0.0)), snapshot) == ()
 
 
 def test_a_robot_with_a_wide_frame_starts_as_far_away_as_its_frame_asks_for():
