@@ -38,7 +38,8 @@ def test_the_json_holds_everything_a_program_asks_for() -> None:
     content = json.loads(result().json())
     assert content.pop("events")[0] == {
         **{"tick": 500, "time": 10.0, "clock": 9.5, "kind": "goal", "rule": "goal", "side": "cyan"},
-        **{"robot": "cyan3", "place": None, "score": None, "text": "goal by cyan3"},
+        **{"robot": "cyan3", "robots": [], "place": None, "score": None, "text": "goal by cyan3"},
+        **{"measured": None, "limit": None, "unit": "", "card": None},
     }
     assert content == {
         "score": {"cyan": 2, "magenta": 1},

@@ -49,7 +49,7 @@ def test_a_truncated_file_is_readable_up_to_the_cut(make_stage, share):
     stage = make_stage()
     stage.begin()
     clock = stage.recorder_bus.clock
-    for tick in range(400):
+    for tick in range(600):
         stage.host.play(tick)
         clock.sleep_until(clock.now() + 0.02)
         stage.recorder.pump()

@@ -50,7 +50,7 @@ def test_a_robot_with_a_wide_frame_starts_as_far_away_as_its_frame_asks_for():
     wide = {f"cyan{number}": "keeper" for number in range(1, 6)}
     referee, snapshot = a_match("msl", "msl", **{"teams.cyan.types": wide})
     kick_off = Restart(Phase.KICK_OFF, Side.MAGENTA, (0.0, 0.0))
-    assert standing_wrong(referee._match, referee.begin(), kick_off, snapshot) is None
+    assert standing_wrong(referee._match, referee.begin(), kick_off, snapshot) == ()
     nearest = min(math.hypot(robot.x, robot.y) for robot in snapshot.robots[:5])
     assert nearest > 3.0 + math.hypot(0.245, 0.30)
 
