@@ -254,9 +254,22 @@ class Engine:
         for place, (body, height) in enumerate(zip(self.robots, self._heights, strict=True)):
             position, (qx, qy, qz, qw), velocity, spin = self._states[place]
             if abs(qx) > _UPRIGHT or abs(qy) > _UPRIGHT or abs(position[2] - height) > _UPRIGHT:
-                at, moving = (position[0], position[1], height), (velocity[0], velocity[1], 0.0)
+                at, moving = self._stands_at(place), (velocity[0], velocity[1], 0.0)
                 self._put(body, BodyState(at, _upright(2.0 * math.atan2(qz, qw)), moving, (0.0, 0.0, spin[2])))
                 self._states[place] = self._state(body)
+
+    def _stands_at(self, place: int) -> Vector:
+        """The centre of a tipped robot once it is upright: where it is, or over its foot if it can be the ball's doing.
+
+        A pressed ball is light and touches a hull at its foot, so the solver tips the robot rather than stops it. Put
+        upright about its centre, the robot would come down into the ball.
+        """
+        (x, y, _), (qx, qy, qz, qw), *_ = self._states[place]
+        (ball_x, ball_y, _), radius = self._states[-1].position, self._profile.ball.radius
+        if math.hypot(ball_x - x, ball_y - y) < self._models[place].body.reach + 2.0 * radius:
+            below = self._heights[place] - radius
+            x, y = x - below * 2.0 * (qx * qz + qw * qy), y - below * 2.0 * (qy * qz - qw * qx)
+        return x, y, self._heights[place]
 
     def robot_states(self, holding: int | None) -> tuple[RobotState, ...]:
         """All robots, as they were read."""
