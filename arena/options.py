@@ -31,6 +31,9 @@ Profile = Annotated[
     str | None, typer.Option(help="Field, bodies and limits: msl, omni, omni3, paper, or the path of a file.")
 ]
 Rules = Annotated[str | None, typer.Option(help="Rule book: friendly, msl or paper.")]
+Referee = Annotated[
+    str | None, typer.Option(help="Who decides: automatic, manual, or mixed: it proposes, people may overrule it.")
+]
 MatchName = Annotated[str | None, typer.Option("--match", "--name", help="Name of the match on the bus.")]
 Listen = Annotated[str, typer.Option(help="Endpoint of the host; port 0 picks a free one.")]
 Insecure = Annotated[bool, typer.Option("--insecure", help="Let other machines in, without any password.")]

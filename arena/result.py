@@ -1,7 +1,8 @@
 """What a match came to: as one JSON object for programs, as score and table for people."""
 
 import json
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from rich.console import Group, RenderableType
@@ -10,11 +11,18 @@ from rich.text import Text
 
 from coach_gateway.lines import clock_words
 from coach_gateway.view import MatchView
-from schemas.game import EventKind, GameEvent, Score
+from schemas.game import EventKind, GameEvent, Score, Standing
 
 NOTABLE = frozenset(
     {
         EventKind.GOAL,
+        EventKind.NO_GOAL,
+        EventKind.SHOT,
+        EventKind.CARD,
+        EventKind.OFF_FIELD,
+        EventKind.ON_FIELD,
+        EventKind.PROPOSAL,
+        EventKind.FORFEIT,
         EventKind.HALF_TIME,
         EventKind.FULL_TIME,
         EventKind.ACTION,
@@ -43,6 +51,12 @@ class MatchResult:
     recording: Path | None
     losses: dict[str, int]
     """Key → messages that the recorder missed; empty when it missed none."""
+    effective_s: float = 0.0
+    """Simulated time in s that the ball was in play."""
+    robots: Mapping[str, Standing] = field(default_factory=dict)
+    """Robots that ended with a card or off the field."""
+    shoot_out: Score | None = None
+    """Goals of the penalty shoot-out, if there was one."""
 
     @classmethod
     def of(cls, view: MatchView, recording: Path | None, losses: dict[str, int]) -> "MatchResult":
@@ -56,13 +70,26 @@ class MatchResult:
             wall_s=view.wall_s,
             recording=recording,
             losses=losses,
+            effective_s=view.state.effective if view.state is not None else 0.0,
+            robots=view.state.robots if view.state is not None else {},
+            shoot_out=view.state.shoot_out if view.state is not None else None,
         )
+
+    @property
+    def halves(self) -> list[Score]:
+        """The score at the end of each half."""
+        ends = [event for event in self.events if event.kind in (EventKind.HALF_TIME, EventKind.FULL_TIME)]
+        return [event.score for event in ends if event.score is not None]
 
     def json(self) -> str:
         """One JSON object."""
         content = {
             "score": self.score.model_dump(),
+            "halves": [score.model_dump() for score in self.halves],
+            "shoot_out": self.shoot_out.model_dump() if self.shoot_out is not None else None,
+            "cards": {name: {"yellow": one.yellow, "red": one.red} for name, one in self.robots.items()},
             "duration_s": round(self.duration_s, 6),
+            "effective_s": round(self.effective_s, 6),
             "ticks": self.ticks,
             "events": [event.model_dump(mode="json", exclude={"version"}) for event in self.events],
             "real_time_factor": round(self.real_time_factor, 3),
@@ -78,12 +105,22 @@ class MatchResult:
         headline.append(
             f"   {self.duration_s:.1f} s played in {self.wall_s:.1f} s (×{self.real_time_factor:.1f})", style="not bold"
         )
-        parts: list[RenderableType] = [headline, self._table()]
+        parts: list[RenderableType] = [headline, Text(self._summary()), self._table()]
         if self.recording is not None:
             parts.append(Text(f"recording  {self.recording}", no_wrap=True, overflow="ignore"))
         if self.losses:
             parts.append(Text(f"recording misses {sum(self.losses.values())} messages: {self.losses}", style="yellow"))
         return Group(*parts)
+
+    def _summary(self) -> str:
+        """Score by halves, penalties, ball in play, and who ended with which card."""
+        words = ["halves " + ", ".join(f"{score.cyan}:{score.magenta}" for score in self.halves)]
+        if self.shoot_out is not None:
+            words.append(f"penalties {self.shoot_out.cyan}:{self.shoot_out.magenta}")
+        words.append(f"ball in play {self.effective_s:.1f} s")
+        for name, one in self.robots.items():
+            words += [f"{name} {count} {card}" for card, count in (("yellow", one.yellow), ("red", one.red)) if count]
+        return "; ".join(words)
 
     def _table(self) -> Table:
         table = Table("clock", "event", "robot", "what", box=None, pad_edge=False)

@@ -1,6 +1,6 @@
 """The match in plain words: one line for a state, one for an event."""
 
-from schemas.game import SIDED, GameEvent, GameState
+from schemas.game import SIDED, GameEvent, GameState, Stage
 
 
 def clock_words(seconds: float) -> str:
@@ -25,9 +25,35 @@ def phase_words(state: GameState) -> str:
     return ", ".join(words)
 
 
+def half_words(state: GameState) -> str:
+    """`half 1`, `extra time, half 3`, or `penalties 4 : 3` with cyan's goals first."""
+    if state.stage is Stage.SHOOT_OUT and state.shoot_out is not None:
+        return f"penalties {state.shoot_out.cyan} : {state.shoot_out.magenta}"
+    return f"extra time, half {state.half}" if state.stage is Stage.EXTRA_TIME else f"half {state.half}"
+
+
+def people_words(state: GameState) -> list[str]:
+    """One phrase for each robot with a card or off the field: `cyan3 2 yellow, off: repair 12 s`."""
+    phrases = []
+    for name, standing in state.robots.items():
+        words = [f"{number} {card}" for card, number in (("yellow", standing.yellow), ("red", standing.red)) if number]
+        if standing.off_field is not None:
+            left = "" if standing.left is None else f" {standing.left:.0f} s"
+            words.append(f"off: {standing.off_field.value.replace('_', ' ')}{left}")
+        if words:
+            phrases.append(f"{name} {', '.join(words)}")
+    return phrases
+
+
 def state_line(state: GameState) -> str:
-    """Clock, score and phase."""
-    return f"{clock_words(state.clock):>7}  {score_words(state)}  {phase_words(state)}"
+    """Clock, half, score and phase, who has cards or is off the field, and what is proposed."""
+    parts = [f"{clock_words(state.clock):>7}", half_words(state), score_words(state), phase_words(state)]
+    people = people_words(state)
+    if people:
+        parts.append(f"[{'; '.join(people)}]")
+    if state.proposal is not None:
+        parts.append(f"proposed: {state.proposal}")
+    return "  ".join(parts)
 
 
 def event_line(event: GameEvent) -> str:

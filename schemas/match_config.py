@@ -9,6 +9,7 @@ from typing import Annotated, Any, get_args, get_origin
 from pydantic import Field, ValidationError, field_validator, model_validator
 
 from schemas.errors import TouchlineError, did_you_mean
+from schemas.game import Mode
 from schemas.message import Name, Part
 from schemas.noise import PRESETS
 from schemas.obstacle import Shape, StaticObstacle
@@ -35,6 +36,7 @@ REMEDIES = {
     "obstacles.shape": f"one of {', '.join(Shape)}",
     "obstacles.place": "x and y of the centre in m",
     "obstacles.size": "x, y and z of a box in m",
+    "referee.mode": f"one of {', '.join(Mode)}",
     "noise.preset": f"one of {', '.join(PRESETS)}",
 }
 """What to do about a wrong value, by key; a message of the validator's stands where there is none."""
@@ -105,6 +107,12 @@ class Officiating(Part):
     """Who kicks off the first half."""
     automatic: bool = True
     """The match starts by itself when all robots are there; otherwise it waits for `touchline coach start`."""
+    mode: Mode = Mode.AUTOMATIC
+    """The referee decides, or people alone, or it proposes and people may overrule it."""
+    proposal: Annotated[float, Field(ge=0, le=60)] = 3.0
+    """Mixed officiating: s of simulated time after which what was proposed is decided."""
+    winner: bool | None = None
+    """A level match goes on with extra time and penalties; by default as the rule book says."""
 
 
 class Recording(Part):

@@ -1,5 +1,6 @@
 """The truth of one tick, in the field frame."""
 
+from schemas.game import OffField
 from schemas.message import Message, Name, Part
 from schemas.obstacle import Shape
 from schemas.side import Side
@@ -19,7 +20,7 @@ class RobotTruth(Part):
     """It has the ball in hand."""
     stuck: bool = False
     """For long it has moved much slower than it was told."""
-    off_field: str | None = None
+    off_field: OffField | None = None
     """Why the robot does not take part, or nothing."""
 
 

@@ -80,7 +80,8 @@ class Host:
         self._attend()
         self._stamp(self.simulation.now.tick + 1)
         commands = self._hands.lay_over(self.simulation.now.tick, self._roster.names, commands)
-        tick = self.simulation.step(commands, self._desk.actions, self._send_sight)
+        silent = {name for name, is_silent in self._silent.items() if is_silent and name not in commands}
+        tick = self.simulation.step(commands, self._desk.actions, self._send_sight, silent)
         self._outbox.truth(tick, self.simulation.state)
         self._desk.reply(tick.replies)
         self._keep_account(tick)

@@ -73,6 +73,9 @@ class Outbox:
             state.score,
             state.cyan_attacks,
             state.spot,
+            state.people.news,
+            state.shoot_out,
+            state.proposal is None,
             episode,
         )
         if news != self._said or tick.tick % self._state_every == 0:

@@ -3,7 +3,7 @@
 The host steps it for agents on the bus, tests and learning step it with brains in the same process.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -23,6 +23,7 @@ from sim_host.due import Due
 from sim_host.radio import RadioAir
 from sim_host.referee.core import Referee, Ruling
 from sim_host.referee.evidence import NOTHING
+from sim_host.referee.state import RefereeState
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.streams import Streams
 from sim_host.sights import Send, Sights
@@ -115,15 +116,22 @@ class Simulation:
         """Free the engine."""
         self.world.close()
 
-    def step(self, commands: Mapping[str, Command], actions: Sequence[RefereeAction] = (), send: Send = _keep) -> Tick:
+    def step(
+        self,
+        commands: Mapping[str, Command],
+        actions: Sequence[RefereeAction] = (),
+        send: Send = _keep,
+        silent: Container[str] = (),
+    ) -> Tick:
         """One tick: apply commands, move the world, let the referee decide, let everyone perceive.
 
         `send` is given each robot's sight as soon as it is written: robots think while the rest is still done.
+        `silent` are robots whose program is gone, which the referee may take out.
         """
         done = self._change_world()
         if done.begins_anew:
             commands = {}
-        inputs = self._commands.inputs(self.world.tick, commands)
+        inputs = self._commands.inputs(self.world.tick, commands, self.state.people.away)
         advance = self.world.advance(inputs)
         snapshot = advance.snapshot
         refusals = {name: [reason] for name, reason in advance.refused.items()}
@@ -131,6 +139,9 @@ class Simulation:
             if name in commands:
                 refusals.setdefault(name, []).append("command: this robot stands still in the scene")
         beliefs = self._talk(snapshot, commands, refusals)
+        if silent:
+            gone = tuple([name for name in self.roster.names if name in silent and name not in self.roster.still])
+            snapshot = replace(snapshot, silent=gone)
         ruling = self.referee.step(self.state, snapshot, actions, self.profile.time.tick)
         self._follow(ruling)
         sights = self._sights.at(
@@ -139,7 +150,7 @@ class Simulation:
         self.now = Tick(
             tick=snapshot.tick,
             time=snapshot.time,
-            world=_world_fields(snapshot, advance.stuck, self.state.clock, self.episode),
+            world=_world_fields(snapshot, advance.stuck, self.state, self.episode),
             sights=sights,
             applied=self._applied(snapshot, inputs, done),
             beliefs=beliefs,
@@ -207,7 +218,7 @@ class Simulation:
         return Tick(
             tick=snapshot.tick,
             time=snapshot.time,
-            world=_world_fields(snapshot, stuck, self.state.clock, self.episode),
+            world=_world_fields(snapshot, stuck, self.state, self.episode),
             sights=self._sights.at(snapshot, self.state, self.episode, stuck, self.orders, {}, {}, _keep),
             applied=self._applied(snapshot, {}, done),
         )
@@ -259,7 +270,8 @@ class Simulation:
             self.episode += 1
             self.state = self.referee.begin_at(staged.game, staged.ball)
         elif staged.placements or self._stage.robots != before.robots:
-            self.state = replace(self.state, evidence=NOTHING)  # nobody ran or dribbled there
+            people = self.state.people.among(self.roster.names)
+            self.state = replace(self.state, people=people, evidence=NOTHING)  # nobody ran or dribbled there
         if anew:
             self._radio, self._perception = self._new_radio(), self._new_perception()
         elif self._stage.robots != before.robots:
@@ -297,6 +309,9 @@ class Simulation:
             kick_off=config.referee.kick_off,
             automatic=config.referee.automatic,
             starts=start_poses(self.roster, p.field, self.book.restarts),
+            mode=config.referee.mode,
+            proposal=config.referee.proposal,
+            winner=config.referee.winner,
         )
 
     def _told(self, done: Due, snapshot: Snapshot) -> Iterator[GameEvent]:
@@ -348,8 +363,8 @@ def _obstacle_fields(obstacle: ObstacleState) -> Fields:
     return fields
 
 
-def _world_fields(snapshot: Snapshot, stuck: list[bool], clock: float, episode: int) -> Fields:
-    ball = snapshot.ball
+def _world_fields(snapshot: Snapshot, stuck: list[bool], state: RefereeState, episode: int) -> Fields:
+    ball, away = snapshot.ball, state.people.away
     fields = {
         "tick": snapshot.tick,
         "time": snapshot.time,
@@ -364,13 +379,13 @@ def _world_fields(snapshot: Snapshot, stuck: list[bool], clock: float, episode: 
                 "omega": robot.omega,
                 "holding": robot.holding,
                 "stuck": is_stuck,
-                "off_field": None,
+                "off_field": away[name].why if name in away else None,
             }
             for name, robot, is_stuck in zip(snapshot.roster.names, snapshot.robots, stuck, strict=True)
         },
         "ball": ball._asdict(),
         "possession": snapshot.possession,
-        "clock": clock,
+        "clock": state.clock,
         "episode": episode,
     }
     if snapshot.touches:

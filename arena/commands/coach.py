@@ -22,6 +22,9 @@ UNSIDED: dict[str, tuple[ActionName, str]] = {
     "start": (ActionName.START, "Give START: begin the match, or let a restart be taken."),
     "stop": (ActionName.STOP, "Stop play."),
     "drop-ball": (ActionName.DROP_BALL, "Stop play and drop the ball."),
+    "confirm": (ActionName.CONFIRM, "Decide at once what the referee proposes."),
+    "overrule": (ActionName.OVERRULE, "Let what the referee proposes not be decided."),
+    "undo": (ActionName.UNDO, "Take the last decision back; score and cards are as before, the clock goes on."),
     "end-half": (ActionName.END_HALF, "End this half."),
     "end-game": (ActionName.END_GAME, "End the match."),
 }
@@ -38,6 +41,17 @@ SIDED: dict[str, tuple[ActionName, str]] = {
 }
 """Command that names a side → the same."""
 
+FOR_ROBOT: dict[str, tuple[ActionName, str]] = {
+    "yellow-card": (ActionName.YELLOW_CARD, "Show a robot the yellow card."),
+    "red-card": (ActionName.RED_CARD, "Show a robot the red card: it leaves the field."),
+    "repair": (ActionName.REPAIR, "Take a robot out for repair; it comes back at a stoppage."),
+    "substitute": (ActionName.SUBSTITUTE, "Replace a robot, in a stoppage."),
+    "park": (ActionName.PARK, "Take a robot off the field until it is told to enter."),
+    "enter": (ActionName.ENTER, "Have a robot come back that is off the field."),
+}
+"""Command that names a robot → the same."""
+
+ForRobot = Annotated[str, typer.Argument(metavar="ROBOT", help="The robot's name.")]
 ForSide = Annotated[Side, typer.Argument(help="cyan or magenta")]
 PointOption = Annotated[tuple[float, float] | None, typer.Option(metavar="X Y", help="m, team frame.")]
 RobotOption = Annotated[str | None, typer.Option(metavar="ROBOT", help="A robot of that side.")]
@@ -62,10 +76,24 @@ def _sided(action: ActionName) -> Callable[..., None]:
     return command
 
 
+def _for_robot(action: ActionName) -> Callable[..., None]:
+    def command(
+        robot: ForRobot,
+        connect: options.Connect = options.DEFAULT_ENDPOINT,
+        match: options.Match = options.DEFAULT_MATCH,
+    ) -> None:
+        _act(connect, match, _checked(RefereeAction, action=action, robot=robot))
+
+    return command
+
+
 for _name, (_action, _help) in UNSIDED.items():
     app.command(_name, help=f"{_help}\n\nExample: touchline coach {_name}")(_unsided(_action))
 for _name, (_action, _help) in SIDED.items():
     app.command(_name, help=f"{_help}\n\nExample: touchline coach {_name} cyan")(_sided(_action))
+
+for _name, (_action, _help) in FOR_ROBOT.items():
+    app.command(_name, help=f"{_help}\n\nExample: touchline coach {_name} cyan3")(_for_robot(_action))
 
 
 @app.command("place-ball", context_settings={"ignore_unknown_options": True})

@@ -16,6 +16,7 @@ def host(
     scene: options.Scene = None,
     profile: options.Profile = None,
     rules: options.Rules = None,
+    referee: options.Referee = None,
     name: options.MatchName = None,
     listen: options.Listen = options.DEFAULT_ENDPOINT,
     insecure: options.Insecure = False,
@@ -27,7 +28,15 @@ def host(
     Example: touchline host cup.toml --pace realtime --listen tcp/192.168.1.5:7447 --insecure
     """
     config = options.read_match(
-        file, seed=seed, pace=pace, duration=duration, scene=scene, profile=profile, rules=rules, name=name
+        file,
+        seed=seed,
+        pace=pace,
+        duration=duration,
+        scene=scene,
+        profile=profile,
+        rules=rules,
+        name=name,
+        referee__mode=referee,
     )
     endpoint = options.listening(listen, insecure=insecure)
     typer.echo(f'match "{config.name}" on {endpoint}', err=True)

@@ -1,6 +1,6 @@
 """From commands to inputs: the newest command of each robot counts, until it is too old."""
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 
 from schemas.command import Command, Drive
 from schemas.host import AppliedInput
@@ -27,10 +27,15 @@ class Commands:
         heir._standing = {name: command for name, command in self._standing.items() if name in names}
         return heir
 
-    def inputs(self, tick: int, fresh: Mapping[str, Command]) -> dict[str, AppliedInput]:
-        """The inputs of this tick; a kick is part of the tick its command arrives in, and of no other."""
+    def inputs(
+        self, tick: int, fresh: Mapping[str, Command], off_field: Container[str] = ()
+    ) -> dict[str, AppliedInput]:
+        """The inputs of this tick; a kick is part of the tick its command arrives in, and of no other.
+
+        Robots off the field rest, whatever they are told.
+        """
         self._standing.update(fresh)
-        return {name: self._input(name, tick, name in fresh) for name in self._names}
+        return {name: _REST if name in off_field else self._input(name, tick, name in fresh) for name in self._names}
 
     def _input(self, name: str, tick: int, is_fresh: bool) -> AppliedInput:
         command = self._standing.get(name)

@@ -54,6 +54,18 @@ class People:
         lost = {name: self.silent.get(name, 0.0) + dt for name in silent}
         return dataclasses.replace(self, away=away, silent=lost)
 
+    @property
+    def news(self) -> tuple[object, ...]:
+        """What changes only when somebody is shown a card, leaves or comes back."""
+        return (*self.records.items(), *((name, away.why) for name, away in self.away.items()))
+
+    def among(self, names: Collection[str]) -> "People":
+        """The same for those of these names: who left the match with its scene is forgotten."""
+        records = {name: record for name, record in self.records.items() if name in names}
+        away = {name: one for name, one in self.away.items() if name in names}
+        silent = {name: time for name, time in self.silent.items() if name in names}
+        return dataclasses.replace(self, records=records, away=away, silent=silent)
+
     def standings(self, names: Collection[str]) -> dict[str, Standing]:
         """Those of these robots that have a card or are off the field, as they are published."""
         if not (self.records or self.away):

@@ -88,12 +88,24 @@ def test_a_refused_action_fails_with_the_referees_reason(host: Host) -> None:
     assert (host.asked[0].place.x, host.asked[0].place.y) == (-3.5, 2.0)
 
 
-@pytest.mark.parametrize("word", [*coach.UNSIDED, *coach.SIDED])
+@pytest.mark.parametrize("word", [*coach.UNSIDED, *coach.SIDED, *coach.FOR_ROBOT])
 def test_every_word_of_the_referee_box_asks_for_its_own_action(host: Host, word: str) -> None:
-    action, _ = {**coach.UNSIDED, **coach.SIDED}[word]
-    touchline(word, *(["cyan"] if word in coach.SIDED else []))
+    action, _ = {**coach.UNSIDED, **coach.SIDED, **coach.FOR_ROBOT}[word]
+    touchline(word, *(["cyan"] if word in coach.SIDED else ["cyan1"] if word in coach.FOR_ROBOT else []))
     assert [asked.action for asked in host.asked] == [action]
     assert word.replace("-", "") == action.value.replace("_", "")
+    assert host.asked[0].robot == ("cyan1" if word in coach.FOR_ROBOT else None)
+
+
+def test_every_action_has_its_word() -> None:
+    words = {action for action, _ in {**coach.UNSIDED, **coach.SIDED, **coach.FOR_ROBOT}.values()}
+    assert words | {ActionName.PLACE_BALL} == set(ActionName)
+
+
+def test_a_name_that_no_robot_can_have_is_wrong_input(host: Host) -> None:
+    result = touchline("repair", "Cyan 1")
+    assert result.exit_code == 2 and "Cyan 1" in result.stderr
+    assert host.asked == []
 
 
 def test_an_action_in_a_match_that_nobody_plays_is_wrong_input(host: Host) -> None:
@@ -104,7 +116,7 @@ def test_an_action_in_a_match_that_nobody_plays_is_wrong_input(host: Host) -> No
 
 def test_the_state_is_shown_once_in_words_and_as_json(host: Host) -> None:
     host.says = [GameState(tick=5, time=61.0, clock=61.0, phase=Phase.PLAY, score=Score(cyan=2))]
-    assert touchline("state").stdout == " 1:01.0  cyan 2 : 0 magenta  play\n"
+    assert touchline("state").stdout == " 1:01.0  half 1  cyan 2 : 0 magenta  play\n"
     shown = json.loads(touchline("state", "--json").stdout)
     assert (shown["phase"], shown["score"]) == ("play", {"cyan": 2, "magenta": 0})
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from rich.console import Console
 
 from arena.result import MatchResult
-from schemas.game import EventKind, GameEvent, Score
+from schemas.game import EventKind, GameEvent, Score, Standing
 from schemas.side import Side
 
 
@@ -20,11 +20,17 @@ def result(recording: Path | None = Path("runs/a/match.mcap"), losses: dict[str,
         score=Score(cyan=2, magenta=1),
         duration_s=120.0,
         ticks=6000,
-        events=(event(EventKind.GOAL, "goal by cyan3"), event(EventKind.STOP, "STOP; kick-off follows")),
+        events=(
+            event(EventKind.GOAL, "goal by cyan3"),
+            event(EventKind.STOP, "STOP; kick-off follows"),
+            event(EventKind.FULL_TIME, "half 2 ends").model_copy(update={"score": Score(cyan=2, magenta=1)}),
+        ),
         real_time_factor=6.0,
         wall_s=20.0,
         recording=recording,
         losses=losses or {},
+        effective_s=80.0,
+        robots={"cyan3": Standing(yellow=1)},
     )
 
 
@@ -43,7 +49,11 @@ def test_the_json_holds_everything_a_program_asks_for() -> None:
     }
     assert content == {
         "score": {"cyan": 2, "magenta": 1},
+        "halves": [{"cyan": 2, "magenta": 1}],
+        "shoot_out": None,
+        "cards": {"cyan3": {"yellow": 1, "red": 0}},
         "duration_s": 120.0,
+        "effective_s": 80.0,
         "ticks": 6000,
         "real_time_factor": 6.0,
         "wall_s": 20.0,
@@ -59,6 +69,7 @@ def test_a_match_without_recording_says_null() -> None:
 def test_the_picture_shows_score_goals_and_recording_and_leaves_stops_out() -> None:
     shown = picture(result())
     assert "cyan 2 : 1 magenta" in shown
+    assert "halves 2:1; ball in play 80.0 s; cyan3 1 yellow" in shown
     assert "goal by cyan3" in shown
     assert "kick-off follows" not in shown
     assert "recording  runs/a/match.mcap" in shown

@@ -4,7 +4,7 @@ from arena.status import robots_words, status_line
 from coach_gateway.view import MatchView
 from schemas.bus.in_process import Medium
 from schemas.clock import SteppedClock
-from schemas.game import GameState, Phase, Score
+from schemas.game import GameState, OffField, Phase, Score, Stage, Standing
 from schemas.host import Health, RobotHealth
 from schemas.side import Side
 
@@ -34,7 +34,36 @@ def test_while_it_is_played_clock_score_phase_speed_and_robots_stand_in_one_line
         tick=9, time=61.0, clock=61.0, phase=Phase.CORNER, side=Side.CYAN, score=Score(cyan=1, magenta=2)
     )
     playing.health = health(9)
-    assert status_line(playing, 1) == " 1:01.0  cyan 1 : 2 magenta  corner, cyan  ×6.2  robots 1/1"
+    assert status_line(playing, 1) == " 1:01.0  half 1  cyan 1 : 2 magenta  corner, cyan  ×6.2  robots 1/1"
+
+
+def test_cards_and_robots_off_the_field_stand_in_the_line() -> None:
+    playing = view()
+    playing.state = GameState(
+        tick=9,
+        time=61.0,
+        clock=61.0,
+        phase=Phase.PLAY,
+        half=3,
+        stage=Stage.EXTRA_TIME,
+        robots={
+            "cyan3": Standing(yellow=1),
+            "magenta2": Standing(red=1, off_field=OffField.RED_CARD),
+            "magenta4": Standing(off_field=OffField.REPAIR, left=12.4),
+        },
+    )
+    assert status_line(playing, 1) == (
+        " 1:01.0  extra time, half 3  cyan 0 : 0 magenta  play  "
+        "[cyan3 1 yellow; magenta2 1 red, off: red card; magenta4 off: repair 12 s]"
+    )
+
+
+def test_a_shoot_out_shows_its_own_score() -> None:
+    playing = view()
+    playing.state = GameState(
+        tick=9, time=9.0, phase=Phase.PENALTY, side=Side.CYAN, stage=Stage.SHOOT_OUT, shoot_out=Score(cyan=4, magenta=3)
+    )
+    assert "penalties 4 : 3" in status_line(playing, 1)
 
 
 def test_a_robot_that_is_alive_and_does_not_answer_is_named_silent() -> None:

@@ -56,9 +56,9 @@ def state(clock: float, phase: Phase = Phase.PLAY, side: Side | None = None, run
 def test_a_line_is_said_when_something_changes_and_not_when_only_the_clock_runs() -> None:
     said = lines_of(state(0.0), state(1.0), state(61.25, Phase.THROW_IN, Side.MAGENTA), state(62.0))
     assert said == [
-        " 0:00.0  cyan 2 : 0 magenta  play",
-        " 1:01.2  cyan 2 : 0 magenta  throw in, magenta",
-        " 1:02.0  cyan 2 : 0 magenta  play",
+        " 0:00.0  half 1  cyan 2 : 0 magenta  play",
+        " 1:01.2  half 1  cyan 2 : 0 magenta  throw in, magenta",
+        " 1:02.0  half 1  cyan 2 : 0 magenta  play",
     ]
 
 
