@@ -1,0 +1,31 @@
+"""Backward dribble: a robot may drive backward with the ball for a short way, and a long way only once.
+
+A movement longer than `backward_once` is not repeated until the ball was visibly released or a new struggle with an
+opponent has lasted. The other side gets a free kick.
+
+Section: play, backward dribble.
+Measures: the way against the kick axis, summed from the robot's velocity while it has the ball; half a second without
+moving backward ends a movement.
+Not judged: driving sideways, and turning with the ball.
+"""
+
+from sim_host.referee.decision import Decision
+from sim_host.referee.rules.foul import foul, is_called
+from sim_host.referee.scene import Scene
+
+
+def judge(scene: Scene) -> Decision | None:
+    """A free kick for the other side where the ball is, or nothing."""
+    dribble = scene.state.evidence.dribble
+    if dribble is None or not dribble.backward:
+        return None
+    handling, way = scene.match.book.handling, dribble.backward
+    limit = handling.backward_again if dribble.spent else handling.backward_distance
+    if way <= limit or not is_called(scene, "backward"):
+        return None
+    again = " again without having released the ball" if dribble.spent else ""
+    text = f"{dribble.robot} dribbled {way:.2f} m backward{again}, limit {limit:.2f}"
+    ball = scene.snapshot.ball
+    return foul(
+        scene, "backward", (dribble.robot,), text, measured=way, limit=limit, unit="m", place=(ball.x, ball.y)
+    )

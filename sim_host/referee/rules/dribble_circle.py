@@ -1,0 +1,29 @@
+"""Dribbling circle: a robot that has caught the ball may dribble it within a circle around that place.
+
+To go on, it must visibly release the ball and catch it again, which moves the circle. The other side gets a free kick.
+
+Section: play, dribbling.
+Measures: the straight distance from where the ball was when it was caught to where it is while the robot holds it.
+The ball is released when there is air between it and the hull, or another robot touches it, or it is kicked.
+Not judged: whether a release was meant as one.
+"""
+
+import math
+
+from sim_host.referee.decision import Decision
+from sim_host.referee.rules.foul import foul, is_called
+from sim_host.referee.scene import Scene
+
+
+def judge(scene: Scene) -> Decision | None:
+    """A free kick for the other side where the ball is, or nothing."""
+    dribble = scene.state.evidence.dribble
+    if dribble is None or scene.snapshot.possession != dribble.robot:
+        return None
+    ball, limit = scene.snapshot.ball, scene.match.book.handling.circle
+    place = (ball.x, ball.y)
+    way = math.dist(dribble.caught, place)
+    if way <= limit or not is_called(scene, "dribble_circle"):
+        return None
+    text = f"{dribble.robot} dribbled {way:.2f} m from where it caught the ball, limit {limit:.2f}"
+    return foul(scene, "dribble_circle", (dribble.robot,), text, measured=way, limit=limit, unit="m", place=place)

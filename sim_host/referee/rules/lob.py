@@ -1,0 +1,64 @@
+"""Lob from the own half: a high kick from the own half must be a pass.
+
+It is a foul when the kicker's side has at least three robots on the field, none of its teammates is near where the
+ball comes down, and the ball rose above 60 cm. The other side gets a free kick on the halfway line.
+
+Section: play, lob shots.
+Measures: where the kicker's centre was at the kick, the highest place of the ball's underside, and where it first came
+down; robots whose hull is wholly outside the lines are not on the field.
+Not judged: a ball that somebody touches, or that leaves the field, before it comes down.
+"""
+
+import math
+
+from schemas.game import Phase
+from sim_host.referee.decision import Decision
+from sim_host.referee.evidence.flight import Flight
+from sim_host.referee.rules.foul import foul, is_called
+from sim_host.referee.scene import Scene
+from sim_host.referee.wording import at
+
+
+def judge(scene: Scene) -> Decision | None:
+    """A free kick for the other side on the halfway line, or nothing."""
+    flight = scene.state.evidence.flight
+    if flight is None or not flight.just_landed or flight.landed is None:
+        return None
+    numbers, roster = scene.match.book.scoring, scene.match.roster
+    side = roster.side_of(flight.robot)
+    if flight.apex <= numbers.lob_height or flight.kicked_from[0] * scene.state.attack(side) >= 0:
+        return None
+    gone = {index for index, _ in scene.state.evidence.outside}
+    mates = [index for index, its in enumerate(roster.sides) if its is side and index not in gone]
+    if len(mates) < numbers.lob_robots:
+        return None
+    robots = scene.snapshot.robots
+    away = [
+        math.dist(flight.landed, (robots[index].x, robots[index].y))
+        for index in mates
+        if roster.names[index] != flight.robot
+    ]
+    if min(away) <= numbers.lob_teammate or not is_called(scene, "lob"):
+        return None
+    text = (
+        f"{flight.robot} lobbed from its own half, {flight.apex:.2f} m high, limit {numbers.lob_height:.2f}; the "
+        f"nearest teammate is {min(away):.2f} m from where it came down, {at(flight.landed)}"
+    )
+    return foul(
+        scene,
+        "lob",
+        (flight.robot,),
+        text,
+        measured=flight.apex,
+        limit=numbers.lob_height,
+        unit="m",
+        place=flight.kicked_from,
+        phase=Phase.FREE_KICK,
+        restart_from=(0.0, _across(flight, flight.landed)),
+    )
+
+
+def _across(flight: Flight, landed: tuple[float, float]) -> float:
+    """y, m; where the way of the lob crosses the halfway line, or where it came down if it did not come so far."""
+    (x, y), (to_x, to_y) = flight.kicked_from, landed
+    return y + (to_y - y) * x / (x - to_x) if x * to_x < 0 else to_y

@@ -1,0 +1,25 @@
+"""Long hold: no robot keeps the ball for longer than the rule book says; the other side gets a free kick.
+
+Section: China simulation league 2020, yellow cards; the league's own rule book has no such limit.
+Measures: time since the ball was caught, as long as it was not visibly released.
+Not judged: whether the robot could have played it.
+"""
+
+from sim_host.referee.decision import Decision
+from sim_host.referee.rules.foul import foul, is_called
+from sim_host.referee.scene import Scene
+
+
+def judge(scene: Scene) -> Decision | None:
+    """A free kick for the other side where the ball is, or nothing."""
+    dribble = scene.state.evidence.dribble
+    if dribble is None or scene.snapshot.possession != dribble.robot:
+        return None
+    ball, limit = scene.snapshot.ball, scene.match.book.handling.hold_duration
+    kept = scene.snapshot.time - dribble.since
+    if kept <= limit or not is_called(scene, "long_hold"):
+        return None
+    text = f"{dribble.robot} kept the ball for {kept:.1f} s, limit {limit:.1f}"
+    return foul(
+        scene, "long_hold", (dribble.robot,), text, measured=kept, limit=limit, unit="s", place=(ball.x, ball.y)
+    )

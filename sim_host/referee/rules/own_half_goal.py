@@ -1,0 +1,62 @@
+"""Goals from the own half: a goal counts when it is kicked in the other half, and prepared by a pass if need be.
+
+If the side won the ball in its own half, a teammate must have received a pass in the other half, after a metre of free
+roll. Otherwise the goal does not count, and the other side has a goal kick. A touch of a defender on the way changes
+nothing; a defender who held or kicked the ball into its own goal has scored for the other side.
+
+Section: play, scoring.
+Measures: where the ball was at the last touch of the side that would score, where that side came into control of it,
+and the straight way between the touches of two of its robots; a ball that reaches over the halfway line is in the other
+half.
+Not judged: whether the receiver meant to receive.
+"""
+
+from schemas.game import EventKind, Phase
+from schemas.side import Side
+from sim_host.referee.decision import Decision
+from sim_host.referee.evidence.play import Touch
+from sim_host.referee.rules.foul import CARDS, is_called, is_own_half
+from sim_host.referee.rules.goal import is_in_goal
+from sim_host.referee.scene import Crossing, Scene
+from sim_host.referee.spots import restart_at
+from sim_host.referee.wording import at
+
+
+def judge(scene: Scene) -> Decision | None:
+    """No goal, and a goal kick for the defenders; or nothing."""
+    crossing = scene.crossing
+    if crossing is None or not is_in_goal(scene, crossing) or not is_called(scene, "own_half_goal"):
+        return None
+    play = scene.state.evidence.play
+    side = next(side for side in Side if scene.state.attack(side) * crossing.x > 0)
+    touch = play.of(side)
+    if touch is None or play.control is side.opponent:
+        return None
+    measured, limit = -touch.place[0] * scene.state.attack(side), scene.match.book.scoring.pass_roll
+    if is_own_half(scene, side, touch.place[0]):
+        text = f"{touch.robot} played the ball {measured:.2f} m inside its own half, limit 0.00"
+        return _no_goal(scene, crossing, side, touch, text, measured, 0.0)
+    if play.won is not None and is_own_half(scene, side, play.won[0]) and not play.received:
+        text = (
+            f"{side} won the ball in its own half at {at(play.won)}, and nobody received a pass in the other half; the "
+            f"last one rolled {play.rolled:.2f} m, limit {limit:.2f}"
+        )
+        return _no_goal(scene, crossing, side, touch, text, play.rolled, limit)
+    return None
+
+
+def _no_goal(
+    scene: Scene, crossing: Crossing, side: Side, touch: Touch, text: str, measured: float, limit: float
+) -> Decision:
+    return Decision(
+        kind=EventKind.NO_GOAL,
+        text=f"no goal for {side}: {text}",
+        restart=restart_at(scene.match, scene.state, Phase.GOAL_KICK, side.opponent, (crossing.x, crossing.y)),
+        side=side,
+        robot=touch.robot,
+        place=touch.place,
+        measured=measured,
+        limit=limit,
+        unit="m",
+        card=CARDS[scene.match.book.fouls.own_half_goal],
+    )

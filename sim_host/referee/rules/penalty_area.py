@@ -1,0 +1,38 @@
+"""Penalty area: at most one robot of each side, besides the goalkeeper in its own, is in a penalty area for long.
+
+More of the defending side is illegal defence, more of the other illegal attack. The other side gets a free kick.
+
+Section: play, illegal defence and attack.
+Measures: how long more robots of one side than allowed have had their centres in the area, whoever they were; of these
+the one farthest from the ball is named first.
+Not judged: who came last, and who was pushed there.
+"""
+
+import math
+
+from sim_host.referee.decision import Decision
+from sim_host.referee.rules.foul import foul, is_called
+from sim_host.referee.scene import Scene
+
+
+def judge(scene: Scene) -> Decision | None:
+    """A free kick for the other side, out of the area at the nearest restart spot, or nothing."""
+    crowds, areas = scene.state.evidence.stays.crowds, scene.match.book.areas
+    limit = areas.penalty_area_duration
+    for crowd in crowds:
+        if crowd.lasted > limit and is_called(scene, "penalty_area"):
+            roster, robots, ball = scene.match.roster, scene.snapshot.robots, scene.snapshot.ball
+            away = {index: math.hypot(robots[index].x - ball.x, robots[index].y - ball.y) for index in crowd.robots}
+            farthest = max(crowd.robots, key=lambda index: away[index])
+            order = (farthest, *(index for index in crowd.robots if index != farthest))
+            names = tuple([roster.names[index] for index in order])
+            defends = scene.state.attack(roster.sides[farthest]) != crowd.end
+            text = (
+                f"illegal {'defence' if defends else 'attack'}: {' and '.join(names)} are in a penalty area, "
+                f"{areas.penalty_area_robots} of a side may be, for {crowd.lasted:.1f} s, limit {limit:.1f}"
+            )
+            at = robots[farthest]
+            return foul(
+                scene, "penalty_area", names, text, measured=crowd.lasted, limit=limit, unit="s", place=(at.x, at.y)
+            )
+    return None

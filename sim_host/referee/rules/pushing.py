@@ -1,0 +1,44 @@
+"""Pushing: a robot that leans on an opponent must not drive it away.
+
+The other side gets a free kick; in the offender's own penalty area, a penalty.
+
+Section: play, pushing.
+Measures: how far both robots have moved along the line between their centres, toward the one that is pushed, while
+the engine reports them in contact.
+Not judged: intent, and who had the right to the ball: who moves the other is the offender.
+"""
+
+from schemas.game import Phase
+from sim_host.referee.areas import in_penalty_area
+from sim_host.referee.decision import Decision
+from sim_host.referee.rules.foul import foul, is_called
+from sim_host.referee.scene import Scene
+
+
+def judge(scene: Scene) -> Decision | None:
+    """A free kick or a penalty for the other side, or nothing."""
+    limit = scene.match.book.contact.push_distance
+    for push in scene.state.evidence.pushes:
+        if abs(push.way) <= limit or not is_called(scene, "pushing"):
+            continue
+        roster, way = scene.match.roster, abs(push.way)
+        offender, victim = (push.first, push.second) if push.way > 0 else (push.second, push.first)
+        robot = scene.snapshot.robots[offender]
+        own_end = -scene.state.attack(roster.sides[offender])
+        inside = in_penalty_area(scene.match.pitch, own_end, robot.x, robot.y)
+        text = (
+            f"{roster.names[offender]} pushed {roster.names[victim]} {way:.2f} m{' in its own penalty area' * inside}, "
+            f"limit {limit:.2f}; intent is not judged"
+        )
+        return foul(
+            scene,
+            "pushing",
+            (roster.names[offender],),
+            text,
+            measured=way,
+            limit=limit,
+            unit="m",
+            place=(robot.x, robot.y),
+            phase=Phase.PENALTY if inside else Phase.FREE_KICK,
+        )
+    return None

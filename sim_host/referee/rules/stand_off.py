@@ -1,0 +1,33 @@
+"""Stand-off: two opponents that lean on each other for long, neither giving way, end it by a dropped ball.
+
+Section: play, pushing: stand-off.
+Measures: how long the engine has reported the two in contact, with gaps shorter than 0.2 s.
+Not judged: which of them began.
+"""
+
+from schemas.game import EventKind, Phase
+from sim_host.referee.decision import Decision
+from sim_host.referee.scene import Scene
+from sim_host.referee.spots import restart_at
+
+
+def judge(scene: Scene) -> Decision | None:
+    """A drop ball where the ball is, out of a penalty area at the nearest restart spot, or nothing."""
+    limit = scene.match.book.contact.stand_off_duration
+    for push in scene.state.evidence.pushes:
+        if push.lasted < limit:
+            continue
+        names, ball = scene.match.roster.names, scene.snapshot.ball
+        robots = (names[push.first], names[push.second])
+        place = (ball.x, ball.y)
+        return Decision(
+            kind=EventKind.STALL,
+            text=f"stand-off: {robots[0]} and {robots[1]} lean on each other for {push.lasted:.1f} s, limit {limit:.1f}",
+            restart=restart_at(scene.match, scene.state, Phase.DROP_BALL, None, place),
+            robots=robots,
+            place=place,
+            measured=push.lasted,
+            limit=limit,
+            unit="s",
+        )
+    return None
