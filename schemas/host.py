@@ -15,6 +15,7 @@ from schemas.profile import STANDARD, Ball, Dribble, Kicker, Profile, RobotBody,
 from schemas.profile import Drive as DriveLimits
 from schemas.profile import Field as Pitch
 from schemas.robot_model import RobotModel, types_of
+from schemas.foul_book import Fouls, Handling, Scoring
 from schemas.rule_book import Periods, Restarts, RuleBook
 from schemas.side import Side
 
@@ -56,6 +57,11 @@ class Setup(Message):
     kicker: Kicker
     periods: Periods
     restarts: Restarts
+    handling: Handling | None = None
+    """How robots may handle the ball; nothing in recordings that are older than these rules, as the next two."""
+    scoring: Scoring | None = None
+    fouls: Fouls | None = None
+    """Which fouls are called."""
     teams: dict[Side, TeamSetup]
     models: dict[Name, RobotModel] = {}
     """Type → model; `standard` for every robot that no type is given for."""
@@ -88,6 +94,9 @@ class Setup(Message):
             kicker=profile.kicker,
             periods=book.periods,
             restarts=book.restarts,
+            handling=book.handling,
+            scoring=book.scoring,
+            fouls=book.fouls,
             teams={side: _team(config, side) for side in Side},
             models=types_of(profile.with_types(config.types, f'match "{config.name}"')),
             engine=dict(engine),

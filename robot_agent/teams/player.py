@@ -1,13 +1,17 @@
 """What a robot of every shipped team does alike: takes in the sight, obeys coach and referee, speaks on the radio."""
 
+import math
 from abc import ABC, abstractmethod
 from typing import ClassVar, NamedTuple
 
 from robot_agent.bodies import Ball, Limits
 from robot_agent.contract import Briefing
+from robot_agent.fair_play import Asked, Carry, Control, carried, control_after
 from robot_agent.skills.avoid import circles, go_around
 from robot_agent.skills.go_to import go_to
 from robot_agent.skills.keep_goal import keep_goal
+from robot_agent.skills.keep_out import keep_out
+from robot_agent.skills.let_go import let_go
 from robot_agent.skills.search import search_place
 from robot_agent.world_model import Scene, WorldModel
 from schemas.coach import CoachMode, CoachOrder
@@ -25,6 +29,16 @@ LETS_GO = 0.4
 """s without the dribbler after a kick: a soft one would be caught again before it has left."""
 STILL = frozenset({TeamPhase.PRE_GAME, TeamPhase.STOPPED, TeamPhase.HALF_TIME, TeamPhase.FULL_TIME})
 """Phases in which nobody has anything to do."""
+PASS_BEFORE = 1.5
+"""m before the end of the dribbling circle where a robot begins to look for somebody to pass to."""
+LET_GO_BEFORE = 1.0
+"""m before its end where the ball is let go, if there is room ahead."""
+STOP_BEFORE = 0.6
+"""m before its end where a robot with no room ahead brakes: it comes to rest in 0.4 m from 2 m/s."""
+TURN_BEFORE = 0.3
+"""m before the longest way backward that may be repeated where a robot turns instead."""
+TURN_RATE = 2.5
+"""rad/s; of that turn."""
 _PARKING_SPEED = 1.5
 """m/s."""
 _AT_THE_CENTRE = Ball(0.0, 0.0)
@@ -61,6 +75,10 @@ class Player(ABC):
         self.is_keeper = self.keeper == briefing.robot
         self._full_limits = self.limits
         self._world = WorldModel(briefing)
+        self._asked = Asked.of(briefing.setup)
+        self._carry: Carry | None = None
+        self.control = Control()
+        """Which side has the ball, and whether a goal would count."""
         self._lets_go = 0.0
         """s for which the dribbler stays off after a kick."""
         self._last: Command | None = None
@@ -103,7 +121,11 @@ class Player(ABC):
         scene = self._world.take_in(sight)
         order = sight.order
         self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits
-        action = self._obey(scene, order) or self._search(scene, order) or self.play(scene, order)
+        self._carry = carried(self._carry, scene)
+        self.control = control_after(self.control, scene, self.briefing.robot, self._asked.roll)
+        action = self._obey(scene, order) or self._by_the_rules(
+            scene, self._search(scene, order) or self.play(scene, order)
+        )
         if not scene.kicker_ready:
             action = action._replace(kick=None, pass_to=None)  # it would be refused: keep the ball, and aim
         self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - scene.dt)
@@ -119,6 +141,37 @@ class Player(ABC):
     @abstractmethod
     def play(self, scene: Scene, order: CoachOrder | None) -> Action:
         """What to do in a restart or in play."""
+
+    @property
+    def may_score(self) -> bool:
+        """Whether the rules let a goal count that this robot kicks from where it is."""
+        return not self._asked.passes_first or self.control.may_score
+
+    @property
+    def must_pass_on(self) -> bool:
+        """Whether the ball has to leave this robot's hold soon."""
+        return self._carry is not None and self._carry.way > self._asked.circle - PASS_BEFORE
+
+    def _by_the_rules(self, scene: Scene, action: Action) -> Action:
+        """The same action as far as the rules in play let this robot do it."""
+        if action.kick is None and self._carry is not None:
+            action = self._carry_on(scene, action, self._carry)
+        if self._asked.keeps_out and not self.is_keeper:
+            action = action._replace(drive=keep_out(scene.me, action.drive, self.setup.pitch, self.limits))
+        return action
+
+    def _carry_on(self, scene: Scene, action: Action, carry: Carry) -> Action:
+        """Before the circle ends the ball is let go, or the robot stops; it turns before it has gone back for long."""
+        if carry.way > self._asked.circle - LET_GO_BEFORE:
+            kick = let_go(scene.me, scene.opponents, self.setup) if scene.kicker_ready else None
+            if kick is not None:
+                return action._replace(intention="let go", dribble=True, kick=kick, pass_to=None)
+            if carry.way > self._asked.circle - STOP_BEFORE:
+                return action._replace(drive=Drive(omega=action.drive.omega))
+        if carry.backward > self._asked.backward - TURN_BEFORE and action.drive.vx < 0.0:
+            turn = math.copysign(TURN_RATE, action.drive.vy)
+            return action._replace(drive=Drive(vy=action.drive.vy, omega=turn))
+        return action
 
     def _obey(self, scene: Scene, order: CoachOrder | None) -> Action | None:
         """What the referee or the coach leaves no choice about."""

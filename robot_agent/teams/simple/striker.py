@@ -37,6 +37,8 @@ KNOCK_ON = 3.0
 """m of ground that must be free for it."""
 PATIENCE = 2.5
 """s with the ball after which the best kick there is gets done."""
+PREPARED = 1.0
+"""m into the other half; a pass to there makes a goal count."""
 SHOT_ERROR = 0.15
 """m beside the target."""
 
@@ -54,6 +56,10 @@ class Ground(NamedTuple):
     """s with the ball and an opponent beside it."""
     receiver: str | None
     """To whom a pass was meant a tick ago."""
+    may_score: bool = True
+    """A goal would count."""
+    must_pass: bool = False
+    """The rules let this robot not keep the ball for much longer."""
 
 
 def play_ball(ground: Ground, setup: Setup, limits: Limits) -> Action:
@@ -62,15 +68,15 @@ def play_ball(ground: Ground, setup: Setup, limits: Limits) -> Action:
     ball = (me.x + setup.dribble.gap * math.cos(me.heading), me.y + setup.dribble.gap * math.sin(me.heading))
     aim, width = best_place(ball, ground.opponents, pitch)
     far = math.hypot(pitch.goal_line - ball[0], ball[1])
-    hurried = ground.held > PATIENCE or is_pressed(me, ground.opponents)
-    if far < RANGE and (width > OPEN or (hurried and _can_lob(ball, aim, ground.opponents, pitch))):
+    hurried = ground.held > PATIENCE or ground.must_pass or is_pressed(me, ground.opponents)
+    if far < RANGE and ground.may_score and (width > OPEN or (hurried and _can_lob(ball, aim, ground.opponents, pitch))):
         return _shoot(ground, (pitch.goal_line, aim), width, setup, limits)
     if ground.pressed > DUEL and _can_knock_on(ground, ball, setup):
         return _knock_on(ground, setup, limits)
     receiver = _receiver(ground, ball, hurried)
     if receiver is not None:
         return _pass(ground, receiver, setup, limits)
-    if ground.held > 2.0 * PATIENCE:
+    if ground.held > 2.0 * PATIENCE and ground.may_score:
         return _shoot(ground, (pitch.goal_line, aim), width, setup, limits)
     return _carry(ground, setup, limits)
 
@@ -80,7 +86,10 @@ def _receiver(ground: Ground, ball: Point, hurried: bool) -> str | None:
     places = places_of(ground.mates)
     if ground.receiver in places and is_open(ball, places[ground.receiver], ground.opponents):
         return ground.receiver
-    return best_receiver(ball, places, ground.opponents, ground.me.heading) if hurried else None
+    if hurried or not ground.may_score:
+        ahead = {name: place for name, place in places.items() if hurried or place[0] > PREPARED}
+        return best_receiver(ball, ahead, ground.opponents, ground.me.heading)
+    return None
 
 
 def is_pressed(me: Body, opponents: Sequence[Point]) -> bool:

@@ -106,7 +106,16 @@ class Simple(Player):
         """Get the ball, then play it."""
         if scene.holding:
             mates = self._field_mates(scene)
-            ground = Ground(scene.me, mates, scene.opponents, self._held, self._pressed, self._receiver)
+            ground = Ground(
+                scene.me,
+                mates,
+                scene.opponents,
+                self._held,
+                self._pressed,
+                self._receiver,
+                may_score=self.may_score,
+                must_pass=self.must_pass_on,
+            )
             action = play_ball(ground, self.setup, self.limits)
             self._receiver = action.pass_to
             if action.kick is None:

@@ -6,15 +6,28 @@ from dataclasses import dataclass
 from schemas.game import Stage
 from sim_host.referee.decision import Decision
 from sim_host.referee.rules import (
+    backward,
     double_touch,
     dragged,
+    dribble_circle,
     early_touch,
     goal,
+    goal_area,
     goal_line,
     half_end,
+    leaving_field,
+    lob,
+    long_hold,
     lost_ball,
+    not_rolling,
+    own_goal_kick,
+    own_half_goal,
+    penalty_area,
+    pushing,
+    scrum,
     shoot_out,
     stall,
+    stand_off,
     touch_line,
 )
 from sim_host.referee.scene import Scene
@@ -22,30 +35,65 @@ from sim_host.referee.scene import Scene
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """One row: the file's name, its judgement, and whether it judges only while the game runs, after START."""
+    """One row: the file's name, its judgement, its numbers, and whether it judges only while the game runs."""
 
     name: str
     judge: Callable[[Scene], Decision | None]
+    numbers: tuple[str, ...] = ()
+    """What it looks up in the rule book, as `section.field`."""
     while_running: bool = True
+    """After START alone."""
 
 
+RESTART_FOUL = ("restarts.restart_fouls", "restarts.in_play_distance")
 RULES: tuple[Rule, ...] = (
-    Rule("early_touch", early_touch.judge),
-    Rule("double_touch", double_touch.judge),
-    Rule("dragged", dragged.judge),
-    Rule("goal", goal.judge),
-    Rule("touch_line", touch_line.judge),
-    Rule("goal_line", goal_line.judge),
-    Rule("lost_ball", lost_ball.judge),
-    Rule("stall", stall.judge),
-    Rule("half_end", half_end.judge, while_running=False),
+    Rule("early_touch", early_touch.judge, RESTART_FOUL),
+    Rule("double_touch", double_touch.judge, RESTART_FOUL),
+    Rule("dragged", dragged.judge, (*RESTART_FOUL, "restarts.drag_distance")),
+    Rule("own_goal_kick", own_goal_kick.judge, ("restarts.corner_inset",)),
+    Rule("own_half_goal", own_half_goal.judge, ("fouls.own_half_goal", "scoring.pass_roll")),
+    Rule("goal", goal.judge, ("restarts.robots_to_score", "restarts.drop_robots_to_score", "fouls.direct_goal")),
+    Rule("touch_line", touch_line.judge, ("restarts.touch_line_inset",)),
+    Rule("goal_line", goal_line.judge, ("restarts.corner_inset", "fouls.own_half_goal")),
+    Rule("lost_ball", lost_ball.judge, ("restarts.field_inset",)),
+    Rule("lob", lob.judge, ("fouls.lob", "scoring.lob_height", "scoring.lob_teammate", "scoring.lob_robots")),
+    Rule("dribble_circle", dribble_circle.judge, ("fouls.dribble_circle", "handling.circle", "handling.release_gap")),
+    Rule(
+        "backward",
+        backward.judge,
+        (
+            "fouls.backward",
+            "handling.backward_distance",
+            "handling.backward_once",
+            "handling.backward_again",
+            "handling.struggle_duration",
+        ),
+    ),
+    Rule(
+        "not_rolling",
+        not_rolling.judge,
+        ("fouls.not_rolling", "handling.roll_distance", "handling.roll_duration", "handling.roll_pause"),
+    ),
+    Rule("long_hold", long_hold.judge, ("fouls.long_hold", "handling.hold_duration")),
+    Rule("pushing", pushing.judge, ("fouls.pushing", "contact.push_distance")),
+    Rule("goal_area", goal_area.judge, ("fouls.goal_area", "areas.goal_area_duration")),
+    Rule(
+        "penalty_area",
+        penalty_area.judge,
+        ("fouls.penalty_area", "areas.penalty_area_robots", "areas.penalty_area_duration"),
+    ),
+    Rule("leaving_field", leaving_field.judge, ("fouls.leaving_field", "contact.outside_duration")),
+    Rule("stand_off", stand_off.judge, ("contact.stand_off_duration",)),
+    Rule("scrum", scrum.judge, ("scrum.reach", "scrum.progress", "scrum.duration")),
+    Rule("stall", stall.judge, ("stall.still_speed", "stall.still_duration")),
+    Rule("half_end", half_end.judge, ("periods.halves", "periods.half_duration"), while_running=False),
 )
 
 RUNNING = RULES
 """The rules that judge after START."""
 HALTED = tuple(rule for rule in RULES if not rule.while_running)
 """The rules that judge at any time: those on the clocks, which are all that judge where people officiate."""
-SHOOT_OUT: tuple[Rule, ...] = (Rule("shoot_out", shoot_out.judge),)
+SHOOT_OUT: tuple[Rule, ...] = (Rule("shoot_out", shoot_out.judge, ("periods.shoot_out_limit",)),)
 """The rules of the penalty shoot-out."""
 
 

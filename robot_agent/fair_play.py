@@ -1,0 +1,127 @@
+"""What the rules in play ask of one robot, in its own numbers: infinite or nothing where the rule book does not ask.
+
+Knows what a robot knows: its own catches and ways exactly, who has the ball from what it sees.
+"""
+
+import math
+from typing import NamedTuple
+
+from robot_agent.bodies import Body
+from robot_agent.skills.take_ball import HAS_IT
+from robot_agent.world_model import Scene
+from schemas.host import Setup
+
+Point = tuple[float, float]
+
+HALFWAY = 0.25
+"""m beyond the halfway line where the other half begins for sure."""
+GOES_BACK = -0.05
+"""m/s along the kick axis; slower is going backward."""
+_ROLL_MARGIN = 0.3
+"""m more than the rule book's free roll, for noise."""
+
+
+class Asked(NamedTuple):
+    """The rule book's demands."""
+
+    circle: float
+    """m; how far the ball may be dribbled from where it was caught."""
+    backward: float
+    """m; how far one may drive backward with the ball, more than once."""
+    keeps_out: bool
+    """Nobody but the goalkeeper enters a goal area."""
+    passes_first: bool
+    """A ball won in the own half is passed in the other before it is shot."""
+    roll: float
+    """m of free roll that make a pass."""
+
+    @classmethod
+    def of(cls, setup: Setup) -> "Asked":
+        """Those of the match."""
+        fouls, handling, scoring = setup.fouls, setup.handling, setup.scoring
+        if fouls is None or handling is None or scoring is None:
+            return cls(math.inf, math.inf, False, False, 0.0)
+        return cls(
+            circle=handling.circle if fouls.dribble_circle != "off" else math.inf,
+            backward=handling.backward_once if fouls.backward != "off" else math.inf,
+            keeps_out=fouls.goal_area != "off",
+            passes_first=fouls.own_half_goal != "off",
+            roll=scoring.pass_roll,
+        )
+
+
+class Carry(NamedTuple):
+    """The ball in this robot's hold."""
+
+    caught: Point
+    """m; where the ball was when it was caught."""
+    way: float = 0.0
+    """m from there to where it is."""
+    backward: float = 0.0
+    """m driven backward with it."""
+
+
+def carried(before: Carry | None, scene: Scene) -> Carry | None:
+    """The carry after one more sight; it ends with the hold."""
+    if not scene.holding or scene.ball is None:
+        return None
+    ball = scene.ball.now[:2]
+    if before is None:
+        return Carry(ball)
+    along = _along(scene.me)
+    back = -along * scene.dt if along < GOES_BACK else 0.0
+    return Carry(before.caught, math.dist(before.caught, ball), before.backward + back)
+
+
+class Control(NamedTuple):
+    """Which side has the ball, as far as one robot can tell."""
+
+    ours: bool | None = None
+    won_ahead: bool = False
+    """Our side won it in the other half."""
+    received: bool = False
+    """Since then one of us has received a pass there."""
+    holder: str | None = None
+    """Who of us had it last."""
+    left: Point = (0.0, 0.0)
+    """m; where the ball was then."""
+
+    @property
+    def may_score(self) -> bool:
+        """Whether a goal counts that is kicked from where the ball is."""
+        return self.left[0] > HALFWAY and (self.won_ahead or self.received)
+
+
+def control_after(before: Control, scene: Scene, name: str, roll: float) -> Control:
+    """Who has the ball after one more sight; `roll` in m makes a pass."""
+    if scene.ball is None:
+        return before
+    ball = scene.ball.now[:2]
+    if scene.game.phase.ours or scene.game.phase.theirs:
+        return Control(scene.game.phase.ours, ball[0] > HALFWAY, holder=None, left=ball)
+    ours = _nearest_of_us(scene, ball, name)
+    theirs = min((math.dist(ball, opponent) for opponent in scene.opponents), default=math.inf) < HAS_IT
+    if ours is None:
+        return before._replace(ours=False, holder=None) if theirs else before
+    if theirs and not scene.holding:
+        return before
+    if not before.ours:
+        return Control(True, ball[0] > HALFWAY, holder=ours, left=ball)
+    passed = before.holder not in (None, ours) and math.dist(before.left, ball) > roll + _ROLL_MARGIN
+    received = before.received or (passed and ball[0] > HALFWAY)
+    return before._replace(received=received, holder=ours, left=ball)
+
+
+def _nearest_of_us(scene: Scene, ball: Point, name: str) -> str | None:
+    """Who of us has the ball."""
+    if scene.holding:
+        return name
+    away = {mate: math.dist(ball, seen.body[:2]) for mate, seen in scene.mates.items()}
+    away[name] = math.dist(ball, scene.me[:2])
+    nearest = min(away, key=lambda one: (away[one], one))
+    return nearest if away[nearest] < HAS_IT else None
+
+
+def _along(me: Body) -> float:
+    """m/s along the kick axis."""
+    return me.vx * math.cos(me.heading) + me.vy * math.sin(me.heading)

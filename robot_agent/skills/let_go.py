@@ -1,0 +1,30 @@
+"""Let the ball go for a moment: a soft kick ahead, to run after, so that a dribble may go on."""
+
+import math
+from collections.abc import Sequence
+
+from robot_agent.bodies import Body
+from robot_agent.skills.keep_off import inside
+from robot_agent.skills.shoot import lane_width
+from schemas.command import Kick, KickMode
+from schemas.host import Setup
+
+Point = tuple[float, float]
+
+FASTER = 1.2
+"""m/s that the ball gets more than the robot has: half a metre of air before it is caught again."""
+AHEAD = 1.8
+"""m of ground that must be free for it."""
+ROOM = 0.45
+"""m between the way of the ball and the nearest opponent's centre."""
+
+
+def let_go(me: Body, opponents: Sequence[Point], setup: Setup) -> Kick | None:
+    """The kick along the kick axis, or nothing when there is no free ground on the pitch ahead."""
+    c, s = math.cos(me.heading), math.sin(me.heading)
+    gap = setup.dribble.gap
+    ball = (me.x + gap * c, me.y + gap * s)
+    end = (ball[0] + AHEAD * c, ball[1] + AHEAD * s)
+    if inside(*end, setup.pitch, 0.0) != end or lane_width(ball, end, opponents) < ROOM:
+        return None
+    return Kick(mode=KickMode.GROUND, speed=FASTER + max(0.0, me.vx * c + me.vy * s))
