@@ -148,6 +148,11 @@ class Player(ABC):
         return not self._asked.passes_first or self.control.may_score
 
     @property
+    def is_bound_forward(self) -> bool:
+        """Whether the rules count ways driven backward with the ball."""
+        return math.isfinite(self._asked.backward)
+
+    @property
     def must_pass_on(self) -> bool:
         """Whether the ball has to leave this robot's hold soon."""
         return self._carry is not None and self._carry.way > self._asked.circle - PASS_BEFORE

@@ -8,7 +8,7 @@ from robot_agent.skills.go_to import drive
 from robot_agent.skills.intercept import meet, way_of
 from robot_agent.skills.keep_goal import keep_goal
 from robot_agent.skills.kick_at import kick_at
-from robot_agent.skills.pass_to import best_receiver, pass_speed
+from robot_agent.skills.pass_to import best_receiver, pass_speed, pass_to
 from robot_agent.skills.take_ball import take_ball
 from robot_agent.skills.turn_to import turn_rate
 from robot_agent.teams.nubot.machine import KICK, Doing, Machine, Points, Situation, State
@@ -22,8 +22,12 @@ from schemas.game import TeamPhase
 
 HOMES = ((-10.5, 0.0), (-2.0, 1.0), (-2.0, -1.0), (-5.0, 2.0), (-5.0, -2.0))
 """m on 22 × 14 m, the goalkeeper first; simatch's start poses."""
+AHEAD = {2: (3.0, 2.5), 3: (3.0, -2.5)}
+"""m on 22 × 14 m; where two robots wait for the pass without which a goal of their side would not count."""
 LOYALTY = 0.5
 """m by which a teammate must be nearer to the ball than the robot that plays it, to play it instead."""
+_PREPARED = 1.0
+"""m into the other half."""
 _KICKED = 2.0
 """m/s; a ball faster than this is still on its way from the kick."""
 _NEAR_ENOUGH = 1.5
@@ -51,6 +55,8 @@ class NuBot(Player):
         pitch = self.setup.pitch
         x, y = HOMES[briefing.number - 1]
         self._home = x * pitch.length / 22.0, y * pitch.width / 14.0
+        x, y = AHEAD.get(briefing.number, HOMES[briefing.number - 1])
+        self._ahead = x * pitch.length / 22.0, y * pitch.width / 14.0
         self._points = Points().on(pitch)
         self._machine = Machine(self._points)
         self._role = HOLDS
@@ -98,7 +104,20 @@ class NuBot(Player):
         )
         if self._machine.state is State.CHASE_BALL:
             return Action(PLAYS, self._machine.state.value, self._meet(scene, ball), dribble=True)
+        if scene.holding and not self.may_score:
+            prepared = self._pass_ahead(scene)
+            if prepared is not None:
+                return prepared
         return self._carried_out(scene, doing)
+
+    def _pass_ahead(self, scene: Scene) -> Action | None:
+        """Where a goal would not count, to a teammate in the other half, if there is one whom a pass reaches."""
+        ahead = {name: place for name, place in places_of(scene.mates).items() if place[0] > _PREPARED}
+        receiver = best_receiver(scene.me[:2], ahead, scene.opponents)
+        if receiver is None:
+            return None
+        motion, kick = pass_to(scene.me, ahead[receiver], self.setup, self.limits)
+        return Action(PLAYS, "pass ahead", motion, dribble=True, kick=kick, pass_to=receiver if kick else None)
 
     def _dribble_point(self, scene: Scene, ball: SeenBall) -> tuple[float, float]:
         """The paper's point or its mirror image on the ball's side; where the robot is, once that is near enough."""
@@ -120,12 +139,18 @@ class NuBot(Player):
             others = circles(scene.opponents, 2.0 * self.setup.robot.reach + _BALL_ROOM)
             vx, vy = steer(scene.me, vx, vy, 1.5, others)
         omega = doing.omega
-        if self._machine.state is State.MOVE_BALL and self._is_nearly_there(scene):
-            x, y = self._points.goal
-            facing = math.atan2(y - scene.me.y, x - scene.me.x)
+        facing = self._facing(scene, vx, vy) if self._machine.state is State.MOVE_BALL else None
+        if facing is not None:
             omega = turn_rate(scene.me, facing, self.limits.capped(turn_rate=ROTATION.top))
         motion = drive(scene.me, vx, vy, omega, self.limits)
         return Action(PLAYS, self._machine.state.value, motion, doing.dribble, doing.kick)
+
+    def _facing(self, scene: Scene, vx: float, vy: float) -> float | None:
+        """Where to look with the ball: on the last metres at the goal; before, ahead, if the rules count ways back."""
+        if self._is_nearly_there(scene):
+            x, y = self._points.goal
+            return math.atan2(y - scene.me.y, x - scene.me.x)
+        return math.atan2(vy, vx) if self.is_bound_forward else None
 
     def _is_nearly_there(self, scene: Scene) -> bool:
         return math.dist(self._machine.points.dribble, scene.me[:2]) < _TURNS
@@ -156,7 +181,9 @@ class NuBot(Player):
         return mates[receiver] if receiver is not None else self._points.dribble
 
     def _hold(self, scene: Scene, spot: tuple[float, float]) -> Action:
-        motion = stand(scene.me, self._home, scene.game, spot, scene.others, self.setup, self.limits)
+        in_play = scene.game.phase is TeamPhase.PLAY
+        home = self._ahead if in_play and self.control.ours and not self.may_score else self._home
+        motion = stand(scene.me, home, scene.game, spot, scene.others, self.setup, self.limits)
         return Action(HOLDS, "hold", motion)
 
     def _keep(self, scene: Scene, ball: SeenBall, spot: tuple[float, float]) -> Action:
