@@ -7,6 +7,7 @@ from typing import Annotated, Any, Self
 from pydantic import Field
 
 from schemas.command import Drive, Kick, Radio
+from schemas.foul_book import Fouls, Handling, Scoring
 from schemas.match_config import MatchConfig
 from schemas.message import Message, Name, Part
 from schemas.obstacle import StaticObstacle
@@ -15,7 +16,6 @@ from schemas.profile import STANDARD, Ball, Dribble, Kicker, Profile, RobotBody,
 from schemas.profile import Drive as DriveLimits
 from schemas.profile import Field as Pitch
 from schemas.robot_model import RobotModel, types_of
-from schemas.foul_book import Fouls, Handling, Scoring
 from schemas.rule_book import Periods, Restarts, RuleBook
 from schemas.side import Side
 

@@ -69,7 +69,11 @@ def play_ball(ground: Ground, setup: Setup, limits: Limits) -> Action:
     aim, width = best_place(ball, ground.opponents, pitch)
     far = math.hypot(pitch.goal_line - ball[0], ball[1])
     hurried = ground.held > PATIENCE or ground.must_pass or is_pressed(me, ground.opponents)
-    if far < RANGE and ground.may_score and (width > OPEN or (hurried and _can_lob(ball, aim, ground.opponents, pitch))):
+    if (
+        far < RANGE
+        and ground.may_score
+        and (width > OPEN or (hurried and _can_lob(ball, aim, ground.opponents, pitch)))
+    ):
         return _shoot(ground, (pitch.goal_line, aim), width, setup, limits)
     if ground.pressed > DUEL and _can_knock_on(ground, ball, setup):
         return _knock_on(ground, setup, limits)

@@ -26,6 +26,4 @@ def judge(scene: Scene) -> Decision | None:
     again = " again without having released the ball" if dribble.spent else ""
     text = f"{dribble.robot} dribbled {way:.2f} m backward{again}, limit {limit:.2f}"
     ball = scene.snapshot.ball
-    return foul(
-        scene, "backward", (dribble.robot,), text, measured=way, limit=limit, unit="m", place=(ball.x, ball.y)
-    )
+    return foul(scene, "backward", (dribble.robot,), text, measured=way, limit=limit, unit="m", place=(ball.x, ball.y))

@@ -1,8 +1,13 @@
 """Goal: the whole ball over the goal line, between the posts and under the bar; own goals count for the other side.
 
 After a restart a goal of the side that took it counts once a second robot of that side has touched the ball, after a
-drop ball once two robots have, in a penalty at once (rule book, set pieces). A ball that goes in before is a goal kick.
-What is measured is how many robots have touched the ball since START; the other side's having won the ball ends it.
+drop ball once two robots have, in a penalty at once. A ball that goes in before is a goal kick.
+
+Section: play, scoring; restarts.
+Measures: the place where the whole ball had passed the line, and how many robots have touched the ball since START; the
+other side's having won the ball ends that. A goal is an own goal when a defender held or kicked the ball last, or
+nobody else touched it.
+Not judged: whether a defender who deflected the ball could help it.
 """
 
 from schemas.game import Card, EventKind, Phase
@@ -21,8 +26,10 @@ def judge(scene: Scene) -> Decision | None:
     if crossing is None or not is_in_goal(scene, crossing):
         return None
     scorers = next(side for side in Side if scene.state.attack(side) * crossing.x > 0)
-    robot = scene.state.last_touch
-    own = robot is not None and scene.match.roster.side_of(robot) is not scorers
+    play = scene.state.evidence.play
+    shot = play.of(scorers)
+    own = play.last is not None and (shot is None or play.control is scorers.opponent)
+    robot = shot.robot if shot is not None and not own else scene.state.last_touch
     place = (crossing.x, crossing.y)
     lack = why_no_goal(scene.state.set_piece, scene.match.book, scene.match.roster, scorers)
     if lack is not None:

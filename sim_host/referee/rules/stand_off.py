@@ -22,7 +22,7 @@ def judge(scene: Scene) -> Decision | None:
         place = (ball.x, ball.y)
         return Decision(
             kind=EventKind.STALL,
-            text=f"stand-off: {robots[0]} and {robots[1]} lean on each other for {push.lasted:.1f} s, limit {limit:.1f}",
+            text=f"stand-off: {' and '.join(robots)} lean on each other for {push.lasted:.1f} s, limit {limit:.1f}",
             restart=restart_at(scene.match, scene.state, Phase.DROP_BALL, None, place),
             robots=robots,
             place=place,

@@ -36,9 +36,19 @@ def test_a_ball_not_wholly_over_the_goal_line_is_no_goal(bench):
 
 
 def test_an_own_goal_counts_for_the_other_side_and_is_called_so(bench):
-    ruling = bench.crossing((bench.pitch.goal_line - 0.1, 0.0), (beyond(bench, "x", 0.01), 0.0), ["magenta1"])
+    bench.playing()
+    bench.tick((bench.pitch.goal_line - 0.1, 0.0), ["magenta1"], possession="magenta1")
+    ruling = bench.tick((beyond(bench, "x", 0.01), 0.0))
     assert ruling.state.score == Score(cyan=1)
     assert ruling.events[0].robot == "magenta1" and "own goal" in ruling.events[0].text
+
+
+def test_a_shot_that_a_defender_deflects_is_the_kickers_goal(bench):
+    bench.playing()
+    bench.tick((5.0, 0.0), ["cyan3"], kicked="cyan3")
+    bench.tick((bench.pitch.goal_line - 0.1, 0.0), ["magenta1"])
+    ruling = bench.tick((beyond(bench, "x", 0.01), 0.0))
+    assert ruling.events[0].robot == "cyan3" and "own goal" not in ruling.events[0].text
 
 
 @pytest.mark.parametrize(

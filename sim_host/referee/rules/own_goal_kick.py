@@ -1,0 +1,41 @@
+"""Own goal from the own restart: a ball that goes straight from a restart into the taker's own goal is a corner.
+
+Once the ball is being played, an own goal counts for the other side as any goal.
+
+Section: restarts; as the laws of the game have it, since the league's rule book counts no goal of one robot alone.
+Measures: whether a single robot, of the taker's side, has touched the ball since START; a rule book that asks for no
+second robot lets the goal count.
+Not judged: whether another robot's touch was more than one in passing.
+"""
+
+from schemas.game import EventKind, Phase
+from schemas.side import Side
+from sim_host.referee.decision import Decision
+from sim_host.referee.rules.goal import is_in_goal
+from sim_host.referee.scene import Scene
+from sim_host.referee.spots import restart_at
+from sim_host.referee.wording import at, touched
+
+
+def judge(scene: Scene) -> Decision | None:
+    """A corner for the other side, or nothing."""
+    crossing, piece = scene.crossing, scene.state.set_piece
+    if crossing is None or piece is None or not is_in_goal(scene, crossing):
+        return None
+    scorers = next(side for side in Side if scene.state.attack(side) * crossing.x > 0)
+    taker, asked = piece.restart.side, scene.match.book.scoring.robots_touched
+    if taker is not scorers.opponent or len(piece.touched) != 1 or piece.touchers(scene.match.roster, taker) >= asked:
+        return None
+    place = (crossing.x, crossing.y)
+    return Decision(
+        kind=EventKind.NO_GOAL,
+        text=f"no own goal: the ball went in at {at(place)} straight from {taker}'s own restart, "
+        f"{touched(scene.state.last_touch)}",
+        restart=restart_at(scene.match, scene.state, Phase.CORNER, scorers, place),
+        side=taker,
+        robot=scene.state.last_touch,
+        place=place,
+        measured=1,
+        limit=asked,
+        unit="robots",
+    )
