@@ -95,14 +95,17 @@ class WorldModel:
         dt = sight.time - self._time if self._time is not None else 0.0
         self._time = sight.time
         self._me = me = _smooth_body(self._me, sight.self, dt)
-        mates = self._mates(sight.radio)
+        mates = self._mates(sight.radio, sight.game)
         ball = self._believed_ball(sight, me, dt)
         opponents = self._opponents.now(_opponents(sight, mates), sight.time, sight.obstacles_age)
         return Scene(sight.tick, dt, me, sight.holding, ball, mates, opponents, sight.game, sight.kicker_ready)
 
-    def _mates(self, radio: dict[str, Heard]) -> dict[str, Mate]:
+    def _mates(self, radio: dict[str, Heard], game: GameView) -> dict[str, Mate]:
+        """Those who were heard lately and are on the field."""
         mates = {}
         for name in self._teammates:
+            if name in game.robots and game.robots[name].off_field is not None:
+                continue
             word = radio.get(name)
             if word is not None and word.self is not None and word.age <= STALE:
                 body = _body(word.self).after(word.age)

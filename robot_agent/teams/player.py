@@ -13,10 +13,12 @@ from robot_agent.skills.keep_goal import keep_goal
 from robot_agent.skills.keep_out import keep_out
 from robot_agent.skills.let_go import let_go
 from robot_agent.skills.search import search_place
+from robot_agent.teams import shoot_out
+from robot_agent.teams.set_piece import PENALTIES
 from robot_agent.world_model import Scene, WorldModel
 from schemas.coach import CoachMode, CoachOrder
 from schemas.command import BallBelief, Command, Drive, Kick, Motion, Radio
-from schemas.game import GameView, TeamPhase
+from schemas.game import GameView, Stage, TeamPhase
 from schemas.sight import Sight
 
 SPEAKS_EVERY = 5
@@ -81,6 +83,8 @@ class Player(ABC):
         """Which side has the ball, and whether a goal would count."""
         self._lets_go = 0.0
         """s for which the dribbler stays off after a kick."""
+        self._penalty_kicked = False
+        """This robot has kicked its penalty of the shoot-out; there is one kick."""
         self._last: Command | None = None
         self._game: GameView | None = None
 
@@ -119,12 +123,13 @@ class Player(ABC):
     def _decide(self, sight: Sight) -> Command:
         """A new decision."""
         scene = self._world.take_in(sight)
+        self._penalty_kicked = self._penalty_kicked and scene.game.phase is TeamPhase.OUR_PENALTY
         order = sight.order
         self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits
         self._carry = carried(self._carry, scene)
         self.control = control_after(self.control, scene, self.briefing.robot, self._asked.roll)
         action = self._obey(scene, order) or self._by_the_rules(
-            scene, self._search(scene, order) or self.play(scene, order)
+            scene, self._special(scene, order) or self.play(scene, order)
         )
         if not scene.kicker_ready:
             action = action._replace(kick=None, pass_to=None)  # it would be refused: keep the ball, and aim
@@ -180,7 +185,9 @@ class Player(ABC):
 
     def _obey(self, scene: Scene, order: CoachOrder | None) -> Action | None:
         """What the referee or the coach leaves no choice about."""
-        phase = scene.game.phase
+        phase, mine = scene.game.phase, scene.game.robots.get(self.briefing.robot)
+        if mine is not None and mine.off_field is not None:
+            return Action("", "off the field", Drive())
         if phase in STILL:
             return Action("", "wait", Drive())
         if phase is TeamPhase.PARKING or (order and order.mode is CoachMode.PARK):
@@ -188,6 +195,29 @@ class Player(ABC):
         if order and order.mode is CoachMode.HOLD:
             return Action("", "hold", Drive())
         return None
+
+    def _special(self, scene: Scene, order: CoachOrder | None) -> Action | None:
+        """What every shipped team does alike: penalties of a shoot-out, and looking for the ball."""
+        return self._shoot_out(scene) or self._search(scene, order)
+
+    def _shoot_out(self, scene: Scene) -> Action | None:
+        """Take the penalty, keep the goal, or wait."""
+        game, limits = scene.game, self.limits
+        if game.stage is not Stage.SHOOT_OUT or game.phase not in PENALTIES:
+            return None
+        kicker = shoot_out.kicker_of(self.setup.teams[self.briefing.side].robots, self.keeper, game)
+        if game.phase is TeamPhase.OUR_PENALTY and kicker == self.briefing.robot:
+            if self._penalty_kicked:
+                return Action("kicker", "watch the penalty", Drive())
+            if not game.running:
+                return Action("kicker", "wait for START", shoot_out.wait_for_start(scene, self.setup, limits))
+            motion, kick = shoot_out.take(scene, self.setup, limits)
+            self._penalty_kicked = kick is not None and scene.kicker_ready
+            return Action("kicker", "take the penalty", motion, dribble=True, kick=kick)
+        if self.is_keeper and scene.ball is not None:
+            reach, pitch = self.setup.robot.reach, self.setup.pitch
+            return Action("keeper", "keep", keep_goal(scene.me, scene.ball.now, pitch, reach, limits), dribble=True)
+        return Action("", "wait", shoot_out.wait(scene, self.briefing.number, self.setup, limits))
 
     def _search(self, scene: Scene, order: CoachOrder | None) -> Action | None:
         """In play, when nobody has seen the ball for long: the keeper guards the goal, the others drive around."""

@@ -1,0 +1,64 @@
+"""The penalty shoot-out as both shipped teams play it: who takes it, where the others wait, one kick at a corner.
+
+The kicker waits in the centre circle until START, steps up to the ball, and kicks from the mark; everybody else but the
+goalkeepers stands beyond the halfway line, outside the centre circle.
+"""
+
+import math
+from collections.abc import Sequence
+
+from robot_agent.bodies import Limits
+from robot_agent.skills.avoid import circles, go_around
+from robot_agent.skills.kick_at import kick_at
+from robot_agent.teams.set_piece import step_in
+from robot_agent.world_model import Scene
+from schemas.command import Drive, Kick
+from schemas.game import GameView, TeamPhase
+from schemas.host import Setup
+
+WAITS = 0.7
+"""m before the halfway line where the kicker waits, in the centre circle."""
+CLEAR = 0.5
+"""m of air to the halfway line of those who do not take it."""
+SPACING = 0.9
+"""m between two of them."""
+CORNER = 0.35
+"""Share of the goal's width from its middle that the kick aims at."""
+SPEED = 0.6
+"""Share of the fastest kick: hard enough for a corner, not for any."""
+ERROR = 0.15
+"""m beside the target."""
+
+
+def kicker_of(robots: Sequence[str], keeper: str | None, game: GameView) -> str:
+    """The first robot of the team that is on the field, the goalkeeper last."""
+    there = [name for name in robots if name not in game.robots or game.robots[name].off_field is None]
+    field = [name for name in there if name != keeper]
+    return (field or there or list(robots))[0]
+
+
+def wait(scene: Scene, number: int, setup: Setup, limits: Limits) -> Drive:
+    """Beyond the halfway line, beside each other; `number` is the robot's place in its team."""
+    beyond = -1.0 if scene.game.phase is TeamPhase.OUR_PENALTY else 1.0
+    x = beyond * (setup.robot.reach + CLEAR)
+    y = setup.pitch.centre_circle_radius + number * SPACING  # on the left of both teams: each has a side of its own
+    blocked = circles(scene.others, 2.0 * setup.robot.reach + 0.1)
+    return go_around(scene.me, x, y, math.atan2(-y, -x), blocked, limits)
+
+
+def wait_for_start(scene: Scene, setup: Setup, limits: Limits) -> Drive:
+    """In the centre circle, facing the goal."""
+    blocked = circles(scene.others, 2.0 * setup.robot.reach + 0.1)
+    return go_around(scene.me, -WAITS, 0.0, 0.0, blocked, limits)
+
+
+def take(scene: Scene, setup: Setup, limits: Limits) -> tuple[Drive, Kick | None]:
+    """After START: to the ball, and a flat kick at the corner that is farther from the goalkeeper."""
+    pitch, ball = setup.pitch, scene.ball
+    if ball is None:
+        return Drive(), None
+    keeper = min(scene.opponents, key=lambda place: math.dist(place, (pitch.goal_line, 0.0)), default=(0.0, 0.0))
+    target = (pitch.goal_line, -math.copysign(CORNER * pitch.goal_width, keeper[1]))
+    if scene.holding:
+        return kick_at(scene.me, target, SPEED * setup.kicker.max_ground_speed, ERROR, limits)
+    return step_in(scene.me, (ball.now.x, ball.now.y), target, setup, limits), None
