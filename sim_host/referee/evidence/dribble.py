@@ -1,7 +1,7 @@
 """A dribble: who has the ball since when, where it was caught, how it was carried, and how it ends.
 
 It begins when a robot holds the ball, and goes on while the ball flickers out of the hold, until it is visibly
-released: as far from the hull as the rule book says, or taken, touched by somebody else, or kicked away.
+released: as far from the hull as the rule book says, whether kicked or left, or taken or touched by somebody else.
 """
 
 import math
@@ -53,14 +53,15 @@ def dribble_after(
     if before is None or is_released(match, before, snapshot):
         return None
     robot = snapshot.robots[match.roster.names.index(before.robot)]
-    return _rolling(match, _backing(match, before, contest, robot, dt), snapshot, dt)
+    backed = _backing(match, before, contest, robot, dt)
+    return _rolling(match, backed, snapshot, dt) if contest is None else backed
 
 
 def is_released(match: Match, dribble: Dribble, snapshot: Snapshot) -> bool:
     """Whether everybody can see that the robot has let the ball go."""
     if snapshot.possession == dribble.robot:
         return False
-    if snapshot.kicked is not None or any(name != dribble.robot for name in snapshot.touches):
+    if any(name != dribble.robot for name in snapshot.touches):
         return True
     index = match.roster.names.index(dribble.robot)
     robot, ball = snapshot.robots[index], snapshot.ball

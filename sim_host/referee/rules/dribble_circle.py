@@ -4,7 +4,7 @@ To go on, it must visibly release the ball and catch it again, which moves the c
 
 Section: play, dribbling.
 Measures: the straight distance from where the ball was when it was caught to where it is while the robot holds it.
-The ball is released when there is air between it and the hull, or another robot touches it, or it is kicked.
+The ball is released when there is air between it and the hull, or another robot touches it.
 Not judged: whether a release was meant as one.
 """
 

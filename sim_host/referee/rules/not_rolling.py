@@ -5,7 +5,8 @@ It may be kept from turning for a second and 30 cm, and after a wait again. The 
 Section: play, ball handling.
 Measures: time and way for which a ball in the hold moves faster than 0.1 m/s and turns at less than half the natural
 rate, by the spin that the engine gives it; both begin anew after the rule book's wait.
-Not judged: how deep the ball lies in the hull, which the robot's model fixes; a ball that stands still.
+Not judged: how deep the ball lies in the hull, which the robot's model fixes; a ball that stands still; a ball
+that an opponent is at, too, which he may keep from turning.
 """
 
 from sim_host.referee.decision import Decision

@@ -38,8 +38,8 @@ def judge(scene: Scene) -> Decision | None:
         return _no_goal(scene, crossing, side, touch, text, measured, 0.0)
     if play.won is not None and is_own_half(scene, side, play.won[0]) and not play.received:
         text = (
-            f"{side} won the ball in its own half at {at(play.won)}, and nobody received a pass in the other half; the "
-            f"last one rolled {play.rolled:.2f} m, limit {limit:.2f}"
+            f"{touch.robot} played the ball last, won in its own half at {at(play.won)}, and nobody received a pass in "
+            f"the other; the last one rolled {play.rolled:.2f} m, limit {limit:.2f}"
         )
         return _no_goal(scene, crossing, side, touch, text, play.rolled, limit)
     return None

@@ -1,6 +1,7 @@
 """A bench for the referee: a world of points that does what the referee asks and nothing else."""
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import pytest
@@ -68,16 +69,41 @@ class Bench:
         kicked: str | None = None,
         possession: str | None = None,
         silent: Sequence[str] = (),
+        motions: Mapping[str, tuple[float, float, float]] = {},
+        contacts: Sequence[tuple[str, str]] = (),
+        spin: tuple[float, float] | None = None,
     ) -> Snapshot:
-        robots = tuple(
-            RobotState(*self._turned(*self.robots[self.robot(name)]), 0.4, 0.0, 0.0, 0.0, 0.0, False)
-            for name in self.roster.names
+        """What there is to see; `motions`: robot → heading in rad, vx and vy in m/s; `contacts`: pairs of robots.
+
+        A ball without another `spin`, in rad/s, rolls.
+        """
+        turning = spin or (-self.velocity[1] / self.radius, self.velocity[0] / self.radius)
+        robots = tuple(self._seen(name, *motions.get(self.robot(name), (0.0, 0.0, 0.0))) for name in self.roster.names)
+        ball = BallState(
+            *self._turned(*self.ball[:2]), self.ball[2], *self._turned(*self.velocity[:2]), self.velocity[2]
         )
-        ball = BallState(*self._turned(*self.ball[:2]), self.ball[2], *self.velocity)
         seen = tuple(self.robot(name) for name in touches)
         kicker, holder = (None if name is None else self.robot(name) for name in (kicked, possession))
         gone = tuple(self.robot(name) for name in silent)
-        return Snapshot(self.at, self.at * self.dt, self.roster, robots, ball, holder, seen, kicked=kicker, silent=gone)
+        names = self.roster.names
+        pairs = [sorted(names.index(self.robot(name)) for name in pair) for pair in contacts]
+        return Snapshot(
+            self.at,
+            self.at * self.dt,
+            self.roster,
+            robots,
+            ball,
+            holder,
+            seen,
+            kicked=kicker,
+            silent=gone,
+            contacts=tuple((first, second) for first, second in sorted(pairs)),
+            ball_spin=self._turned(*turning),
+        )
+
+    def _seen(self, name: str, heading: float, vx: float, vy: float) -> RobotState:
+        at, velocity = self._turned(*self.robots[self.robot(name)]), self._turned(vx, vy)
+        return RobotState(*at, 0.4, heading + math.pi * self.mirrored, *velocity, 0.0, False)
 
     def tick(
         self,
