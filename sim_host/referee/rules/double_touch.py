@@ -1,8 +1,9 @@
-"""Double touch: the taker kicks, and touches the ball again before it is in play (rule book, set pieces).
+"""Double touch: the taker kicks, and touches the ball again before it is in play; the other side gets the restart.
 
-The restart goes to the other side. What is measured is how far the ball rolled freely between the kick and the second
-touch. Contacts in the first tenth of a second belong to the kick. Not judged: intent; a ball that comes back from the
-boundary or an opponent is no exception.
+Section: restarts.
+Measures: the free roll between the kick and the second touch. Contacts in the first tenth of a second belong to the
+kick.
+Not judged: intent; a ball that comes back from the boundary or an opponent is no exception.
 """
 
 from schemas.game import EventKind

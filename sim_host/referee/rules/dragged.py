@@ -1,8 +1,11 @@
-"""Dragged ball: at a restart, the taker moves the ball with its body instead of kicking it (rule book, set pieces).
+"""Dragged ball: at a restart, the taker moves the ball with its body instead of kicking it.
 
-The kick is to be instantaneous: before it, a ball that the taker touches may move as far as the rule book says, at a
-penalty 20 cm (2019). The restart goes to the other side. What is measured is the way from the spot to the ball while
-the taker touches it. Not judged: how the dribbler turns the ball on its spot.
+The kick is to be instantaneous: before it, a ball that the taker touches may move as far as the rule book says. The
+restart goes to the other side.
+
+Section: restarts; 20 cm at a penalty since 2019, ours: at every restart.
+Measures: the way from the spot to the ball while the taker touches it, before its kick.
+Not judged: how the dribbler turns the ball on its spot.
 """
 
 from schemas.game import EventKind

@@ -1,8 +1,11 @@
-"""Early touch: somebody else than the taker touches the ball before it is in play (rule book, set pieces).
+"""Early touch: somebody else than the taker touches the ball before it is in play.
 
-A teammate of the taker gives the restart to the other side; an opponent has it repeated. What is measured is how far
-the ball had rolled freely until then. Not judged: whether the opponent could have got out of the way; and nothing
-after the time limit, when anybody may take the ball.
+A teammate of the taker gives the restart to the other side; an opponent has it repeated.
+
+Section: restarts.
+Measures: who touches the ball, and how far it had rolled freely since the taker's touch; nothing after the time limit,
+when anybody may take it.
+Not judged: whether the opponent could have got out of the way.
 """
 
 from schemas.game import EventKind, Phase

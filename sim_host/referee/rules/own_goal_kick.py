@@ -24,7 +24,8 @@ def judge(scene: Scene) -> Decision | None:
         return None
     scorers = next(side for side in Side if scene.state.attack(side) * crossing.x > 0)
     taker, asked = piece.restart.side, scene.match.book.scoring.robots_touched
-    if taker is not scorers.opponent or len(piece.touched) != 1 or piece.touchers(scene.match.roster, taker) >= asked:
+    alone = len(piece.touched) == piece.touchers(scene.match.roster, taker) == 1 if taker is not None else False
+    if taker is not scorers.opponent or not alone or asked == 1:
         return None
     place = (crossing.x, crossing.y)
     return Decision(

@@ -1,11 +1,13 @@
-"""Penalty shoot-out: one attempt ends with a goal or without one (rule book, play-offs).
+"""Penalty shoot-out: one attempt ends with a goal or without one.
 
 The kicker starts in the centre circle, catches the ball, and from then on moves it toward the goal alone; it kicks
-once, before the ball enters the penalty area; a goal falls within 30 s. The attempt is over without a goal when the
-ball leaves the field, enters the penalty area without a kick, moves away from the goal in the kicker's hold, is touched
-by the kicker's side again after its kick, is held by the other side, lies still after the kick, or when the time is up.
-What is measured is the place of the ball, the kick, touches after it, and the time since START. Not judged: what
-robots do that wait behind the halfway line.
+once, before the ball enters the penalty area. The attempt is over without a goal when the ball leaves the field, enters
+the penalty area without a kick, moves away from the goal in the kicker's hold, is touched by the kicker's side again
+after its kick, is held by the other side, lies still after the kick, or when the time is up.
+
+Section: match, play-offs; penalty shoot-out.
+Measures: the place of the ball, the kick, touches after it, and the time since START.
+Not judged: what robots do that wait behind the halfway line, after START.
 """
 
 from schemas.game import EventKind

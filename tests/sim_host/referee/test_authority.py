@@ -1,0 +1,168 @@
+"""Who decides: automatic, manual and mixed officiating, and undo."""
+
+import dataclasses
+
+import pytest
+
+from schemas.game import EventKind, Mode, Phase, Score
+from schemas.side import Side
+
+CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
+
+
+def out(bench):
+    """In play, the ball crosses the touch line; it stays there."""
+    touch = bench.pitch.touch_line
+    return bench.crossing((1.0, touch - 0.1), (1.0, touch + 0.3), ["cyan2"])
+
+
+def begun(bench):
+    """The match is started by word and the kick-off, too."""
+    bench.ask("start")
+    bench.tick()
+    bench.ask("start")
+    return bench
+
+
+@pytest.fixture
+def manual(new_bench):
+    return begun(new_bench(mode=Mode.MANUAL, automatic=False, duration=60.0))
+
+
+@pytest.fixture
+def mixed(new_bench):
+    return new_bench(mode=Mode.MIXED, proposal=2.0)
+
+
+def scored(bench):
+    line = bench.pitch.goal_line
+    return bench.crossing((line - 0.1, 0.0), (line + 0.3, 0.0), ["cyan3"])
+
+
+def test_in_manual_officiating_nothing_is_judged_but_the_clock(manual):
+    assert scored(manual).events == () and manual.state.phase is Phase.PLAY
+    manual.run(3.0)
+    assert manual.state.score == Score() and manual.state.running
+    manual.until(lambda state: state.phase is Phase.PARKING)
+    assert manual.state.clock == pytest.approx(30.0)
+
+
+def test_in_manual_officiating_the_ball_is_placed_and_start_is_for_people_to_give(manual):
+    manual.playing()
+    manual.ask("goal", CYAN)
+    manual.until(lambda state: state.phase is Phase.KICK_OFF)
+    assert manual.state.score == Score(cyan=1) and manual.ball[:2] == (0.0, 0.0)
+    manual.run(20.0)
+    assert not manual.state.running
+    manual.ask("start")
+    assert manual.state.running
+
+
+def test_in_mixed_officiating_a_decision_is_proposed_and_carried_out_in_time(mixed):
+    ruling = out(mixed)
+    (event,) = ruling.events
+    assert (event.kind, event.rule) == (EventKind.PROPOSAL, "touch_line") and mixed.state.running
+    assert "touch_line" in mixed.state.game_state(1, 0.0).proposal
+    mixed.run(1.9)
+    assert mixed.state.running
+    mixed.run(0.12)
+    assert mixed.state.pending.phase is Phase.THROW_IN and mixed.state.pending.side is MAGENTA
+    assert mixed.state.proposal is None
+
+
+def test_a_proposal_that_is_confirmed_is_carried_out_at_once(mixed):
+    scored(mixed)
+    assert mixed.state.score == Score()
+    mixed.ask("confirm")
+    assert mixed.state.score == Score(cyan=1) and mixed.state.pending.phase is Phase.KICK_OFF
+
+
+def test_a_proposal_that_is_overruled_is_not_carried_out(mixed):
+    scored(mixed)
+    mixed.ask("overrule")
+    assert mixed.state.proposal is None
+    mixed.ball = (1.0, 0.0, mixed.radius)
+    mixed.run(5.0)
+    assert mixed.state.score == Score() and mixed.state.phase is Phase.PLAY
+
+
+def test_people_who_stop_the_game_settle_what_was_proposed(mixed):
+    out(mixed)
+    mixed.ask("free_kick", CYAN)
+    mixed.run(3.0)
+    assert mixed.state.proposal is None and mixed.state.phase is Phase.FREE_KICK
+
+
+@pytest.mark.parametrize("name", ["confirm", "overrule"])
+def test_where_nothing_is_proposed_there_is_nothing_to_say(mixed, name):
+    mixed.playing()
+    (reply,) = mixed.ask(name).replies
+    assert not reply.accepted and "nothing is proposed" in reply.reason
+
+
+def test_the_end_of_a_half_is_no_proposal(new_bench):
+    bench = new_bench(mode=Mode.MIXED, proposal=2.0, duration=20.0)
+    bench.playing()
+    bench.until(lambda state: state.phase is Phase.PARKING)
+    assert bench.state.clock == pytest.approx(10.0)
+
+
+def test_undo_of_a_goal_brings_the_score_back_and_drops_the_ball_where_play_was(bench):
+    scored(bench)
+    clock = bench.state.clock
+    bench.run(1.0)
+    ruling = bench.ask("undo")
+    assert ruling.replies[0].accepted and bench.state.score == Score()
+    assert bench.state.clock == pytest.approx(clock + 1.02)
+    assert bench.state.phase is Phase.STOPPED and bench.state.pending.phase is Phase.DROP_BALL
+    bench.until(lambda state: state.phase is Phase.PLAY)
+
+
+def test_one_decision_can_be_undone_and_not_the_one_before(bench):
+    scored(bench)
+    bench.ask("undo")
+    (reply,) = bench.ask("undo").replies
+    assert not reply.accepted and "no decision" in reply.reason
+
+
+def test_undo_of_a_restart_that_was_ordered_signals_the_one_before_again(bench):
+    bench.until(lambda state: state.phase is Phase.KICK_OFF)
+    bench.ask("free_kick", MAGENTA, (1.0, 1.0))
+    bench.until(lambda state: state.phase is Phase.FREE_KICK)
+    bench.ask("undo")
+    assert (bench.state.phase, bench.state.side, bench.ball[:2]) == (Phase.KICK_OFF, CYAN, (0.0, 0.0))
+
+
+def test_undo_of_a_red_card_sets_the_robot_on_the_field_again(bench):
+    bench.playing()
+    bench.ask("stop")
+    bench.ask("red_card", robot="magenta1")
+    bench.ask("undo")
+    assert bench.state.people.away == {} and bench.state.people.records == {}
+    assert abs(bench.robots["magenta1"][1]) <= bench.pitch.touch_line
+    assert bench.state.phase is Phase.STOPPED
+
+
+def test_a_half_that_was_ended_by_mistake_goes_on_and_one_whose_time_is_up_does_not(new_bench):
+    bench = new_bench(duration=60.0)
+    bench.playing()
+    bench.ask("end_half")
+    assert bench.ask("undo").replies[0].accepted and bench.state.half == 1
+    bench.until(lambda state: state.phase is Phase.PARKING)
+    (reply,) = bench.ask("undo").replies
+    assert not reply.accepted and "time is up" in reply.reason
+
+
+def test_what_was_decided_in_the_other_half_is_settled(bench):
+    scored(bench)
+    bench.ask("end_half")
+    bench.until(lambda state: state.half == 2)
+    assert not bench.ask("undo").replies[0].accepted
+
+
+def test_a_state_remembers_one_state_before_and_no_chain(bench):
+    bench.playing()
+    for _ in range(5):
+        bench.ask("goal", CYAN)
+    assert bench.state.before.before is None
+    assert dataclasses.replace(bench.state, before=None) != bench.state
