@@ -1,4 +1,9 @@
-"""End of a half: its playing time is up."""
+"""End of a half: its playing time is up.
+
+Section: match.
+Measures: the game clock, which runs from the first START of a half on, also through stoppages.
+Not judged: lost time, which nobody adds.
+"""
 
 from schemas.game import EventKind
 from sim_host.referee.decision import Decision

@@ -1,4 +1,11 @@
-"""Lost ball: it lies outside the field or under the ground, and no line that it crossed explains it."""
+"""Lost ball: it lies outside the field or under the ground, and no line that it crossed explains it.
+
+It is dropped at the nearest legal place.
+
+Section: none; ours, against what only a simulation can do to a ball.
+Measures: the place of the ball's centre.
+Not judged: how it came there.
+"""
 
 from schemas.game import EventKind, Phase
 from sim_host.referee.decision import Decision

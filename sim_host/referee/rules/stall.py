@@ -1,4 +1,9 @@
-"""Stalled ball: nobody has moved the ball in play for long, so it is dropped."""
+"""Stalled ball: nobody has moved the ball in play for long, so it is dropped.
+
+Section: play, pushing: stand-off; ours where no robot is near.
+Measures: how long the ball in play has been slower than the rule book's speed.
+Not judged: why nobody plays it.
+"""
 
 from schemas.game import EventKind, Phase
 from sim_host.referee.decision import Decision

@@ -1,4 +1,10 @@
-"""Ball over the touch line: a throw-in for the opponents of the robot that touched it last."""
+"""Ball over the touch line: a throw-in for the opponents of the robot that touched it last.
+
+Section: restarts, throw-in.
+Measures: the place where the whole ball had passed the line, in the air as on the ground, on the straight way between
+two ticks; and who touched it last. A ball that nobody touched since START is dropped.
+Not judged: which of two robots meant to play the ball that both touched in the same step.
+"""
 
 from schemas.game import Phase
 from sim_host.referee.decision import Decision

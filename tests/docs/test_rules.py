@@ -1,0 +1,47 @@
+"""The page on the rules is what the rules and rule books say now, and says of each what it has to say."""
+
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from schemas.rule_book import SECTIONS, SHIPPED, load_rule_book
+from sim_host.referee.document import BY_HAND, LABELS, page, said_of
+from sim_host.referee.rules import RULES, SHOOT_OUT
+
+TEXT = (Path(__file__).parents[2] / "docs" / "rules.md").read_text("utf-8")
+ALL = (*RULES, *SHOOT_OUT)
+
+
+def test_the_page_is_fresh():
+    assert page() == TEXT, "run: .venv/bin/python -m sim_host.referee.document > docs/rules.md"
+
+
+@pytest.mark.parametrize("rule", ALL, ids=lambda rule: rule.name)
+def test_every_rule_says_its_section_what_it_measures_and_what_it_does_not_judge(rule):
+    text, labelled = said_of(rule)
+    assert text and tuple(labelled) == LABELS and all(labelled.values())
+    assert f"### `{rule.name}`" in TEXT and labelled["Measures"] in TEXT
+
+
+@pytest.mark.parametrize("rule", ALL, ids=lambda rule: rule.name)
+def test_every_rule_has_the_name_of_its_file_and_numbers_that_exist(rule):
+    assert rule.judge.__module__.rsplit(".", 1)[1] == rule.name
+    for number in rule.numbers:
+        section, field = number.split(".")
+        assert field in {one.name for one in fields(SECTIONS[section])}
+
+
+def test_every_foul_that_a_book_can_switch_belongs_to_a_rule():
+    named = {number for rule in ALL for number in rule.numbers}
+    assert {f"fouls.{one.name}" for one in fields(SECTIONS["fouls"])} <= named
+
+
+@pytest.mark.parametrize("book", SHIPPED)
+def test_every_number_of_every_book_stands_on_the_page_with_its_origin(book):
+    for number, origin in load_rule_book(book).origins.items():
+        assert origin in TEXT, number
+
+
+def test_what_people_decide_is_listed():
+    assert all(f"**{matter}.**" in TEXT for matter, _ in BY_HAND)
