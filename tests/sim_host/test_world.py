@@ -239,3 +239,21 @@ def test_a_heavier_ball_or_another_size_is_a_matter_of_the_profile() -> None:
         rig.world.close()
     assert ends[0] > 2 * ends[1]
     assert isinstance(rig.world.snapshot().ball, BallState)
+
+
+@pytest.mark.parametrize(("apart", "touch"), [(0.01, True), (0.2, False)])
+def test_the_world_says_which_robots_touch_each_other(rig: Rig, apart: float, touch: bool) -> None:
+    """Pairs of places in the roster, the first one first; a robot that presses against another touches it."""
+    away = rig.profile.robot.radius + 0.5 * apart
+    rig.place(cyan2=(away, 0, math.pi), magenta1=(-away, 0, 0), ball=(0, 4, 0))
+    told = {"cyan2": drive(vx=0.3 * touch), "magenta1": drive(vx=0.3 * touch)}
+    assert rig.run(0.5, **told).contacts == (((1, 2),) if touch else ())
+
+
+def test_the_snapshot_has_the_spin_of_a_ball_that_rolls(rig: Rig) -> None:
+    """A ball that rolls turns at its speed over its radius, about the axis to the left of its way."""
+    radius = rig.profile.ball.radius
+    rig.launch(1.2, 0.5, 0.0, (-0.5 / radius, 1.2 / radius, 0.0))
+    snapshot = rig.tick()
+    ball = snapshot.ball
+    assert snapshot.ball_spin == approx((-ball.vy / radius, ball.vx / radius), rel=0.02)

@@ -1,0 +1,113 @@
+"""What a robot knows of its own catches, ways and side's possession, against what the rules in play ask."""
+
+import math
+
+import pytest
+
+from robot_agent.bodies import Ball, Body
+from robot_agent.contract import Briefing
+from robot_agent.fair_play import HALFWAY, Asked, Control, carried, control_after
+from robot_agent.teams.simple import Simple
+from robot_agent.world_model import Mate, Scene, SeenBall
+from schemas.game import GameView, TeamPhase
+from schemas.host import Setup
+from schemas.match_config import MatchConfig
+from schemas.profile import load_profile
+from schemas.rule_book import load_rule_book
+
+AT, NOBODYS = Body(-3.0, 0.0, 0.0), Control()
+PASS = 1.0
+"""m of free roll."""
+
+
+@pytest.fixture(scope="session")
+def league():
+    return Setup.of(MatchConfig(), load_profile("msl"), load_rule_book("msl"))
+
+
+def scene(ball=(0.0, 0.0), me=AT, holding=False, mates=(), opponents=(), phase=TeamPhase.PLAY):
+    game = GameView(phase=phase, running=True, clock=0.0, our_score=0, their_score=0)
+    found = {f"cyan{number}": Mate(Body(x, y, 0.0), "", "", None) for number, x, y in mates}
+    return Scene(1, 0.02, me, holding, SeenBall(Ball(*ball), 0.0), found, list(opponents), game)
+
+
+def after(*scenes, before=NOBODYS):
+    for one in scenes:
+        before = control_after(before, one, "cyan2", PASS)
+    return before
+
+
+def test_a_friendly_asks_nothing_but_to_keep_out_of_goal_areas(setup, league):
+    assert Asked.of(setup) == Asked(math.inf, math.inf, True, False, 1.0)
+    assert Asked.of(league) == Asked(3.0, 1.0, True, True, 1.0)
+
+
+def test_a_setup_that_is_older_than_these_rules_asks_nothing(league):
+    old = league.model_copy(update={"handling": None, "scoring": None, "fouls": None})
+    assert Asked.of(old) == Asked(math.inf, math.inf, False, False, 0.0)
+
+
+def test_a_carry_knows_its_way_from_the_catch_and_the_way_backward():
+    carry = carried(None, scene((0.0, 0.0), holding=True))
+    back = Body(0.0, 0.0, 0.0, vx=-1.0)
+    for x in (-0.5, -1.0):
+        carry = carried(carry, scene((x, 0.0), me=back, holding=True))
+    assert carry.caught == (0.0, 0.0) and carry.way == 1.0 and carry.backward == pytest.approx(0.04)
+    assert carried(carry, scene((0.0, 0.0))) is None
+
+
+@pytest.mark.parametrize(("x", "may_score"), [(HALFWAY + 0.1, True), (-1.0, False)])
+def test_a_ball_won_in_the_other_half_may_be_shot_at_once(x, may_score):
+    assert after(scene((x, 0.0), holding=True)).may_score is may_score
+
+
+@pytest.mark.parametrize(("receives_at", "may_score"), [(2.0, True), (1.2, False), (-3.0, False)])
+def test_a_ball_won_in_the_own_half_may_be_shot_after_a_pass_that_rolled_and_was_received_ahead(receives_at, may_score):
+    won, kicked = scene((-1.0, 0.0), holding=True), scene((0.0, 0.0), holding=True)
+    received = scene((receives_at, 0.0), mates=[(3, receives_at + 0.3, 0.0)])
+    assert after(won, kicked, received).may_score is may_score
+
+
+def test_an_opponent_at_the_ball_alone_has_it():
+    assert after(scene((2.0, 0.0), holding=True), scene((2.0, 0.0), opponents=[(2.3, 0.0)])).ours is False
+
+
+def test_in_a_duel_the_ball_stays_with_whom_it_was():
+    duel = scene((2.0, 0.0), mates=[(3, 2.3, 0.0)], opponents=[(1.7, 0.0)])
+    assert after(duel, before=Control(False)).ours is False
+    assert after(scene((2.0, 0.0), holding=True), duel).ours is True
+
+
+@pytest.mark.parametrize(("phase", "ours"), [(TeamPhase.OUR_THROW_IN, True), (TeamPhase.THEIR_THROW_IN, False)])
+def test_a_restart_belongs_to_its_taker(phase, ours):
+    assert after(scene((2.0, 0.0), phase=phase)).ours is ours
+
+
+def play(robot, sight_of, way, **seen):
+    """Carry the ball so far at 1.5 m/s; the last command."""
+    for tick in range(round(way / 0.03) + 1):
+        x = -4.0 + 0.03 * tick
+        at = (x, 0.0, 0.0)
+        command = robot.act(sight_of(tick, at=at, velocity=(1.5, 0.0, 0.0), ball=(x + 0.35, 0.0), holding=True, **seen))
+    return command
+
+
+@pytest.mark.parametrize(("way", "lets_go"), [(1.9, False), (2.1, True)])
+def test_a_metre_before_the_circle_ends_the_ball_is_let_go(league, sight_of, way, lets_go):
+    robot = Simple(Briefing.of("cyan2", league))
+    command = play(robot, sight_of, way)
+    assert (command.kick is not None) is lets_go
+    if lets_go:
+        assert 1.5 < command.kick.speed < 4.0
+
+
+def test_a_robot_with_no_room_ahead_stops_inside_the_circle(league, sight_of):
+    robot = Simple(Briefing.of("cyan2", league))
+    command = play(robot, sight_of, 2.5, obstacles=((-0.3, 0.0),))
+    assert command.kick is None and (command.drive.vx, command.drive.vy) == (0.0, 0.0)
+
+
+def test_in_a_friendly_nobody_lets_go(setup, sight_of):
+    robot = Simple(Briefing.of("cyan2", setup))
+    command = play(robot, sight_of, 2.5)
+    assert command.kick is None and command.drive.vx > 0.5
