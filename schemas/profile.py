@@ -40,7 +40,9 @@ class Field:
     length: Annotated[float, Quantity("m", "goal line to goal line, outer edges, along x", 4, 120)]
     width: Annotated[float, Quantity("m", "touch line to touch line, outer edges, along y", 3, 90)]
     border: Annotated[float, Quantity("m", "ground outside the lines, up to the boundary", 0.3, 10)]
-    boundary_height: Annotated[float, Quantity("m", "height of the boundary around the border", 0.05, 10)]
+    boundary_height: Annotated[
+        float, Quantity("m", "height of the boundary around the border, and of the net that stands on it", 0.05, 200)
+    ]
     goal_width: Annotated[float, Quantity("m", "between the inner faces of the posts", 0.5, 8)]
     goal_height: Annotated[float, Quantity("m", "ground to the lower face of the bar", 0.3, 3)]
     goal_depth: Annotated[float, Quantity("m", "goal line to the back of the net box", 0.3, 3)]

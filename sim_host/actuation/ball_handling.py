@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from schemas.host import AppliedInput
 from schemas.profile import Profile
 from schemas.robot_model import RobotModel
+from sim_host.actuation.air import Vector
 from sim_host.actuation.carrying import WAYS, Hold
 from sim_host.actuation.drive import FieldDrive
 from sim_host.actuation.free_ball import FreeBall
@@ -18,6 +19,8 @@ from sim_host.world.engine import BallContacts, Engine
 
 _PRESSED = 0.005
 """m; a held ball that is pressed this deep into another body is lost: it is never carried through one."""
+_OVERRUN = 0.01
+"""m; a ball this much nearer than the gap is in the hull of its holder or kicker, who pushes it from then on."""
 
 
 @dataclass(slots=True)
@@ -94,6 +97,8 @@ class BallHandling:
     def before_step(self, drives: Sequence[FieldDrive]) -> None:
         """Move the ball as its holder does, or as ground and air do."""
         position, _, velocity, spin = self._engine.ball_now()
+        if self.holding is not None and self._is_overrun(self.holding, position):
+            self.hold(None)
         if self.holding is not None:
             self._carry(self.holding, drives[self.holding], BallState(*position, *velocity))
             if self._dribbles[self.holding].method != "force":
@@ -149,10 +154,17 @@ class BallHandling:
     def _leave(self, kicker: int) -> None:
         """Let a kicked ball collide with its kicker again as soon as it has left the hull."""
         robot, hull = self._engine.robot_now(kicker), self._models[kicker].body
-        (x, y, z), *_ = self._engine.ball_now()
+        position, *_ = self._engine.ball_now()
+        x, y, z = position
         touching = hull.reach + self._profile.ball.radius
-        if math.hypot(x - robot.x, y - robot.y) > touching or z > hull.height:
+        has_left = math.hypot(x - robot.x, y - robot.y) > touching or z > hull.height
+        if has_left or self._is_overrun(kicker, position):
             self.hold(None)
+
+    def _is_overrun(self, place: int, ball: Vector) -> bool:
+        """Whether another body, or its own way, has brought the ball into the hull of who holds or kicked it."""
+        robot, gap = self._engine.robot_now(place), self._dribbles[place].gap
+        return math.hypot(ball[0] - robot.x, ball[1] - robot.y) < gap - _OVERRUN
 
     def _carry(self, place: int, drive: FieldDrive, ball: BallState) -> None:
         """Move the ball with its holder for one step."""

@@ -118,6 +118,8 @@ class World:
             if pairs or fixed:
                 engine.bring_together(pairs, fixed, drives)
             engine.drive(drives)
+            if ball.holding is None:
+                engine.bring_ball()
             engine.step()
             ball.after_step(report)
         engine.read()
