@@ -1,0 +1,189 @@
+"""Runs of the host's world that docs/physics.md shows: each function plays one and returns its numbers.
+
+Nothing here is computed from a formula: bodies are set down, told something, and read back tick by tick.
+"""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from schemas.command import Drive, Kick, KickMode
+from schemas.host import AppliedInput, Placement
+from schemas.profile import Profile, load_profile
+from schemas.robot_model import RobotModel
+from schemas.side import Side
+from sim_host.sensing.perception import Perception
+from sim_host.sensing.streams import Streams
+from sim_host.snapshot import Roster, Snapshot
+from sim_host.world.world import World
+
+Floats = NDArray[np.float64]
+Told = Callable[[float], Mapping[str, AppliedInput]]
+"""Time in s → what robots are told; who is not named rests."""
+Pose = tuple[float, float, float]
+"""x, y in m, heading in rad."""
+NAMES = ("cyan1", "magenta1")
+DRIVES = {"velocity": "msl", "omni, four wheels": "omni", "omni, three wheels": "omni3"}
+"""What a drive is called in a plot → the profile that has it."""
+METHODS = ("pose", "velocity", "force")
+
+
+class Run(NamedTuple):
+    """One run: times, s, and the snapshot at each."""
+
+    times: Floats
+    snapshots: list[Snapshot]
+
+    def robot(self, name: str, *fields: str) -> Floats:
+        """Fields of a robot's states, one row a tick."""
+        place = NAMES.index(name)
+        return np.array([[getattr(one.robots[place], field) for field in fields] for one in self.snapshots])
+
+    def ball(self, *fields: str) -> Floats:
+        """Fields of the ball's states, one row a tick."""
+        return np.array([[getattr(one.ball, field) for field in fields] for one in self.snapshots])
+
+
+def told(
+    vx: float = 0.0, vy: float = 0.0, omega: float = 0.0, dribble: bool = False, kick: Kick | None = None
+) -> AppliedInput:
+    """An input, in the body frame: m/s, rad/s."""
+    return AppliedInput(Drive(vx=vx, vy=vy, omega=omega), dribble, kick)
+
+
+def play(
+    profile: Profile,
+    bodies: Mapping[str, Pose],
+    tell: Told,
+    seconds: float,
+    models: Sequence[RobotModel] | None = None,
+    launch: tuple[float, float, float] | None = None,
+    height: float = 0.0,
+) -> Run:
+    """Two robots and the ball from where they are set down; robots that are not named stand in two corners.
+
+    `launch` sets the ball going at m/s, without spin; `height` lifts it, m.
+    """
+    models = tuple(models or (RobotModel.standard(profile),) * len(NAMES))
+    world = World(profile, Roster(NAMES, tuple(Side), {Side.CYAN: NAMES[0], Side.MAGENTA: NAMES[1]}, models))
+    x, y = profile.field.goal_line - 1.0, profile.field.touch_line - 1.0
+    aside = {"cyan1": (-x, y, 0.0), "magenta1": (-x, -y, 0.0)}
+    poses = aside | dict(bodies)
+    placements = [Placement(body=name, x=x, y=y, heading=heading) for name, (x, y, heading) in poses.items()]
+    if launch is not None:
+        (vx, vy, vz), z = launch, profile.ball.radius + height
+        placements = [
+            at.model_copy(update={"vx": vx, "vy": vy, "vz": vz, "z": z}) if at.body == "ball" else at
+            for at in placements
+        ]
+    world.place(placements)
+    rest = dict.fromkeys(NAMES, told())
+    snapshots = [world.snapshot()]
+    while snapshots[-1].time < seconds:
+        snapshots.append(world.advance({**rest, **tell(snapshots[-1].time)}).snapshot)
+    world.close()
+    return Run(np.array([one.time for one in snapshots]), snapshots)
+
+
+def nothing(_time: float) -> Mapping[str, AppliedInput]:
+    """Everybody rests."""
+    return {}
+
+
+def step_response(profile_name: str, speed: float = 3.0) -> Run:
+    """From rest to `speed` m/s along the kick axis, and back to rest after 2 s."""
+    return play(
+        load_profile(profile_name),
+        {"cyan1": (-6.0, 0.0, 0.0)},
+        lambda time: {"cyan1": told(speed if time < 2.0 else 0.0)},
+        3.5,
+    )
+
+
+def top_speeds(profile_name: str, directions: int) -> tuple[Floats, Floats]:
+    """Directions in the body frame, rad, and the top speed in each of a robot that its wheels alone limit, m/s."""
+    profile = load_profile(profile_name)
+    profile = replace(profile, drive=replace(profile.drive, max_speed=20.0))
+    angles, speeds = np.linspace(0.0, 2.0 * math.pi, directions + 1), []
+    for angle in angles:
+        demand = {"cyan1": told(20.0 * math.cos(angle), 20.0 * math.sin(angle))}
+        run = play(profile, {"cyan1": (-8.0, 0.0, -angle)}, lambda _time, demand=demand: demand, 3.4)
+        speeds.append(math.hypot(*run.robot("cyan1", "vx", "vy")[-1]))
+    return angles, np.array(speeds)
+
+
+def ball_roll(spin_free: bool, speed: float = 4.0) -> Run:
+    """A ball that sets out at `speed` m/s along x: without spin, or kicked so that it rolls."""
+    profile = load_profile("msl")
+    if spin_free:
+        return play(profile, {"ball": (-8.0, 0.0, 0.0)}, nothing, 8.0, launch=(speed, 0.0, 0.0))
+    kick = Kick(mode=KickMode.GROUND, speed=speed)
+    bodies = {"cyan1": (-8.0, 0.0, 0.0), "ball": (-8.0 + profile.dribble.gap, 0.0, 0.0)}
+    return play(profile, bodies, lambda time: {"cyan1": told(kick=kick)} if time == 0.0 else {}, 8.0)
+
+
+def bounce(height: float = 1.0) -> Run:
+    """A ball that is let go with `height` m of air below it."""
+    return play(load_profile("msl"), {"ball": (0.0, 0.0, 0.0)}, nothing, 2.5, launch=(0.0, 0.0, 0.0), height=height)
+
+
+def kick(mode: KickMode, speed: float, distance: float, profile: Profile, seconds: float = 2.5) -> Run:
+    """A kick along x from a robot whose ball lies `distance` m before the goal plane."""
+    x, gap = profile.field.goal_line - distance, profile.dribble.gap
+    told_once = told(kick=Kick(mode=mode, speed=speed))
+    bodies = {"cyan1": (x - gap, 0.0, 0.0), "ball": (x, 0.0, 0.0)}
+    return play(profile, bodies, lambda time: {"cyan1": told_once} if time == 0.0 else {}, seconds)
+
+
+def without_air(profile: Profile) -> Profile:
+    """The same profile in a vacuum."""
+    return replace(profile, ball=replace(profile.ball, air_density=0.0))
+
+
+def duel(change: Mapping[str, Mapping[str, float]], seconds: float = 3.0) -> Run:
+    """Two robots on wheels push head-on, each told 2 m/s; magenta's is changed: section → number → factor."""
+    profile = load_profile("omni")
+    standard = other = RobotModel.standard(profile)
+    for section, factors in change.items():
+        numbers = getattr(other, section)
+        scaled = {name: getattr(numbers, name) * factor for name, factor in factors.items()}
+        other = replace(other, **{section: replace(numbers, **scaled)})
+    apart = profile.robot.radius + 0.05
+    bodies = {"cyan1": (-apart, 0.0, 0.0), "magenta1": (apart, 0.0, math.pi), "ball": (0.0, 5.0, 0.0)}
+    push = {"cyan1": told(2.0), "magenta1": told(2.0)}
+    return play(profile, bodies, lambda _time: push, seconds, models=(standard, other))
+
+
+def dribble(method: str, speed: float = 2.0, turn_gain: float = 1.5, seconds: float = 4.0) -> Run:
+    """A robot at `speed` m/s holds the ball and turns ever faster: after 1 s, by `turn_gain` rad/s each second."""
+    profile = load_profile("msl")
+    profile = replace(profile, dribble=replace(profile.dribble, method=method))
+
+    def tell(time: float) -> Mapping[str, AppliedInput]:
+        return {"cyan1": told(speed, omega=turn_gain * max(0.0, time - 1.0), dribble=True)}
+
+    bodies = {"cyan1": (-4.0, -2.0, 0.0), "ball": (-4.0 + profile.dribble.gap, -2.0, 0.0)}
+    return play(profile, bodies, tell, seconds)
+
+
+def errors(distance: float, pictures: int) -> Floats:
+    """Errors of a ball seen `distance` m away, along the line of sight and across it, (pictures, 2), m."""
+    profile = load_profile("msl")
+    still = replace(profile.sensing, drift_position=0.0, drift_heading=0.0, ball_dropout=0.0, latency=0.0)
+    roster = Roster(NAMES[:1], (Side.CYAN,), {Side.CYAN: NAMES[0]}, (RobotModel.standard(profile),))
+    world = World(profile, roster)
+    world.place([Placement(body="cyan1", x=0.0, y=0.0), Placement(body="ball", x=distance, y=0.0)])
+    snapshot, perception = world.snapshot(), Perception(still, roster, Streams(7), profile.time.tick)
+    seen = []
+    for tick in range(10**9):
+        (percept,) = perception.at(replace(snapshot, tick=tick), 1)
+        if percept.ball_age == 0.0 and percept.visible and percept.ball is not None:
+            seen.append((percept.ball[0] - distance, percept.ball[1]))
+        if len(seen) == pictures:
+            break
+    world.close()
+    return np.array(seen)
