@@ -7,12 +7,13 @@ world, so that robots meet ball, posts, walls and each other far more often than
 
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from random import Random
 from typing import NamedTuple
 
 import pybullet
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import HealthCheck, Phase, example, given, settings
 from hypothesis import strategies as st
 
 from schemas.command import Drive, Kick, KickMode
@@ -35,6 +36,7 @@ LONGER = int(os.environ.get("TOUCHLINE_RANDOM_PLAYS", "0"))
 DEEP = 0.02
 """m; how far two bodies may be in each other."""
 ERRAND_TICKS = 40
+PLAYS = 20
 FASTEST_KICK = 40.0
 """m/s that a command may ask for."""
 RECENT = 6
@@ -66,26 +68,29 @@ class Play(NamedTuple):
     errands: list[list[Errand]]
 
 
-errands = st.builds(
-    Errand,
-    name=st.sampled_from(("ball", "ball", "ball", "ram", "place", "blind", "rest")),
-    to=st.integers(0, 9),
-    vx=st.floats(-20, 20),
-    vy=st.floats(-20, 20),
-    omega=st.floats(-50, 50),
-    dribble=st.booleans(),
-    kick=st.sampled_from(list(KickMode)),
-    speed=st.floats(0.1, 40),
-)
-plays = st.builds(
-    Play,
-    profile=st.sampled_from(list(PROFILES)),
-    motion=st.sampled_from(MOTIONS),
-    methods=st.tuples(*[st.sampled_from(METHODS)] * len(NAMES)),
-    start=st.sampled_from(("centre", "goal", "corner", "apart")),
-    ball=st.tuples(st.floats(-12, 12), st.floats(-12, 12), st.floats(-2, 8)),
-    errands=st.lists(st.lists(errands, min_size=len(NAMES), max_size=len(NAMES)), min_size=4, max_size=5),
-)
+def drawn(random: Random) -> Play:
+    """A play by lot."""
+    return Play(
+        profile=random.choice(list(PROFILES)),
+        motion=random.choice(MOTIONS),
+        methods=tuple(random.choice(METHODS) for _ in NAMES),
+        start=random.choice(("centre", "goal", "corner", "apart")),
+        ball=(random.uniform(-12, 12), random.uniform(-12, 12), random.uniform(-2, 8)),
+        errands=[[an_errand(random) for _ in NAMES] for _ in range(4)],
+    )
+
+
+def an_errand(random: Random) -> Errand:
+    return Errand(
+        name=random.choice(("ball", "ball", "ball", "ram", "place", "blind", "rest")),
+        to=random.randrange(10),
+        vx=random.uniform(-20, 20),
+        vy=random.uniform(-20, 20),
+        omega=random.uniform(-50, 50),
+        dribble=random.random() < 0.5,
+        kick=random.choice(list(KickMode)),
+        speed=random.uniform(0.1, 40),
+    )
 
 
 @dataclass
@@ -250,7 +255,8 @@ class Watch:
             gain = now[-1] - before[-1]
             assert gain <= 1e-3 + brought_on, f"tick {after.tick}: the ball gains {gain} J"
         work = sum(
-            self._work(robot, model) for robot, model in zip(self.before.robots, self.roster.models, strict=True)
+            self._work(robot, model, in_touch=bool(after.contacts or self.before.contacts or after.touches))
+            for robot, model in zip(self.before.robots, self.roster.models, strict=True)
         )
         gained = sum(now) - sum(before)
         assert gained <= work + self._handed(after), f"tick {after.tick}: {gained} J out of nothing"
@@ -260,15 +266,23 @@ class Watch:
         robots = [robot_energy(r, m) for r, m in zip(snapshot.robots, self.roster.models, strict=True)]
         return [*robots, ball_energy(self.world, self.profile)]
 
-    def _work(self, robot: RobotState, model: RobotModel) -> float:
-        """What a drive can do in a tick: as much as its limits, or the grip of its wheels, change speed and turn."""
+    def _work(self, robot: RobotState, model: RobotModel, in_touch: bool) -> float:
+        """What a drive can do in a tick: as much as its limits, or the grip of its wheels, change speed and turn.
+
+        The drive `velocity` sets what it planned for the tick in each of its steps, whatever is in the way, and so
+        gives as often all that a robot in touch has lost to others.
+        """
         body, drive, wheels = model.body, model.drive, model.wheels
         gain, turn_gain = max(drive.acceleration, drive.deceleration), drive.turn_acceleration
         if drive.model == "omni":
             gain = wheels.traction * GRAVITY
             turn_gain = gain * body.mass * wheels.arm / body.inertia_zz
         gain, turn_gain = gain * self.tick, turn_gain * self.tick
-        moved = body.mass * (math.hypot(robot.vx, robot.vy) + gain / 2) * gain
+        if in_touch and drive.model == "velocity":
+            again = (self.profile.time.steps_per_tick - 1) * robot_energy(robot, model)
+        else:
+            again = 0.0
+        moved = again + body.mass * (math.hypot(robot.vx, robot.vy) + gain / 2) * gain
         return moved + body.inertia_zz * (abs(robot.omega) + turn_gain / 2) * turn_gain
 
     def _kick_speed(self, name: str) -> float:
@@ -288,20 +302,28 @@ class Watch:
         return (ball.mass + ball.inertia / ball.radius**2) * speed**2 / 2
 
 
+def fixed(test: Callable[[Random], None]) -> Callable[[Random], None]:
+    """The plays that are always played: Hypothesis' own choice depends on what else is imported."""
+    for number in range(PLAYS):
+        test = example(Random(number))(test)
+    return test
+
+
 @settings(
-    max_examples=LONGER or 20,
-    derandomize=not LONGER,
+    max_examples=LONGER or 1,
     database=None,
     deadline=None,
-    phases=(Phase.generate, Phase.shrink) if LONGER else (Phase.generate,),
+    phases=(Phase.generate, Phase.shrink) if LONGER else (Phase.explicit,),
     suppress_health_check=list(HealthCheck),
 )
-@given(plays)
-def test_whatever_ten_robots_are_told_the_world_stays_a_world(play: Play) -> None:
+@fixed
+@given(st.randoms(use_true_random=False))
+def test_whatever_ten_robots_are_told_the_world_stays_a_world(random: Random) -> None:
     """Nothing leaves the walls or explodes, no body sinks into another, and energy comes from drives and kicks alone.
 
     Reference 13, row 45 and reference 14, defect 8: robots stay upright, and the ball is carried through nobody.
     """
+    play = drawn(random)
     watched = Watched.begin(play)
     try:
         watch = Watch(watched)

@@ -43,7 +43,9 @@ def test_the_rebound_is_the_restitution_in_whatever_phase_of_a_step_it_comes(
     engine = Engine(PROFILE, ROSTER)
     engine.place(Placement(body="cyan1", x=5.0, y=0.0))
     step = PROFILE.time.physics_step
-    engine.set_ball((x - BALL.radius - (5 + phase) * speed * step, y, 0.6), (speed, 0.0, 0.0), (0.0, 0.0, 0.0))
+    engine.set_ball(
+        (x - BALL.radius - (5 + phase) * speed * step, y, ROBOT.height / 2), (speed, 0.0, 0.0), (0.0, 0.0, 0.0)
+    )
     deepest = 0.0
     for _ in range(8):
         engine.drive([(0.0, 0.0, 0.0)])
