@@ -2,7 +2,21 @@
 
 import typer
 
-from arena.commands import agent, coach, drive, host, info, match, parameters, record, scene, scenes, schema, topics
+from arena.commands import (
+    agent,
+    coach,
+    drive,
+    host,
+    info,
+    match,
+    parameters,
+    record,
+    scene,
+    scenes,
+    schema,
+    stats,
+    topics,
+)
 from arena.front import Front
 
 app = typer.Typer(
@@ -24,6 +38,7 @@ app.command("scenes")(scenes.scenes)
 app.command("drive")(drive.drive)
 app.command("record")(record.record)
 app.command("info")(info.info)
+app.command("stats")(stats.stats)
 app.command("topics")(topics.topics)
 app.command("schema")(schema.schema)
 

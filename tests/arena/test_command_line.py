@@ -20,6 +20,7 @@ COMMANDS = (
     "coach",
     "record",
     "info",
+    "stats",
     "topics",
     "schema",
     "parameters",
@@ -79,6 +80,7 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "an obstacle without a shape": (["scene", "add-obstacle", "wall", "0", "0"], "give --radius and --height"),
     "a drive without a terminal": (["drive", "cyan2"], "drive reads keys from a terminal"),
     "a recording that is not there": (["info", "no.mcap"], "no.mcap"),
+    "figures of a recording that is not there": (["stats", "no.mcap", "--html", "a.html"], "no.mcap"),
     "a schema that is not there": (["schema", "sihgt"], 'did you mean "sight"?'),
     "a topic without message": (["schema", "alive"], 'schema of "alive"'),
 }

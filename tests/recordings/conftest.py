@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from arena.in_process import Table
 from recordings.reader import Recording, open_recording
 from recordings.recorder import Recorder, RecordingSummary
 from recordings.writer import RecordingWriter
@@ -20,8 +21,10 @@ from schemas.match_config import MatchConfig, load_match
 from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
+from schemas.sight import Sight
 from schemas.topics import APPLIED, COMMAND, EVENT, SETUP, STATE, WORLD
 from schemas.world import BallTruth, RobotTruth, World
+from sim_host.outbox import Outbox
 
 ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
 TICK = 0.02
@@ -172,3 +175,42 @@ def recorded(stage: Stage) -> Recording:
 def hand_made_host() -> Callable[[Bus, Bus], HandMadeHost]:
     """Seats a hand-made host on a bus of the test's own."""
     return lambda bus, robots: HandMadeHost(bus, robots, make_setup())
+
+
+def record_match(path: Path, config: MatchConfig, until: float) -> None:
+    """Play a real match with the teams that ship, in this process and without a network, and record it."""
+    medium = Medium()
+    host_bus, bus = medium.seat(config.name, SteppedClock()), medium.seat(config.name, SteppedClock())
+    table, server = Table(config), host_bus.serve(SETUP)
+    simulation = table.simulation
+    host_bus.declare_alive("host", "host")
+    outbox = Outbox(host_bus, simulation.roster, simulation.profile.time.tick)
+    writer = RecordingWriter(path, bus.clock, config.name)
+    recorder = Recorder(bus, writer, config=config)
+    commands = {name: host_bus.publisher(COMMAND, robot=name) for name in table.brains}
+    recorder.pump()
+    while (question := server.receive()) is not None:
+        question.answer(simulation.setup())
+    tick = simulation.now
+    while True:
+        host_bus.clock.sim_ns = round(tick.time * 1e9)
+        outbox.truth(tick, simulation.state)
+        if tick.tick % 25 == 0:
+            recorder.pump()
+        if simulation.over or tick.time >= until:
+            break
+        said = {name: brain.act(Sight.decode(tick.sights[name])) for name, brain in table.brains.items()}
+        for name, command in said.items():
+            commands[name].put(command)
+        tick = simulation.step(said)
+    simulation.close()
+    host_bus.close()
+    recorder.run(lambda: False)
+
+
+@pytest.fixture(scope="session")
+def played(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A recording of the first 24 s of a real match of five a side."""
+    path = tmp_path_factory.mktemp("played") / "match.mcap"
+    record_match(path, load_match(None, {"seed": 7, "duration": 60.0}), until=24.0)
+    return path

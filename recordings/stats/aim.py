@@ -1,0 +1,46 @@
+"""Where a kicked ball is going: into a goal, past it, or elsewhere."""
+
+import math
+from enum import Enum, auto
+
+from schemas.host import Setup
+from schemas.world import BallTruth
+
+GRAVITY = 9.81
+"""m/s²."""
+BESIDE = 1.0
+"""m; ours: a ball that would pass a post at no more than this, or fly over the bar, was meant for the goal."""
+
+
+class Aim(Enum):
+    """Of one kick."""
+
+    AT_GOAL = auto()
+    """Between the posts and below the bar."""
+    PAST_GOAL = auto()
+    """Over the bar, or up to `BESIDE` beside a post."""
+    ELSEWHERE = auto()
+
+
+def aim(ball: BallTruth, attack: int, setup: Setup) -> Aim:
+    """Where the ball meets the goal line that is attacked (`attack` is the sign of its x), if it rolls or flies freely.
+
+    Straight over the ground, slowed by the ground alone: one that would come to rest before the line is aimed
+    elsewhere. Until it lands a ball follows its parabola, without drag; from there on it is below the bar.
+    """
+    pitch = setup.pitch
+    ahead = pitch.goal_line - attack * ball.x
+    closing = attack * ball.vx
+    if ahead <= 0 or closing <= 0:
+        return Aim.ELSEWHERE
+    time = ahead / closing
+    speed = math.hypot(ball.vx, ball.vy)
+    if speed * speed < 2 * setup.ball.rolling_deceleration * speed * time:
+        return Aim.ELSEWHERE
+    beside = abs(ball.y + ball.vy * time) - pitch.goal_width / 2
+    if beside > BESIDE:
+        return Aim.ELSEWHERE
+    height = ball.z + ball.vz * time - GRAVITY / 2 * time * time
+    lands = (ball.vz + math.sqrt(ball.vz**2 + 2 * GRAVITY * max(0.0, ball.z - setup.ball.radius))) / GRAVITY
+    over = time < lands and height > pitch.goal_height
+    return Aim.PAST_GOAL if beside > 0 or over else Aim.AT_GOAL

@@ -1,0 +1,35 @@
+"""Who plays on which side, and who keeps the goal; another cast when robots come or go."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Self
+
+from schemas.host import RosterEntry, Setup
+from schemas.side import Side
+
+
+@dataclass(frozen=True, slots=True)
+class Cast:
+    """Robots by name, in the order of the roster."""
+
+    sides: dict[str, Side]
+    keepers: dict[Side, str] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, setup: Setup) -> Self:
+        """The robots that a match begins with; a side's first robot is its goalkeeper, unless it plays without."""
+        return cls(
+            sides={name: side for side, team in setup.teams.items() for name in team.robots},
+            keepers={side: team.robots[0] for side, team in setup.teams.items() if team.robots and team.goalkeeper},
+        )
+
+    def changed(self, robots: Sequence[RosterEntry]) -> "Cast":
+        """The cast when these robots are the ones that take part; who left is still known by its side."""
+        return Cast(
+            sides=self.sides | {entry.name: entry.side for entry in robots},
+            keepers={entry.side: entry.name for entry in robots if entry.keeper},
+        )
+
+    def is_keeper(self, robot: str) -> bool:
+        """Whether a robot keeps its side's goal."""
+        return robot in self.keepers.values()

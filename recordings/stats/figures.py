@@ -1,0 +1,273 @@
+"""The figures of a match as they are told: by side and by robot, with what they rest on."""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from recordings.stats.calls import Calls, Goal
+from recordings.stats.carries import Carries, Dribbles
+from recordings.stats.cast import Cast
+from recordings.stats.control import Control
+from recordings.stats.kicks import ON_GOAL, PASSES, SHOTS, KickStory, Outcome
+from recordings.stats.momentum import Momentum
+from recordings.stats.motion import Motion, Motions
+from schemas.game import Card, GameEvent
+from schemas.host import Setup
+from schemas.side import Side
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """How many messages the figures rest on; where one is 0, what follows from it is not known."""
+
+    worlds: int
+    touched: int
+    """Worlds in which somebody touched the ball."""
+    held: int
+    """Worlds in which somebody held it."""
+    kicks: int
+    states: int
+    events: int
+    unreadable: int
+    """Messages that could not be read, and are in no figure."""
+
+
+@dataclass(frozen=True, slots=True)
+class KickCounts:
+    """What became of the kicks of one robot or side."""
+
+    kicks: int
+    passes: int
+    passes_completed: int
+    shots: int
+    shots_on_goal: int
+    shots_blocked: int
+    goals: int
+    """Of shots; balls that were carried or deflected in are in the score alone."""
+
+    @classmethod
+    def of(cls, stories: Sequence[KickStory]) -> "KickCounts":
+        """Counted."""
+        outcomes = [story.outcome for story in stories]
+        return cls(
+            kicks=len(outcomes),
+            passes=sum(outcome in PASSES for outcome in outcomes),
+            passes_completed=outcomes.count(Outcome.RECEIVED),
+            shots=sum(outcome in SHOTS for outcome in outcomes),
+            shots_on_goal=sum(outcome in ON_GOAL for outcome in outcomes),
+            shots_blocked=outcomes.count(Outcome.BLOCKED),
+            goals=outcomes.count(Outcome.GOAL),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class SideFigures:
+    """One side; m, s and m/s. What the recording cannot tell is nothing."""
+
+    team: str
+    goals: int | None
+    possession: float | None
+    """Share of the time in which either side was in control of the ball."""
+    possession_s: float | None
+    with_ball_s: float | None
+    kicks: KickCounts | None
+    saves: int | None
+    dribbles: int | None
+    dribbled: float | None
+    distance: float
+    in_play_distance: float
+    top_speed: float
+    mean_speed: float | None
+    fouls: dict[str, int]
+    """By rule."""
+    cards: dict[str, int]
+    restarts: dict[str, int]
+    """That the side took, by phase."""
+
+
+@dataclass(frozen=True, slots=True)
+class RobotFigures:
+    """One robot, likewise."""
+
+    name: str
+    side: str | None
+    keeper: bool
+    distance: float
+    in_play_distance: float
+    top_speed: float
+    mean_speed: float | None
+    """While the ball was in play."""
+    with_ball_s: float | None
+    kicks: KickCounts | None
+    saves: int | None
+    dribbles: int | None
+    dribbled: float | None
+    longest_dribble: float | None
+    goals: int | None
+    """For which it was the last to touch the ball, its own side's."""
+    fouls: int
+    cards: dict[str, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Figures:
+    """A match in figures; times in s of simulated time."""
+
+    match: str
+    start: float
+    duration: float
+    in_play_s: float | None
+    in_play: float | None
+    """Share of the duration."""
+    free_s: float | None
+    """For which the ball was in play and nobody was in control."""
+    drop_balls: int
+    sides: dict[Side, SideFigures]
+    robots: list[RobotFigures]
+    goals: list[Goal]
+    kicks: list[KickStory]
+    momentum_width: float
+    """s of one value of `momentum`."""
+    momentum: list[float]
+    """From −1, all magenta's, to 1, all cyan's."""
+    evidence: Evidence
+    events: list[GameEvent]
+    """All that the referee and the host told, as recorded."""
+
+    def to_json(self) -> dict[str, Any]:
+        """The figures as plain lists, numbers and texts."""
+        fields = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        events = [event.model_dump(mode="json", exclude={"version"}) for event in fields.pop("events")]
+        plain: dict[str, Any] = _plain(fields)
+        return plain | {"events": events}
+
+
+def figures_of(
+    *,
+    setup: Setup,
+    cast: Cast,
+    first: float,
+    last: float,
+    evidence: Evidence,
+    control: Control,
+    motions: Motions,
+    carries: Carries,
+    kicks: list[KickStory],
+    calls: Calls,
+    momentum: Momentum,
+) -> Figures:
+    """Everything that was counted, laid out by side and robot; `first` and `last` are times of worlds, s."""
+    told = _Told(cast, evidence, control, motions.robots, carries.robots, kicks, calls)
+    duration, in_play = last - first, control.in_play if evidence.states else None
+    controlled = sum(control.seconds.values())
+    return Figures(
+        match=setup.match,
+        start=first,
+        duration=duration,
+        in_play_s=in_play,
+        in_play=in_play / duration if in_play is not None and duration > 0 else None,
+        free_s=max(0.0, in_play - controlled) if in_play is not None and told.knows_ball else None,
+        drop_balls=sum(count for (side, _), count in calls.restarts.items() if side is None),
+        sides={side: told.side(side, setup.teams[side].name if side in setup.teams else side.value) for side in Side},
+        robots=[told.robot(name) for name in motions.robots],
+        goals=calls.goals,
+        kicks=kicks,
+        momentum_width=momentum.width,
+        momentum=momentum.values(),
+        evidence=evidence,
+        events=calls.events,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Told:
+    """What was counted, told for a side or a robot."""
+
+    cast: Cast
+    evidence: Evidence
+    control: Control
+    motions: dict[str, Motion]
+    carries: dict[str, Dribbles]
+    kicks: list[KickStory]
+    calls: Calls
+
+    @property
+    def knows_ball(self) -> bool:
+        """Somebody touched or held the ball while the game's state was known: who has it is recorded."""
+        return bool(self.evidence.states and (self.evidence.touched or self.evidence.held))
+
+    @property
+    def knows_kicks(self) -> bool:
+        """Touches are recorded, and with them kicks, if there were any."""
+        return bool(self.evidence.states and self.evidence.touched)
+
+    def side(self, side: Side, team: str) -> SideFigures:
+        names = [name for name in self.motions if self.cast.sides.get(name) is side]
+        motions = [self.motions[name] for name in names]
+        dribbles = [self.carries[name] for name in names if name in self.carries]
+        played = sum(motion.in_play for motion in motions)
+        way = sum(motion.in_play_distance for motion in motions)
+        controlled, score = sum(self.control.seconds.values()), self.calls.score
+        return SideFigures(
+            team=team,
+            goals=getattr(score, side.value) if score is not None else None,
+            possession=self.control.seconds[side] / controlled if controlled > 0 else None,
+            possession_s=self.control.seconds[side] if self.knows_ball else None,
+            with_ball_s=sum(self.control.with_ball.get(name, 0.0) for name in names) if self.evidence.held else None,
+            kicks=self._kicks([story for story in self.kicks if story.side is side]),
+            saves=self._saves(names),
+            dribbles=sum(one.count for one in dribbles) if self.evidence.held else None,
+            dribbled=sum(one.distance for one in dribbles) if self.evidence.held else None,
+            distance=sum(motion.distance for motion in motions),
+            in_play_distance=way,
+            top_speed=max((motion.top_speed for motion in motions), default=0.0),
+            mean_speed=way / played if played > 0 else None,
+            fouls={rule: count for (of, rule), count in self.calls.fouls.items() if of is side},
+            cards={card.value: self.calls.cards[side, card] for card in Card},
+            restarts={phase.value: count for (of, phase), count in self.calls.restarts.items() if of is side},
+        )
+
+    def robot(self, name: str) -> RobotFigures:
+        motion, dribbles, side = self.motions[name], self.carries.get(name, Dribbles()), self.cast.sides.get(name)
+        held = bool(self.evidence.held)
+        goals = sum(goal.robot == name and goal.side is side for goal in self.calls.goals)
+        return RobotFigures(
+            name=name,
+            side=side.value if side is not None else None,
+            keeper=self.cast.is_keeper(name),
+            distance=motion.distance,
+            in_play_distance=motion.in_play_distance,
+            top_speed=motion.top_speed,
+            mean_speed=motion.mean_speed if motion.in_play > 0 else None,
+            with_ball_s=self.control.with_ball.get(name, 0.0) if held else None,
+            kicks=self._kicks([story for story in self.kicks if story.robot == name]),
+            saves=self._saves([name]),
+            dribbles=dribbles.count if held else None,
+            dribbled=dribbles.distance if held else None,
+            longest_dribble=dribbles.longest if held else None,
+            goals=goals if self.evidence.events else None,
+            fouls=self.calls.fouls_of[name],
+            cards={card.value: self.calls.cards_of[name, card] for card in Card},
+        )
+
+    def _kicks(self, stories: list[KickStory]) -> KickCounts | None:
+        return KickCounts.of(stories) if self.knows_kicks else None
+
+    def _saves(self, names: Sequence[str]) -> int | None:
+        if not self.knows_kicks:
+            return None
+        return sum(story.outcome is Outcome.SAVED and story.by in names for story in self.kicks)
+
+
+def _plain(value: Any) -> Any:
+    """Dataclasses as dictionaries, keys as texts, numbers to a millionth."""
+    if isinstance(value, float):
+        return round(value, 6)
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return {field.name: _plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
+    if isinstance(value, dict):
+        return {str(key): _plain(one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [_plain(one) for one in value]
+    return value

@@ -1,0 +1,86 @@
+"""One page of a match that opens from disk: everything is in it, nothing is fetched.
+
+`content` says what it shows, as data; the scripts beside it are plain modules that are joined into one when the page
+is written, so that it needs neither a network nor a build step.
+"""
+
+import json
+import re
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from recordings.reader import Recording
+from recordings.stats.figures import Figures
+from recordings.stats.measure import extent, figures_of_recording, setup_of
+from recordings.stats.page.content import content_of
+from recordings.stats.page.course import Course
+from recordings.stats.track import Tracks
+from schemas.errors import TouchlineError
+
+SCRIPTS = (
+    "match.js",
+    "pitch.js",
+    "bodies.js",
+    "player.js",
+    "keys.js",
+    "timeline.js",
+    "events.js",
+    "heat.js",
+    "shots.js",
+    "figures.js",
+    "main.js",
+)
+"""Each imports only from those before it."""
+
+
+def page_of(recording: Recording) -> tuple[Figures, str]:
+    """The figures of a recording, and its page as HTML.
+
+    Raises:
+        TouchlineError: it is damaged inside, has no setup, or no world.
+    """
+    setup = setup_of(recording)
+    tracks, course = Tracks(setup, *extent(recording)), Course()
+    figures = figures_of_recording(recording, tracks, course)
+    return figures, page(content_of(recording.manifest, setup, figures, tracks, course))
+
+
+def page(content: dict[str, Any]) -> str:
+    """The page that shows this content."""
+    parts = {
+        "TITLE": _escaped(content["title"]),
+        "STYLE": _text("page.css"),
+        "SCRIPT": "\n".join(_inlined(_text(name)) for name in SCRIPTS),
+        "CONTENT": json.dumps(content, ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace(
+            "<",
+            "\\u003c",  # so that no text in it can end the element it stands in
+        ),
+    }
+    return re.sub(r"{{(\w+)}}", lambda found: parts[found[1]], _text("page.html"))
+
+
+def write_page(path: Path, text: str) -> None:
+    """Write a page to disk.
+
+    Raises:
+        TouchlineError: it cannot be written there.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, "utf-8")
+    except OSError as error:
+        raise TouchlineError(f"--html {path}: {error.strerror}; give a path that can be written") from None
+
+
+def _text(name: str) -> str:
+    return (resources.files(__package__ or __name__) / name).read_text("utf-8")
+
+
+def _inlined(module: str) -> str:
+    """A module as part of one script: what it imports stands before it there."""
+    return re.sub(r"^export ", "", re.sub(r"^import .*;\n", "", module, flags=re.MULTILINE), flags=re.MULTILINE)
+
+
+def _escaped(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

@@ -1,0 +1,75 @@
+// The list of events: each is a button that jumps there.
+
+import { clockWords } from "./match.js";
+
+const KEY_KINDS = new Set(["goal", "no_goal", "shot", "save", "foul", "card", "forfeit", "half_time", "full_time", "scene"]);
+const SIGNS = {
+  goal: "★", shot: "◆", save: "◇", foul: "✕", card: "▮", ball_out: "↗", restart: "↻", half_time: "◐", full_time: "■",
+};
+const LEAD_S = 2; // one wants to see how it came to that
+
+export class Events {
+  constructor(list, buttons, match, seek) {
+    Object.assign(this, { list, buttons, match, seek, keyOnly: true });
+    buttons.key.addEventListener("click", () => this.show(true));
+    buttons.all.addEventListener("click", () => this.show(false));
+    this.show(true);
+  }
+
+  show(keyOnly) {
+    this.keyOnly = keyOnly;
+    this.buttons.key.setAttribute("aria-pressed", String(keyOnly));
+    this.buttons.all.setAttribute("aria-pressed", String(!keyOnly));
+    this.shown = this.match.events.filter((event) => !keyOnly || KEY_KINDS.has(event.kind));
+    this.list.replaceChildren(...this.shown.map((event) => this.row(event)));
+    this.current = undefined;
+    this.mark(this.time ?? this.match.start);
+  }
+
+  row(event) {
+    const row = document.createElement("li"), button = document.createElement("button");
+    row.className = `side-${event.side ?? "none"}${event.kind === "goal" ? " big" : ""}`;
+    button.type = "button";
+    const time = element("time", clockWords(event.clock)), sign = element("span", SIGNS[event.kind] ?? "·");
+    sign.className = "sign";
+    sign.setAttribute("aria-hidden", "true");
+    const words = element("span", ""), kind = element("span", event.kind.replaceAll("_", " ")), what = element("span", event.text);
+    kind.className = "kind";
+    what.className = "what";
+    words.append(kind, what);
+    button.append(time, sign, words);
+    button.addEventListener("click", () => this.seek(event.time - LEAD_S));
+    row.append(button);
+    return row;
+  }
+
+  /** Marks the newest event at a time. */
+  mark(time) {
+    this.time = time;
+    const current = this.shown.findLastIndex((event) => event.time <= time + 1e-6);
+    if (current === this.current) return;
+    this.list.children[this.current]?.classList.remove("now-is");
+    this.current = current;
+    const row = this.list.children[current];
+    if (!row) return;
+    row.classList.add("now-is");
+    const above = row.offsetTop - this.list.offsetTop;
+    if (above < this.list.scrollTop || above + row.offsetHeight > this.list.scrollTop + this.list.clientHeight) {
+      this.list.scrollTop = above - this.list.clientHeight / 2;
+    }
+  }
+
+  /** To the next event that is shown, or with −1 to the one before. */
+  jump(step, from) {
+    const times = this.shown.map((event) => Math.max(this.match.start, event.time - LEAD_S));
+    const found = step > 0 ? times.find((time) => time > from + 0.05) : times.findLast((time) => time < from - 0.5);
+    if (found !== undefined) this.seek(found);
+  }
+}
+
+/** An element with a text in it. */
+export function element(name, text) {
+  const made = document.createElement(name);
+  made.textContent = text;
+  return made;
+}

@@ -1,0 +1,93 @@
+// Puts the page together.
+
+import { drawBodies } from "./bodies.js";
+import { Events } from "./events.js";
+import { showRobots, showSides } from "./figures.js";
+import { drawHeatMaps, redrawHeatMaps } from "./heat.js";
+import { listenForKeys } from "./keys.js";
+import { clockWords, readMatch } from "./match.js";
+import { drawGrass, drawLines, fitted } from "./pitch.js";
+import { Player } from "./player.js";
+import { drawShots } from "./shots.js";
+import { Timeline } from "./timeline.js";
+
+const byId = (id) => document.getElementById(id);
+const match = readMatch(byId("match").textContent);
+const player = new Player(match.start, match.end, show);
+const seek = (time) => player.seek(time);
+const timeline = new Timeline(byId("momentum"), match, seek);
+const events = new Events(byId("events"), { key: byId("key-events"), all: byId("all-events") }, match, seek);
+const margin = Math.max(match.pitch.goal_depth + 0.25, Math.min(match.pitch.border, 1));
+const grass = document.createElement("canvas");
+
+function fit() {
+  const context = fitted(byId("pitch"), match.pitch, margin);
+  drawGrass(context, match.pitch);
+  drawLines(context, match.pitch);
+  grass.width = context.canvas.width;
+  grass.height = context.canvas.height;
+  grass.getContext("2d").drawImage(context.canvas, 0, 0);
+  timeline.fit();
+  redrawHeatMaps(byId("heat"));
+  drawShots(byId("shots"), match);
+  show(player);
+}
+
+function show({ time, playing }) {
+  const context = byId("pitch").getContext("2d");
+  context.save();
+  context.setTransform(1, 0, 0, 1, 0, 0);
+  context.drawImage(grass, 0, 0);
+  context.restore();
+  drawBodies(context, match, time);
+  timeline.draw(time);
+  events.mark(time);
+  const leg = match.leg(time), scrub = byId("scrub");
+  scrub.value = String(time);
+  scrub.setAttribute("aria-valuetext", clockWords(time - match.start, true));
+  byId("clock").textContent = clockWords(match.clockAt(time), true);
+  byId("phase").textContent = leg ? phaseWords(leg) : "";
+  byId("score").textContent = leg?.score ? leg.score.join(" : ") : "– : –";
+  byId("play").classList.toggle("playing", playing);
+  byId("play").setAttribute("aria-label", playing ? "Pause (space)" : "Play (space)");
+}
+
+function phaseWords(leg) {
+  const phase = leg.phase.replaceAll("_", " ");
+  return leg.side ? `${phase}, ${match.teams[leg.side]}` : phase;
+}
+
+for (const [side, ids] of [["cyan", ["cyan-name", "cyan-up", "cyan-right"]], ["magenta", ["magenta-name", "magenta-down", "magenta-left"]]]) {
+  for (const id of ids) byId(id).textContent = match.teams[side];
+}
+byId("about").textContent = [match.match, match.started.slice(0, 16).replace("T", " ") + " UTC", ...match.about].join(" · ");
+byId("in-play").textContent = match.in_play.seconds === null
+  ? ""
+  : `${clockWords(match.end - match.start)} recorded, ball in play ${clockWords(match.in_play.seconds)} (${Math.round(100 * match.in_play.share)} %)`;
+byId("remarks").replaceChildren(...match.remarks.map((text) => Object.assign(document.createElement("li"), { textContent: text })));
+showSides(byId("sides"), match.sides);
+showRobots(byId("robots"), match.table, match.robots);
+drawHeatMaps(byId("heat"), match);
+
+const scrub = byId("scrub");
+scrub.min = String(match.start);
+scrub.max = String(match.end);
+scrub.addEventListener("input", () => seek(Number(scrub.value)));
+const speed = byId("speed");
+speed.addEventListener("change", () => { player.rate = Number(speed.value); });
+const jump = (step) => events.jump(step, player.time);
+byId("play").addEventListener("click", () => player.toggle());
+byId("pitch").addEventListener("click", () => player.toggle());
+byId("previous").addEventListener("click", () => jump(-1));
+byId("next").addEventListener("click", () => jump(1));
+listenForKeys(player, match, speed, jump);
+
+const asked = Number.parseFloat(new URLSearchParams(location.hash.slice(1)).get("t"));
+player.time = Number.isFinite(asked) ? Math.min(Math.max(asked, match.start), match.end) : match.start;
+let width = 0;
+new ResizeObserver(() => {
+  if (width === document.body.clientWidth) return; // heights follow from what is drawn here
+  width = document.body.clientWidth;
+  fit();
+}).observe(document.body);
+window.touchline = { match, player };

@@ -1,0 +1,92 @@
+// The match as data: where everybody was at any time, what was being played, the events.
+
+const AWAY = -32768;
+const NOBODY = 255;
+const JUMP_CM = 120; // between two samples: whoever moved farther was set down there
+
+function bytes(text) {
+  return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+}
+
+function words(text) {
+  return new Int16Array(bytes(text).buffer);
+}
+
+/** Reads what the page carries; times in s of simulated time, lengths in m. */
+export function readMatch(text) {
+  const content = JSON.parse(text);
+  const robots = content.robots.map((robot) => ({
+    ...robot, x: words(robot.x), y: words(robot.y), heading: bytes(robot.heading),
+  }));
+  const ball = { ...content.ball, x: words(content.ball.x), y: words(content.ball.y), z: words(content.ball.z) };
+  return new Match({ ...content, robots, ball, holder: bytes(content.holder) });
+}
+
+class Match {
+  constructor(content) {
+    Object.assign(this, content);
+    this.end = this.start + Math.max(0, this.samples - 1) / this.rate;
+  }
+
+  /** Sample before a time, and how far the time is on the way to the next one. */
+  place(time) {
+    const exact = Math.min(Math.max((time - this.start) * this.rate, 0), this.samples - 1);
+    const sample = Math.floor(exact + 1e-6);
+    return [sample, Math.min(sample + 1, this.samples - 1), Math.max(0, exact - sample)];
+  }
+
+  /** All bodies at a time: robots with x, y and heading, or nothing for those that are away; the ball; the holder. */
+  bodies(time) {
+    const [before, after, way] = this.place(time);
+    const robots = this.robots.map((robot) => {
+      if (robot.x[before] === AWAY) return null;
+      const point = between(robot, before, after, way);
+      const turn = ((robot.heading[after] - robot.heading[before] + 384) % 256) - 128;
+      return { ...point, heading: ((robot.heading[before] + turn * way) * Math.PI) / 128 };
+    });
+    const z = this.ball.z[before] + (this.ball.z[after] - this.ball.z[before]) * way;
+    const ball = { ...between(this.ball, before, after, way), z: z / 100 };
+    return { robots, ball, holder: this.holder[before] === NOBODY ? null : this.holder[before] };
+  }
+
+  /** What holds at a time: phase, side, score; nothing before the referee said anything. */
+  leg(time) {
+    let found = null;
+    for (const leg of this.legs) {
+      if (leg.time > time + 1e-6) break;
+      found = leg;
+    }
+    return found;
+  }
+
+  /** The game clock at a time. */
+  clockAt(time) {
+    const at = Math.min(Math.max(time - this.start, 0), this.clock.length - 1);
+    const second = Math.floor(at);
+    const next = Math.min(second + 1, this.clock.length - 1);
+    return this.clock[second] + (this.clock[next] - this.clock[second]) * (at - second);
+  }
+
+  /** From when to when the ball was in play, and what held then. */
+  inPlay() {
+    return this.legs
+      .map((leg, number) => [leg, this.legs[number + 1]?.time ?? this.end])
+      .filter(([leg]) => leg.phase === "play" && leg.running)
+      .map(([leg, until]) => [leg.time, until, leg]);
+  }
+}
+
+function between(track, before, after, way) {
+  const x = track.x[before], y = track.y[before];
+  let dx = track.x[after] - x, dy = track.y[after] - y;
+  if (track.x[after] === AWAY || Math.hypot(dx, dy) > JUMP_CM) dx = dy = 0;
+  return { x: (x + dx * way) / 100, y: (y + dy * way) / 100 };
+}
+
+/** Seconds as people read a clock. */
+export function clockWords(seconds, tenths = false) {
+  const whole = tenths ? Math.floor(seconds * 10) / 10 : Math.floor(seconds);
+  const minutes = Math.floor(whole / 60);
+  const rest = whole - 60 * minutes;
+  return `${minutes}:${tenths ? rest.toFixed(1).padStart(4, "0") : String(Math.floor(rest)).padStart(2, "0")}`;
+}

@@ -1,0 +1,82 @@
+// Momentum over time, with goals and shots; also where one can point to jump there.
+
+const SIDE_COLOURS = { cyan: "#28b9dc", magenta: "#c9237b" };
+
+export class Timeline {
+  constructor(canvas, match, seek) {
+    Object.assign(this, { canvas, match });
+    let dragging = false;
+    const go = (event) => {
+      const box = canvas.getBoundingClientRect();
+      seek(match.start + ((event.clientX - box.left) / box.width) * (match.end - match.start));
+    };
+    canvas.addEventListener("pointerdown", (event) => {
+      dragging = true;
+      canvas.setPointerCapture(event.pointerId);
+      go(event);
+    });
+    canvas.addEventListener("pointermove", (event) => dragging && go(event));
+    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => { dragging = false; });
+  }
+
+  /** Draws what does not change; `draw` adds the time. */
+  fit() {
+    const density = window.devicePixelRatio || 1;
+    this.canvas.width = Math.round(this.canvas.clientWidth * density);
+    this.canvas.height = Math.round(this.canvas.clientHeight * density);
+    this.density = density;
+    this.still = document.createElement("canvas");
+    this.still.width = this.canvas.width;
+    this.still.height = this.canvas.height;
+    this.drawStill(this.still.getContext("2d"), getComputedStyle(this.canvas));
+  }
+
+  x(time) {
+    const { start, end } = this.match;
+    return ((time - start) / Math.max(end - start, 1e-9)) * this.canvas.width;
+  }
+
+  drawStill(context, style) {
+    const { width, height } = this.canvas, middle = height / 2, reach = middle - 16 * this.density;
+    const quiet = style.color;
+    context.globalAlpha = 0.08;
+    context.fillStyle = quiet;
+    for (const [from, until] of this.match.inPlay()) context.fillRect(this.x(from), 0, this.x(until) - this.x(from), height);
+    context.globalAlpha = 1;
+    const { width: step, values } = this.match.momentum;
+    for (const [side, sign] of [["cyan", 1], ["magenta", -1]]) {
+      context.beginPath();
+      context.moveTo(this.x(this.match.start), middle);
+      values.forEach((value, number) => {
+        context.lineTo(this.x(this.match.start + (number + 0.5) * step), middle - sign * Math.max(0, sign * value) * reach);
+      });
+      context.lineTo(this.x(Math.min(this.match.end, this.match.start + values.length * step)), middle);
+      context.fillStyle = SIDE_COLOURS[side];
+      context.fill();
+    }
+    context.strokeStyle = quiet;
+    context.lineWidth = this.density;
+    context.beginPath();
+    context.moveTo(0, middle);
+    context.lineTo(width, middle);
+    context.stroke();
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    for (const event of this.match.events) {
+      const goal = event.kind === "goal";
+      if (!goal && !["shot", "save"].includes(event.kind)) continue;
+      const y = event.side === "magenta" ? height - 9 * this.density : 9 * this.density;
+      context.font = `${(goal ? 17 : 10) * this.density}px "DejaVu Sans", system-ui, sans-serif`;
+      context.fillStyle = quiet;
+      context.fillText(goal ? "★" : "◆", Math.min(Math.max(this.x(event.time), 9), width - 9), y);
+    }
+  }
+
+  draw(time) {
+    const context = this.canvas.getContext("2d");
+    context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    context.drawImage(this.still, 0, 0);
+    context.fillStyle = getComputedStyle(this.canvas).color;
+    context.fillRect(this.x(time) - this.density, 0, 2 * this.density, this.canvas.height);
+  }
+}

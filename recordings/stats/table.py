@@ -1,0 +1,108 @@
+"""The figures as texts, for a terminal: a headline, a table of sides, a table of robots, what they rest on."""
+
+from collections.abc import Callable
+
+from recordings.stats.figures import Figures, KickCounts, RobotFigures, SideFigures
+from schemas.side import Side
+
+UNKNOWN = "–"
+"""What the recording cannot tell."""
+
+Row = tuple[str, ...]
+
+
+def headline(figures: Figures) -> str:
+    """Teams, score, and how long the ball was in play."""
+    cyan, magenta = figures.sides[Side.CYAN], figures.sides[Side.MAGENTA]
+    played = f"{figures.duration:.1f} s recorded"
+    if figures.in_play_s is not None:
+        played += f", ball in play {figures.in_play_s:.1f} s ({_percent(figures.in_play)})"
+    return f"{cyan.team} {_whole(cyan.goals)} : {_whole(magenta.goals)} {magenta.team}   {played}"
+
+
+def side_rows(figures: Figures) -> list[Row]:
+    """What is measured, cyan's, magenta's."""
+    rows = [(name, *(told(figures.sides[side]) for side in Side)) for name, told in _SIDE]
+    for kind in _COUNTED:
+        counts = [getattr(figures.sides[side], kind) for side in Side]
+        for name in dict.fromkeys(name for count in counts for name in count):
+            if any(count.get(name) for count in counts):
+                label = _COUNTED[kind].format(name.replace("_", " "))
+                rows.append((label, *(str(count.get(name, 0)) for count in counts)))
+    return rows
+
+
+ROBOT_HEADINGS = ("robot", "m", "top m/s", "mean m/s", "ball s", "passes", "shots", "saves", "dribbles")
+"""Of the table that `robot_rows` gives."""
+
+
+def robot_rows(figures: Figures) -> list[Row]:
+    """One row for each robot, below `ROBOT_HEADINGS`."""
+    return [_robot(robot) for robot in figures.robots]
+
+
+def remarks(figures: Figures) -> list[str]:
+    """What the figures do not rest on, in plain words."""
+    evidence = figures.evidence
+    said = [
+        (not evidence.states, "no game states recorded: ball in play, possession, passes and shots are not known"),
+        (not evidence.touched, "no touches recorded: passes, shots and saves are not known"),
+        (not evidence.held, "nobody holds the ball in it: time with the ball and dribbles are not known"),
+        (not evidence.events, "no events recorded: goals by robot, fouls and cards are not known"),
+        (bool(evidence.unreadable), f"{evidence.unreadable} messages could not be read and are in no figure"),
+    ]
+    return [words for holds, words in said if holds]
+
+
+def _percent(share: float | None) -> str:
+    return UNKNOWN if share is None else f"{100 * share:.0f} %"
+
+
+def _whole(number: int | None) -> str:
+    return UNKNOWN if number is None else str(number)
+
+
+def _tenths(number: float | None) -> str:
+    return UNKNOWN if number is None else f"{number:.1f}"
+
+
+def _passes(counts: KickCounts | None, of: str = " of ") -> str:
+    return UNKNOWN if counts is None else f"{counts.passes_completed}{of}{counts.passes}"
+
+
+def _shots(counts: KickCounts | None, of: str = " of ") -> str:
+    return UNKNOWN if counts is None else f"{counts.shots_on_goal}{of}{counts.shots}"
+
+
+_SIDE: tuple[tuple[str, Callable[[SideFigures], str]], ...] = (
+    ("goals", lambda side: _whole(side.goals)),
+    ("possession", lambda side: _percent(side.possession)),
+    ("possession, s", lambda side: _tenths(side.possession_s)),
+    ("ball in hand, s", lambda side: _tenths(side.with_ball_s)),
+    ("passes completed", lambda side: _passes(side.kicks)),
+    ("shots on goal", lambda side: _shots(side.kicks)),
+    ("shots blocked", lambda side: UNKNOWN if side.kicks is None else str(side.kicks.shots_blocked)),
+    ("saves", lambda side: _whole(side.saves)),
+    ("dribbles", lambda side: _whole(side.dribbles)),
+    ("dribbled, m", lambda side: _tenths(side.dribbled)),
+    ("distance, m", lambda side: _tenths(side.distance)),
+    ("top speed, m/s", lambda side: _tenths(side.top_speed)),
+    ("mean speed in play, m/s", lambda side: _tenths(side.mean_speed)),
+)
+"""What is told of a side, and how."""
+_COUNTED = {"fouls": "foul: {}", "cards": "{} cards", "restarts": "restart: {}"}
+"""What is counted by name, and how a name is told."""
+
+
+def _robot(robot: RobotFigures) -> Row:
+    return (
+        f"{robot.name} GK" if robot.keeper else robot.name,
+        _tenths(robot.distance),
+        _tenths(robot.top_speed),
+        _tenths(robot.mean_speed),
+        _tenths(robot.with_ball_s),
+        _passes(robot.kicks, "/"),
+        _shots(robot.kicks, "/"),
+        _whole(robot.saves),
+        _whole(robot.dribbles),
+    )

@@ -1,0 +1,268 @@
+"""The page in a real browser: what is drawn is what was recorded, wherever one jumps."""
+
+import os
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from recordings.reader import Recording, open_recording
+from recordings.stats.figures import Figures
+from recordings.stats.page import page_of, write_page
+from schemas.errors import TouchlineError
+from schemas.world import World
+
+FILLS = {"cyan": (0x28, 0xB9, 0xDC), "magenta": (0xC9, 0x23, 0x7B)}
+
+PIXEL = """([x, y]) => {
+    const canvas = document.getElementById("pitch"), context = canvas.getContext("2d");
+    const { pitch } = window.touchline.match;
+    const margin = Math.max(pitch.goal_depth + 0.25, Math.min(pitch.border, 1));
+    const unit = canvas.width / (pitch.length + 2 * margin);
+    const at = [canvas.width / 2 + x * unit, canvas.height / 2 - y * unit];
+    return [...context.getImageData(Math.round(at[0]), Math.round(at[1]), 1, 1).data].slice(0, 3);
+}"""
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if chromium is None:
+        assert os.environ.get("TOUCHLINE_BROWSER") != "needed", "no Chromium where the tests of pages have to run"
+        pytest.skip("no Chromium; apt-get install chromium")
+    with sync_playwright() as playwright:
+        root = ["--no-sandbox"] if os.geteuid() == 0 else []
+        browser = playwright.chromium.launch(executable_path=chromium, args=root)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def recording(played: Path) -> Recording:
+    return open_recording(played)
+
+
+@pytest.fixture(scope="module")
+def made(recording: Recording, tmp_path_factory: pytest.TempPathFactory) -> tuple[Figures, Path]:
+    figures, text = page_of(recording)
+    path = tmp_path_factory.mktemp("page") / "new" / "match.html"
+    write_page(path, text)
+    return figures, path
+
+
+class Opened:
+    """A page in a tab, and what it complained of."""
+
+    def __init__(self, browser: Browser, path: Path, width: int = 1360, height: int = 900) -> None:
+        self.context = browser.new_context(viewport={"width": width, "height": height})
+        self.context.set_offline(True)
+        self.page: Page = self.context.new_page()
+        self.faults: list[str] = []
+        self.requests: list[str] = []
+        self.page.on("pageerror", lambda error: self.faults.append(str(error)))
+        self.page.on("console", lambda said: self.faults.append(said.text) if said.type == "error" else None)
+        self.page.on("dialog", lambda dialog: self.faults.append(dialog.message))
+        self.page.on("request", lambda request: self.requests.append(request.url))
+        self.page.goto(path.as_uri())
+        self.until("window.touchline !== undefined && document.getElementById('pitch').style.height !== ''")
+
+    def until(self, holds: str) -> None:
+        """Wait for the page; its own rules let nobody evaluate a text in it, so it is asked from outside."""
+        for _ in range(500):
+            if self.page.evaluate(holds):
+                return
+            self.page.wait_for_timeout(20)
+        raise AssertionError(f"never came true: {holds}")
+
+    @property
+    def time(self) -> float:
+        return float(self.page.evaluate("window.touchline.player.time"))
+
+    def scrub(self, time: float) -> None:
+        self.page.locator("#scrub").fill(str(time))
+
+    def shows(self, robot: str, world: World) -> bool:
+        """Whether this robot's colour is drawn beside its number, where the world has it."""
+        place = world.robots[robot]
+        side = "cyan" if robot.startswith("cyan") else "magenta"
+        around = [(0.24, 0.12), (-0.24, 0.12), (0.24, -0.12), (-0.24, -0.12)]
+        pixels = [self.page.evaluate(PIXEL, [place.x + dx, place.y + dy]) for dx, dy in around]
+        return sum(all(abs(a - b) < 12 for a, b in zip(pixel, FILLS[side], strict=True)) for pixel in pixels) >= 2
+
+
+@pytest.fixture
+def opened(browser: Browser, made: tuple[Figures, Path]) -> Iterator[Opened]:
+    tab = Opened(browser, made[1])
+    yield tab
+    assert tab.faults == []
+    tab.context.close()
+
+
+def world_at(recording: Recording, time: float) -> World:
+    return next(world for _, world in recording.decoded("world", start=time - 0.011))
+
+
+def free(world: World) -> list[str]:
+    """Robots that stand clear of each other and of the ball, so that nothing is drawn over them."""
+    places = {name: (robot.x, robot.y) for name, robot in world.robots.items()} | {"ball": (world.ball.x, world.ball.y)}
+    return [
+        name
+        for name in world.robots
+        if all(
+            abs(x - places[name][0]) > 1.2 or abs(y - places[name][1]) > 1.2
+            for other, (x, y) in places.items()
+            if other != name
+        )
+    ]
+
+
+def test_the_page_opens_from_disk_without_asking_for_anything(opened: Opened, made: tuple[Figures, Path]) -> None:
+    assert opened.requests == [made[1].as_uri()]
+    assert opened.page.title() == "Simple – NuBot"
+    assert "://" not in made[1].read_text("utf-8").split('<script type="application/json"')[0]
+
+
+def test_the_scrubber_moves_the_robots_to_where_they_were(opened: Opened, recording: Recording) -> None:
+    seen: dict[str, set[tuple[float, float]]] = {}
+    for time in (0.0, 6.0, 12.4, 19.2, 23.0):
+        opened.scrub(time)
+        assert opened.time == pytest.approx(time)
+        world = world_at(recording, time)
+        clear = free(world)
+        assert len(clear) >= 3
+        assert [name for name in clear if not opened.shows(name, world)] == []
+        for name in clear:
+            seen.setdefault(name, set()).add((round(world.robots[name].x, 1), round(world.robots[name].y, 1)))
+    assert sum(len(places) > 1 for places in seen.values()) >= 3  # they had moved in between
+
+
+def test_a_robot_is_not_drawn_where_it_was_at_another_time(opened: Opened, recording: Recording) -> None:
+    first, last = world_at(recording, 0.0), world_at(recording, 12.4)
+    moved = [name for name in free(first) if abs(first.robots[name].x - last.robots[name].x) > 1.5]
+    assert moved
+    opened.scrub(12.4)
+    assert [name for name in moved if opened.shows(name, first)] == []
+
+
+def test_an_event_jumps_there_and_the_robots_with_it(opened: Opened, recording: Recording) -> None:
+    opened.page.locator("#all-events").click()
+    rows = opened.page.locator("#events button")
+    told = opened.page.evaluate("window.touchline.match.events.map((event) => event.time)")
+    assert rows.count() == len(told) >= 3
+    number = len(told) - 1
+    rows.nth(number).click()
+    assert opened.time == pytest.approx(told[number] - 2.0)
+    world = world_at(recording, opened.time)
+    assert [name for name in free(world) if not opened.shows(name, world)] == []
+    opened.page.keyboard.press("p")
+    assert opened.time < told[number] - 2.0
+    before = opened.time
+    opened.page.keyboard.press("n")
+    assert opened.time > before
+
+
+def test_the_clock_and_the_phase_are_those_of_the_moment(opened: Opened, recording: Recording) -> None:
+    for time in (0.5, 8.0, 23.9):
+        opened.scrub(time)
+        world = world_at(recording, time)
+        minutes, seconds = divmod(world.clock, 60)
+        shown = opened.page.locator("#clock").inner_text()
+        told_minutes, told_seconds = shown.split(":")
+        assert int(told_minutes) == int(minutes) and float(told_seconds) == pytest.approx(seconds, abs=0.25)
+        *_, state = [state for _, state in recording.decoded("game/state", end=time)]
+        assert opened.page.locator("#phase").inner_text().startswith(state.phase.value.replace("_", " "))
+        assert opened.page.locator("#score").inner_text() == f"{state.score.cyan} : {state.score.magenta}"
+
+
+def test_it_plays_pauses_and_changes_speed_by_keys_and_buttons(opened: Opened) -> None:
+    opened.page.keyboard.press("ArrowRight")
+    assert opened.time == pytest.approx(1.0)
+    opened.page.keyboard.press("Shift+ArrowRight")
+    assert opened.time == pytest.approx(11.0)
+    opened.page.keyboard.press(".")
+    assert opened.time == pytest.approx(11.04)
+    opened.page.keyboard.press("Home")
+    assert opened.time == 0.0
+    for _ in range(2):
+        opened.page.keyboard.press("ArrowUp")
+    assert opened.page.evaluate("window.touchline.player.rate") == 4
+    opened.page.keyboard.press("Space")
+    opened.until("window.touchline.player.time > 2")
+    assert opened.page.locator("#play").get_attribute("aria-label") == "Pause (space)"
+    opened.page.locator("#play").click()
+    stopped = opened.time
+    opened.page.wait_for_timeout(100)
+    assert opened.time == stopped
+    opened.page.keyboard.press("End")
+    assert opened.time == pytest.approx(24.0)
+
+
+def test_pointing_at_the_momentum_jumps_there(opened: Opened) -> None:
+    box = opened.page.locator("#momentum").bounding_box()
+    assert box is not None
+    opened.page.mouse.click(box["x"] + 0.25 * box["width"], box["y"] + 20)
+    assert opened.time == pytest.approx(6.0, abs=0.1)
+
+
+def test_the_figures_of_the_page_are_those_of_the_table(opened: Opened, made: tuple[Figures, Path]) -> None:
+    pairs = opened.page.locator(".pair")
+    texts = [pairs.nth(number).inner_text().split("\n") for number in range(pairs.count())]
+    figures, _ = made
+    (possession,) = [text for text in texts if "possession" in text]
+    assert [f"{100 * side.possession:.0f} %" for side in figures.sides.values()] == [possession[0], possession[2]]
+    assert opened.page.locator("#robots tbody tr").count() == 10
+    assert opened.page.locator("#heat figure").count() == 11
+
+
+def test_a_keepers_heat_is_at_its_own_goal_on_the_left(opened: Opened) -> None:
+    for keeper in ("cyan1", "magenta1"):
+        light = opened.page.evaluate(
+            """(name) => {
+                const canvas = document.querySelector(`[data-body=${name}] canvas`);
+                const context = canvas.getContext("2d"), { width, height } = canvas;
+                const sum = (x) => context.getImageData(x, height * 0.35, width * 0.12, height * 0.3).data
+                    .reduce((all, value, place) => all + (place % 4 === 3 ? 0 : value), 0);
+                return [sum(width * 0.04), sum(width * 0.84)];
+            }""",
+            keeper,
+        )
+        assert light[0] > 1.5 * light[1]
+
+
+@pytest.mark.parametrize("width", [320, 390, 768])
+def test_a_phone_shows_the_whole_page_without_scrolling_sideways(
+    browser: Browser, made: tuple[Figures, Path], width: int
+) -> None:
+    tab = Opened(browser, made[1], width, 844)
+    assert tab.page.evaluate("document.documentElement.scrollWidth") <= width
+    for name in ("#pitch", "#scrub", "#play", "#momentum", "#events"):
+        box = tab.page.locator(name).bounding_box()
+        assert box is not None and box["x"] >= 0 and box["x"] + box["width"] <= width
+    assert tab.faults == []
+    tab.context.close()
+
+
+def test_names_are_shown_as_they_are_and_never_run(
+    browser: Browser, recording: Recording, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    evil = "</script><img src=x onerror=alert(1)><b>"
+    setup = recording.manifest.setup
+    assert setup is not None
+    teams = {side: team.model_copy(update={"name": evil}) for side, team in setup.teams.items()}
+    manifest = recording.manifest.model_copy(update={"setup": setup.model_copy(update={"teams": teams})})
+    monkeypatch.setattr(recording, "manifest", manifest)
+    _, text = page_of(recording)
+    write_page(tmp_path / "evil.html", text)
+    tab = Opened(browser, tmp_path / "evil.html")
+    assert tab.page.locator("#cyan-name").inner_text() == evil
+    assert tab.page.locator("img").count() == 0
+    assert tab.faults == []
+    tab.context.close()
+
+
+def test_a_page_that_cannot_be_written_is_said_in_one_line(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(TouchlineError, match=r"--html .*file/page\.html: .*; give a path that can be written"):
+        write_page(tmp_path / "file" / "page.html", "")

@@ -1,0 +1,98 @@
+"""A real match in figures: sums agree with each other and with what was recorded."""
+
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from pytest import approx
+
+from recordings.reader import Recording, open_recording
+from recordings.stats.figures import Figures
+from recordings.stats.kicks import Outcome
+from recordings.stats.measure import figures_of_recording
+from schemas.game import EventKind, Phase
+from schemas.side import Side
+
+
+@pytest.fixture(scope="module")
+def recording(played: Path) -> Recording:
+    return open_recording(played)
+
+
+@pytest.fixture(scope="module")
+def figures(recording: Recording) -> Figures:
+    return figures_of_recording(recording)
+
+
+def test_the_score_is_the_referees_and_that_of_the_goal_events(recording: Recording, figures: Figures) -> None:
+    *_, (_, last) = recording.decoded("game/state")
+    events = [event for _, event in recording.decoded("game/event") if event.kind is EventKind.GOAL]
+    for side in Side:
+        assert figures.sides[side].goals == getattr(last.score, side.value)
+        assert figures.sides[side].goals == sum(event.side is side for event in events)
+        assert figures.sides[side].goals == sum(goal.side is side for goal in figures.goals)
+
+
+def test_a_robots_distance_is_the_integral_of_its_recorded_speed(recording: Recording, figures: Figures) -> None:
+    worlds = [world for _, world in recording.decoded("world")]
+    for robot in figures.robots:
+        speeds = [math.hypot(world.robots[robot.name].vx, world.robots[robot.name].vy) for world in worlds]
+        path = sum((now + then) / 2 * 0.02 for now, then in pairwise(speeds))
+        assert robot.distance == approx(path, rel=0.02, abs=0.05)
+        assert robot.top_speed == max(speeds)
+    for side in Side:
+        own = [robot for robot in figures.robots if robot.side == side]
+        assert len(own) == 5
+        assert figures.sides[side].distance == approx(sum(robot.distance for robot in own))
+        assert [robot.keeper for robot in own] == [True, False, False, False, False]
+
+
+def test_the_time_in_play_is_the_referees_effective_time(recording: Recording, figures: Figures) -> None:
+    *_, (_, last) = recording.decoded("game/state")
+    assert figures.in_play_s is not None and figures.in_play_s > 5.0
+    assert figures.in_play_s == approx(last.effective, abs=1.1)  # the state is said once a second
+    assert figures.in_play_s == approx(figures.in_play * figures.duration)
+
+
+def test_possession_and_nobodys_time_make_up_the_time_in_play(figures: Figures) -> None:
+    sides = [figures.sides[side] for side in Side]
+    assert sum(side.possession_s for side in sides) + figures.free_s == approx(figures.in_play_s)
+    assert sum(side.possession for side in sides) == approx(1.0)
+    for side in Side:
+        held = sum(robot.with_ball_s for robot in figures.robots if robot.side == side)
+        assert 0 < held == approx(figures.sides[side].with_ball_s)
+        assert held <= figures.sides[side].possession_s
+
+
+def test_every_kick_of_the_recording_is_told_once_and_counted_once(recording: Recording, figures: Figures) -> None:
+    kicked = [(world.time, world.kicked) for _, world in recording.decoded("world") if world.kicked is not None]
+    assert kicked
+    assert sorted((kick.time, kick.robot) for kick in figures.kicks) == kicked
+    assert all(kick.mode is not None and kick.speed > 0.5 for kick in figures.kicks)
+    for side in Side:
+        counts = figures.sides[side].kicks
+        neither = (Outcome.KEPT, Outcome.OWN_GOAL, Outcome.UNDECIDED)
+        others = sum(kick.side is side and kick.outcome in neither for kick in figures.kicks)
+        assert counts.kicks == counts.passes + counts.shots + others
+        assert counts.passes_completed <= counts.passes
+        assert counts.shots_on_goal + counts.shots_blocked <= counts.shots
+        own = [robot.kicks for robot in figures.robots if robot.side == side]
+        assert counts.passes == sum(robot.passes for robot in own)
+        assert counts.shots == sum(robot.shots for robot in own)
+
+
+def test_restarts_are_those_that_the_referee_signalled(recording: Recording, figures: Figures) -> None:
+    signalled = [event for _, event in recording.decoded("game/event") if event.kind is EventKind.RESTART]
+    assert signalled
+    counted = sum(sum(figures.sides[side].restarts.values()) for side in Side) + figures.drop_balls
+    assert counted == len(signalled)
+    assert figures.sides[Side.CYAN].restarts[Phase.KICK_OFF] >= 1
+
+
+def test_the_figures_rest_on_every_message_that_was_recorded(recording: Recording, figures: Figures) -> None:
+    counts = {channel.key: channel.messages for channel in recording.channels}
+    evidence = figures.evidence
+    assert (evidence.worlds, evidence.events) == (counts["world"], counts["game/event"])
+    assert (evidence.states, evidence.unreadable) == (counts["game/state"], 0)
+    assert evidence.touched >= evidence.held > 0
