@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-DOCUMENTS = ("README.md", "ARCHITECTURE.md", "CHANGELOG.md", "docs/protocol.md")
+DOCUMENTS = ("README.md", "ARCHITECTURE.md", "CHANGELOG.md", "docs/protocol.md", "docs/recordings.md")
 PACKAGES = ("schemas", "sim_host", "robot_agent", "coach_gateway", "recordings", "arena")
 FILES = r"`([\w.]+/[\w./]*\.\w+)`"
 

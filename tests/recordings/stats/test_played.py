@@ -96,3 +96,13 @@ def test_the_figures_rest_on_every_message_that_was_recorded(recording: Recordin
     assert (evidence.worlds, evidence.events) == (counts["world"], counts["game/event"])
     assert (evidence.states, evidence.unreadable) == (counts["game/state"], 0)
     assert evidence.touched >= evidence.held > 0
+
+
+def test_the_lines_of_python_in_the_documents_read_the_kicks(
+    played: Path, figures: Figures, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (Path(__file__).parents[3] / "docs" / "recordings.md").read_text("utf-8")
+    code = text.split("## Figures and the page")[1].split("```python\n")[1].split("```")[0]
+    monkeypatch.chdir(played.parent)
+    exec(compile(code, "docs/recordings.md", "exec"), {})
+    assert len(capsys.readouterr().out.splitlines()) == len(figures.kicks)
