@@ -6,6 +6,7 @@ from arena.commands import (
     agent,
     coach,
     drive,
+    export,
     host,
     info,
     match,
@@ -39,6 +40,7 @@ app.command("drive")(drive.drive)
 app.command("record")(record.record)
 app.command("info")(info.info)
 app.command("stats")(stats.stats)
+app.command("export")(export.export)
 app.command("topics")(topics.topics)
 app.command("schema")(schema.schema)
 

@@ -27,6 +27,7 @@ COMMANDS = (
     "scene",
     "scenes",
     "drive",
+    "export",
 )
 NOBODY = "--connect=tcp/127.0.0.1:9"
 
