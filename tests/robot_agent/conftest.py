@@ -70,7 +70,15 @@ def make_sight(
         holding=more.pop("holding", False),
         obstacles=[Obstacle(x=x, y=y, radius=0.25) for x, y in obstacles],
         radio=radio or {},
-        game=GameView(phase=phase, running=running, clock=tick * 0.02, our_score=0, their_score=0, spot=spot),
+        game=GameView(
+            phase=phase,
+            running=running,
+            clock=tick * 0.02,
+            our_score=0,
+            their_score=0,
+            spot=spot,
+            **more.pop("game", {}),
+        ),
         **more,
     )
 

@@ -3,7 +3,7 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from schemas.game import RESTARTS, ActionName, EventKind, Phase, Point, RefereeAction
+from schemas.game import RESTARTS, ActionName, EventKind, Mode, Phase, Point, RefereeAction, Stage
 from schemas.match_config import MatchConfig
 from schemas.profile import load_profile
 from schemas.side import Side
@@ -25,13 +25,20 @@ actions = st.builds(
     robot=st.sampled_from([None, *NAMES]),
 )
 wishes = st.none() | actions
+silences = st.sampled_from([(), (), ("cyan2",), ("magenta1", "magenta3")])
 
 
-@settings(max_examples=60, deadline=None)
-@given(profile=st.sampled_from(["msl", "paper"]), story=st.lists(st.tuples(flights, wishes), max_size=40))
-def test_score_clock_and_restarts_are_sound_in_any_match(new_bench, profile, story):
-    bench = new_bench(profile, "friendly", dt=0.1, duration=24.0)
-    for (x, y, z, toucher, ticks), wish in story:
+@settings(max_examples=40, deadline=None)
+@given(
+    rules=st.sampled_from(["friendly", "msl", "paper", "china-sim-2020"]),
+    mode=st.sampled_from(Mode),
+    winner=st.booleans(),
+    story=st.lists(st.tuples(flights, wishes, silences), max_size=40),
+)
+def test_score_clock_and_restarts_are_sound_in_any_match(new_bench, rules, mode, winner, story):
+    profile = "paper" if rules == "paper" else "msl"
+    bench = new_bench(profile, rules, dt=0.1, duration=24.0, mode=mode, proposal=1.0, winner=winner)
+    for (x, y, z, toucher, ticks), wish, silent in story:
         for left in range(ticks, 0, -1):
             way = (
                 [b + (n - b) / left for b, n in zip(bench.ball, (x, y, z), strict=True)]
@@ -39,19 +46,33 @@ def test_score_clock_and_restarts_are_sound_in_any_match(new_bench, profile, sto
                 else None
             )
             touches = [toucher] if toucher and left == ticks else []
-            sound_step(bench, way, touches, [wish] if wish and left == ticks else [])
-    for _ in range(2000):
+            asked = [wish] if wish and left == ticks else []
+            sound_step(bench, way, touches, asked, kicked=toucher if touches else None, silent=silent)
+    for _ in range(9000):
         if bench.state.phase is Phase.FULL_TIME:
             break
-        people_must_act = bench.state.phase is Phase.STOPPED and bench.state.pending is None
-        sound_step(bench, None, [], [RefereeAction(action=ActionName.START)] if people_must_act else [])
+        word = what_people_must_say(bench.state, mode)
+        sound_step(bench, None, [], [RefereeAction(action=word)] if word else [])
     assert bench.state.phase is Phase.FULL_TIME
     every_stop_leads_on(bench.events)
 
 
-def sound_step(bench, ball, touches, asked):
+def what_people_must_say(state, mode):
+    """The word without which a match would not go on."""
+    by_hand = mode is Mode.MANUAL
+    if state.stage is Stage.SHOOT_OUT and state.shoot_out.taken.cyan + state.shoot_out.taken.magenta > 1:
+        return ActionName.END_GAME  # it would be played for long: nobody scores
+    if by_hand and state.running and state.stage is Stage.SHOOT_OUT:
+        return ActionName.STOP
+    if state.pending is not None or state.running:
+        return None
+    waits = state.phase is Phase.STOPPED or (by_hand and state.phase in RESTARTS)
+    return ActionName.START if waits else None
+
+
+def sound_step(bench, ball, touches, asked, **seen):
     before = bench.state
-    ruling = bench.tick(ball, touches, asked)
+    ruling = bench.tick(ball, touches, asked, **seen)
     after = ruling.state
     kinds = {event.kind for event in ruling.events}
     goals = [event for event in ruling.events if event.kind is EventKind.GOAL]
@@ -62,8 +83,11 @@ def sound_step(bench, ball, touches, asked):
         assert after.score.magenta - before.score.magenta == sum(goal.side is Side.MAGENTA for goal in goals)
     assert before.clock <= after.clock <= after.timing.limit
     assert len(ruling.replies) == len(asked)
-    assert after.running <= after.timing.runs
+    assert after.running <= (after.timing.runs or after.stage is Stage.SHOOT_OUT)
     assert (after.spot is not None) == (after.phase in RESTARTS)
+    assert after.spot is None or after.pending is None, "two restarts at once"
+    assert after.timing.effective >= before.timing.effective or any(event.rule == "undo" for event in ruling.events)
+    assert after.stage is not Stage.SHOOT_OUT or after.score == before.score
     for placement in ruling.placements:
         inside = abs(placement.x) <= bench.pitch.goal_line and abs(placement.y) <= bench.pitch.touch_line
         assert inside or placement.body in {*after.people.away, *before.people.away}
