@@ -1,4 +1,15 @@
-"""Who decides: the referee at once, the referee unless people overrule it, or people alone; and what can be undone."""
+"""Authority: the referee decides, or proposes and people may overrule it, or people decide alone; and what is undone.
+
+In `automatic` officiating every decision is carried out in its tick. In `mixed` it is an event of its own, and carried
+out when it is confirmed or the match file's time is up; meanwhile the game goes on, nothing else is judged, and nobody
+is shown a card for standing wrong. In `manual` the referee keeps the clocks and places the ball; people decide, and
+give START. `undo` brings back the state before the last decision, score and cards with it, while the clocks go on: a
+restart that was signalled is signalled again, and where play was on the ball is dropped.
+
+Section: ours.
+Measures: nothing of its own.
+Not judged: whether people who officiate are right.
+"""
 
 import dataclasses
 

@@ -1,4 +1,14 @@
-"""Cards and comings and goings: who is shown what, who leaves the field and for how long, and who comes back when."""
+"""Cards and people: who is shown what, who leaves the field and for how long, and who comes back when.
+
+Yellow cards of one robot add up to a suspension and then to a red card. A robot off the field stands beyond the
+boundary, and its commands rest. Suspensions are served in playing time, repairs and substitutions also while the clock
+stands; then the robot comes back by itself at the next stoppage, at its side's right touch line, where there is room. A
+robot whose program is gone is taken out, and comes back when it is heard again; one that people parked, when they say.
+
+Section: misconduct; repair and substitution.
+Measures: cards by robot, red cards by side, the time off; how long a program has not answered, as the host tells it.
+Not judged: who is fit to play; cards stay with the name, also of a substitute.
+"""
 
 import dataclasses
 from collections.abc import Mapping

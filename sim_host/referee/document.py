@@ -7,10 +7,12 @@ import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import fields
 from inspect import cleandoc
+from types import ModuleType
 from typing import Any
 
 from schemas.quantity import Quantity, meanings
 from schemas.rule_book import SECTIONS, SHIPPED, RuleBook, load_rule_book
+from sim_host.referee import authority, discipline, flow, positions, restart
 from sim_host.referee.rules import RULES, SHOOT_OUT, Rule
 
 NOTE = (
@@ -30,6 +32,9 @@ their subject.
 A number is chosen by the match's rule book: `touchline match --rules msl`. Each has a unit, an origin and a range, and
 stands in `schemas/rule_books/`. A foul whose word is `off` is not called; with `yellow` the offender is shown a card.
 """
+
+AROUND = (flow, restart, positions, discipline, authority)
+"""What happens around the rules, by the modules that do it; each says the same of itself as a rule does."""
 
 BY_HAND = (
     ("Advantage", "The referee stops the game at every foul. A person may have the last decision undone."),
@@ -60,6 +65,8 @@ def page() -> str:
         "### In a penalty shoot-out",
         "There the rule below judges alone, and the end of time.",
         *(_rule(rule, books) for rule in SHOOT_OUT),
+        "## The match around them",
+        *(_around(module) for module in AROUND),
         "## What people decide",
         "\n".join(f"* **{matter}.** {answer}" for matter, answer in BY_HAND),
         "## Every number",
@@ -70,7 +77,12 @@ def page() -> str:
 
 def said_of(rule: Rule) -> tuple[str, dict[str, str]]:
     """What a rule's docstring says: what it is, then the labelled sentences."""
-    doc = cleandoc(sys.modules[rule.judge.__module__].__doc__ or "")
+    return said_by(sys.modules[rule.judge.__module__])
+
+
+def said_by(module: ModuleType) -> tuple[str, dict[str, str]]:
+    """What a module's docstring says: what it is about, then the labelled sentences."""
+    doc = cleandoc(module.__doc__ or "")
     text, labelled, label = [], dict[str, list[str]](), ""
     for line in doc.splitlines():
         found = next((name for name in LABELS if line.startswith(f"{name}: ")), None)
@@ -87,6 +99,12 @@ def _rule(rule: Rule, books: Sequence[RuleBook]) -> str:
     text, labelled = said_of(rule)
     listed = "\n".join(f"* {label}: {sentence}" for label, sentence in labelled.items())
     return "\n\n".join([f"### `{rule.name}`", text, listed, *_numbers(rule.numbers, books)])
+
+
+def _around(module: ModuleType) -> str:
+    text, labelled = said_by(module)
+    listed = "\n".join(f"* {label}: {sentence}" for label, sentence in labelled.items())
+    return "\n\n".join([f"### `{module.__name__.rpartition('.')[2]}`", text, listed])
 
 
 def _numbers(numbers: Iterable[str], books: Sequence[RuleBook]) -> list[str]:

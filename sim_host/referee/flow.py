@@ -1,4 +1,17 @@
-"""The match from before its first half to full time: kick-offs, stoppages, halves, and what a decision leads to."""
+"""The match from before its first half to full time: kick-offs, stoppages, halves, and what a decision leads to.
+
+Each half ends at once when its playing time is up; robots park, and after the break they are carried to their start
+poses and play in the other direction, the other side kicking off. A level match whose match file or rule book asks for
+a winner goes on with extra time, as much shorter or longer than the rule book says as the halves are, and then with a
+penalty shoot-out. Sides alternate there until one cannot be caught up with; a level shoot-out is repeated, the other
+side beginning, and then said to be undecided. A side that cannot field enough robots, because they are sent off for
+good or their programs are gone, forfeits.
+
+Section: match.
+Measures: the clock, which runs from the first START of a half to its end, also through stoppages; beside it the
+effective playing time, while the ball is in play. In a shoot-out both stand.
+Not judged: added time; who wins an undecided match.
+"""
 
 import dataclasses
 from collections.abc import Callable, Mapping

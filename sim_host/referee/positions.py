@@ -1,6 +1,11 @@
-"""Where robots may stand before START: distances to the whole robot, own halves at a kick-off, areas at a penalty.
+"""Positions before START: distances to the whole robot, own halves at a kick-off, areas at a penalty.
 
-Robots off the field stand nowhere: they are not looked at.
+The taker is the robot of its side nearest to the ball. One defender besides the goalkeeper may stand nearer than the
+others in its own penalty area, not in the goal area. Robots off the field are not looked at.
+
+Section: restarts.
+Measures: the way between the ball's spot and the robot's hull, taken as the circle that holds it in any direction.
+Not judged: robots that change their places between START and the kick, as long as they do not touch the ball.
 """
 
 import dataclasses

@@ -1,4 +1,14 @@
-"""The restart sequence: STOP, ball placed and restart signalled, START, ball in play."""
+"""The restart sequence: STOP, ball placed and restart signalled, START, ball in play.
+
+Robots take positions from the signal on. START comes after the rule book's pause, as soon as everybody stands legally
+and the ball lies on its spot, at the latest after the positions limit: who stands wrong then is named, and moved or
+shown a card as the rule book says. The ball is in play once it has rolled freely far enough, or when the taker's time
+is over, from when on anybody may take it; a dropped ball at once.
+
+Section: restarts.
+Measures: the time since STOP, signal and START; the ball's way from its spot, and its longest way between two touches.
+Not judged: who let the time go by.
+"""
 
 import dataclasses
 import math

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from schemas.rule_book import SECTIONS, SHIPPED, load_rule_book
-from sim_host.referee.document import BY_HAND, LABELS, page, said_of
+from sim_host.referee.document import AROUND, BY_HAND, LABELS, page, said_by, said_of
 from sim_host.referee.rules import RULES, SHOOT_OUT
 
 TEXT = (Path(__file__).parents[2] / "docs" / "rules.md").read_text("utf-8")
@@ -30,6 +30,12 @@ def test_every_rule_has_the_name_of_its_file_and_numbers_that_exist(rule):
     for number in rule.numbers:
         section, field = number.split(".")
         assert field in {one.name for one in fields(SECTIONS[section])}
+
+
+@pytest.mark.parametrize("module", AROUND, ids=lambda module: module.__name__)
+def test_what_happens_around_the_rules_is_told_in_the_same_way(module):
+    text, labelled = said_by(module)
+    assert text in TEXT and tuple(labelled) == LABELS and all(sentence in TEXT for sentence in labelled.values())
 
 
 def test_every_foul_that_a_book_can_switch_belongs_to_a_rule():
