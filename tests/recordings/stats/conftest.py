@@ -5,9 +5,13 @@ from typing import Any
 
 import pytest
 
+from recordings.manifest import Manifest
 from recordings.stats.figures import Figures
 from recordings.stats.measure import Measure
 from recordings.stats.moment import Moment, moments
+from recordings.stats.page.content import content_of
+from recordings.stats.page.course import Course
+from recordings.stats.track import Tracks
 from schemas.command import Drive, Kick, KickMode
 from schemas.game import EventKind, GameEvent, GameState, Phase, Score
 from schemas.host import Applied, AppliedInput, Placement, RosterEntry, Setup
@@ -27,6 +31,9 @@ class Film:
     def __init__(self) -> None:
         teams = {f"teams.{side}": {"name": f"Team {side}", "size": 2} for side in Side}
         self.setup = Setup.of(load_match(None, teams), load_profile("msl"), load_rule_book("friendly"))
+        self.manifest = Manifest(
+            contract="1.0", match="cup", recorder="r", started="2026-01-01", sights=False, versions={}, libm=""
+        )
         self.messages: list[tuple[int, Any]] = []
         self.tick = -1
         self.places = dict(CORNERS)
@@ -115,10 +122,20 @@ class Film:
 
     def figures(self) -> Figures:
         """What was made so far, in figures."""
-        measure = Measure(self.setup, 0.0, self.tick * TICK)
+        return self.course()[0]
+
+    def course(self) -> tuple[Figures, Tracks, Course]:
+        """The same, with where everybody was and what was being played."""
+        end = self.tick * TICK
+        measure, tracks, course = Measure(self.setup, 0.0, end), Tracks(self.setup, 0.0, end), Course()
         for moment in self.moments():
-            measure.take(moment)
-        return measure.figures()
+            for taker in (measure, tracks, course):
+                taker.take(moment)
+        return measure.figures(), tracks, course
+
+    def content(self) -> dict[str, Any]:
+        """What was made so far, as a page shows it."""
+        return content_of(self.manifest, self.setup, *self.course())
 
 
 @pytest.fixture

@@ -4,13 +4,14 @@ import os
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
 
 from recordings.reader import Recording, open_recording
 from recordings.stats.figures import Figures
-from recordings.stats.page import page_of, write_page
+from recordings.stats.page import page, page_of, write_page
 from schemas.errors import TouchlineError
 from schemas.world import World
 
@@ -240,6 +241,29 @@ def test_a_phone_shows_the_whole_page_without_scrolling_sideways(
     for name in ("#pitch", "#scrub", "#play", "#momentum", "#events"):
         box = tab.page.locator(name).bounding_box()
         assert box is not None and box["x"] >= 0 and box["x"] + box["width"] <= width
+    assert tab.faults == []
+    tab.context.close()
+
+
+def test_a_link_opens_the_page_at_a_time(browser: Browser, made: tuple[Figures, Path]) -> None:
+    tab = Opened(browser, made[1])
+    tab.page.goto("about:blank")
+    tab.page.goto(f"{made[1].as_uri()}#t=8.5")
+    tab.until("window.touchline !== undefined")
+    assert tab.time == 8.5
+    tab.context.close()
+
+
+def test_a_recording_that_tells_little_makes_a_page_that_says_so(browser: Browser, film: Any, tmp_path: Path) -> None:
+    film.rest(5)
+    film.messages = [(time, message) for time, message in film.messages if not hasattr(message, "phase")]
+    write_page(tmp_path / "little.html", page(film.content()))
+    tab = Opened(browser, tmp_path / "little.html")
+    assert tab.page.locator("#score").inner_text() == "– : –"
+    assert tab.page.locator("#remarks li").count() == 4
+    tab.page.keyboard.press("n")
+    tab.scrub(0.3)
+    assert tab.time == 0.3
     assert tab.faults == []
     tab.context.close()
 

@@ -51,7 +51,8 @@ def test_a_robots_distance_is_the_integral_of_its_recorded_speed(recording: Reco
 def test_the_time_in_play_is_the_referees_effective_time(recording: Recording, figures: Figures) -> None:
     *_, (_, last) = recording.decoded("game/state")
     assert figures.in_play_s is not None and figures.in_play_s > 5.0
-    assert figures.in_play_s == approx(last.effective, abs=1.1)  # the state is said once a second
+    assert last.time == figures.duration == 24.0
+    assert figures.in_play_s == approx(last.effective, abs=1e-6)
     assert figures.in_play_s == approx(figures.in_play * figures.duration)
 
 

@@ -5,7 +5,6 @@ from base64 import b64decode
 
 from pytest import approx
 
-from recordings.manifest import Manifest
 from recordings.stats.measure import Measure
 from recordings.stats.page import page
 from recordings.stats.page.content import content_of
@@ -15,25 +14,13 @@ from schemas.game import Phase
 from schemas.side import Side
 
 
-def filmed(film) -> tuple[Tracks, Course, dict]:
-    tracks, course = Tracks(film.setup, 0.0, film.tick * 0.1), Course()
-    measure = Measure(film.setup, 0.0, film.tick * 0.1)
-    for moment in film.moments():
-        for taker in (tracks, course, measure):
-            taker.take(moment)
-    manifest = Manifest(
-        contract="1.0", match="cup", recorder="r", started="2026-01-01T12:00:00Z", sights=False, versions={}, libm=""
-    )
-    return tracks, course, content_of(manifest, film.setup, measure.figures(), tracks, course)
-
-
 def test_a_sample_is_the_world_at_its_time_to_a_centimetre(film) -> None:
     for number in range(20):
         film.ball = (0.123 * number, -0.05)
         film.held_by = "magenta1" if number > 10 else None
         film.places["cyan2"] = (-2.0, 3.0 + 0.1 * number)
         film.shot()
-    tracks, _, _ = filmed(film)
+    tracks = film.course()[1]
     assert tracks.samples == 1 + 2.0 * FASTEST
     for sample in (0, 13, 26, 50):
         tick = int(sample / FASTEST / 0.1 + 0.5)  # the world that is nearest, or the one before
@@ -51,7 +38,7 @@ def test_a_robot_that_is_not_there_is_away(film) -> None:
     film.rest(5)
     del film.places["joker"]
     film.rest(5)
-    tracks, _, _ = filmed(film)
+    tracks = film.course()[1]
     xs = tracks.robots["joker"].x
     assert len(xs) == tracks.samples
     assert (xs[0], xs[len(xs) // 2], xs[-1]) == (AWAY, 100, AWAY)
@@ -61,7 +48,7 @@ def test_missing_ticks_stand_still_and_keep_the_time(film) -> None:
     film.rest(40)
     lost = {round(tick * 0.1 * 1e9) for tick in range(10, 30)}
     film.messages = [(time, message) for time, message in film.messages if time not in lost]
-    assert filmed(film)[0].samples == 1 + 4.0 * FASTEST
+    assert film.course()[1].samples == 1 + 4.0 * FASTEST
 
 
 def test_the_course_says_what_changed_and_when(film) -> None:
@@ -71,7 +58,7 @@ def test_the_course_says_what_changed_and_when(film) -> None:
     film.shot(phase=Phase.KICK_OFF, side=Side.CYAN)
     film.shot(phase=Phase.KICK_OFF)
     film.rest(3)
-    _, course, content = filmed(film)
+    course, content = film.course()[2], film.content()
     assert [(round(leg.time, 3), leg.phase, leg.score) for leg in course.legs] == [
         (0.0, "play", (0, 0)),
         (1.0, "stopped", (0, 1)),
@@ -83,7 +70,7 @@ def test_the_course_says_what_changed_and_when(film) -> None:
 
 def test_content_carries_the_tracks_as_bytes(film) -> None:
     film.rest(10)
-    _, _, content = filmed(film)
+    content = film.content()
     robot = content["robots"][1]
     xs = array("h", b64decode(robot["x"]))
     assert (robot["name"], robot["side"], robot["number"]) == ("cyan2", "cyan", "2")
@@ -113,11 +100,5 @@ def test_half_an_hour_makes_a_page_below_six_megabytes_and_a_day_too(film) -> No
             now = world.model_copy(update={"time": number * step})
             tracks.take(type(moments[0])(now, None, None, None, moments[0].cast))
         measure.take(moments[0])
-        content = content_of(
-            Manifest(contract="1.0", match="cup", recorder="r", started="", sights=False, versions={}, libm=""),
-            film.setup,
-            measure.figures(),
-            tracks,
-            course,
-        )
+        content = content_of(film.manifest, film.setup, measure.figures(), tracks, course)
         assert len(page(content)) < 6e6
