@@ -102,3 +102,14 @@ def test_robots_are_planned_each_for_itself() -> None:
     for one in range(3):
         alone = planner().velocities(now[one : one + 1], demand[one : one + 1])
         assert together[:, one] == approx(alone[:, 0])
+
+
+@pytest.mark.parametrize("step", [0.0025, 0.005, 0.01])
+def test_an_acceleration_is_the_same_in_steps_of_any_length(step: float) -> None:
+    """Reference 14, defect 15: the seed's trajectory took every step for 7 ms. 1 m/s is reached after v / a."""
+    planner = DrivePlanner([LIMITS], step, 1)
+    at, steps = np.array([0j]), 0
+    while at[0].real < 1 - 1e-9:
+        at = planner.velocities(at, np.array([1 + 0j]))[-1]
+        steps += 1
+    assert steps * step == approx(1 / LIMITS.acceleration, abs=step)

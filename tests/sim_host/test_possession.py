@@ -35,6 +35,7 @@ def ball(distance: float, bearing: float = 0.0, z: float = 0.11) -> BallState:
     ],
 )
 def test_a_ball_is_held_within_distance_total_cone_and_height(seen: BallState, held: bool) -> None:
+    """Reference 13, row 5: the cone is the whole one, half of it to either side."""
     assert can_hold(robot(), seen, DRIBBLE) is held
 
 

@@ -7,7 +7,7 @@ import pytest
 from arena.in_process import play
 from schemas.game import Phase
 from schemas.match_config import MatchConfig
-from schemas.topics import APPLIED, STATE, WORLD
+from schemas.topics import APPLIED, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
 from schemas.world import World
 
 SHIPPED = {
@@ -64,3 +64,16 @@ def test_a_match_is_played_to_full_time_and_every_tick_is_told_once(pitch_of):
     pitch.host.run()
     assert [world.tick for world in worlds.all()] == list(range(pitch.host.simulation.now.tick + 1))
     assert states.all()[-1].phase is Phase.FULL_TIME
+
+
+def test_single_bodies_are_told_as_the_world_has_them_at_the_same_tick(pitch_of):
+    """Reference 13, row 13: a key for each body, one message for all, one number of the tick for both."""
+    pitch = pitch_of(duration=2)
+    worlds, robots, balls = pitch.hear(WORLD), pitch.hear(WORLD_ROBOT), pitch.hear(WORLD_BALL)
+    pitch.join_all()
+    pitch.host.run()
+    world_at = {world.tick: world for world in worlds.all()}
+    frames, ball_frames = robots.all(), balls.all()
+    assert frames and ball_frames
+    assert all(frame.robot in world_at[frame.tick].robots.values() for frame in frames)
+    assert all(frame.ball == world_at[frame.tick].ball for frame in ball_frames)
