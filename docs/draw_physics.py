@@ -49,6 +49,7 @@ def step_response() -> Figure:
     panel.axhline(3.0, color=_GREY, linewidth=0.8, linestyle=":")
     panel.set(xlabel="time, s", ylabel="speed, m/s", title="told 3 m/s, after 2 s told to stand")
     error.set(xlabel="time, s", ylabel="speed less min(a·t, v), cm/s", title="behind the ideal ramp")
+    error.set_xlim(0, 3.2)
     error.legend(frameon=False, fontsize=8, loc="center right")
     return drawn
 

@@ -7,7 +7,15 @@ from typing import Any
 
 import pytest
 
-DOCUMENTS = ("README.md", "ARCHITECTURE.md", "CHANGELOG.md", "docs/protocol.md", "docs/recordings.md")
+DOCUMENTS = (
+    "README.md",
+    "ARCHITECTURE.md",
+    "CHANGELOG.md",
+    "docs/protocol.md",
+    "docs/recordings.md",
+    "docs/physics.md",
+    "docs/parity.md",
+)
 PACKAGES = ("schemas", "sim_host", "robot_agent", "coach_gateway", "recordings", "arena")
 FILES = r"`([\w.]+/[\w./]*\.\w+)`"
 

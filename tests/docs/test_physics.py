@@ -1,0 +1,73 @@
+"""The page on physics: its tables are those of the profiles, and its plots can be drawn."""
+
+import importlib.util
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+from pytest import approx
+
+from schemas.profile import SECTIONS, load_profile
+
+
+def load(root: Path, name: str) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(name, root / "docs" / f"{name}.py")
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def drawing(root: Path) -> Iterator[ModuleType]:
+    before = list(sys.path)
+    yield load(root, "draw_physics")
+    sys.path[:] = before
+    for name in ("draw_physics", "physics_runs"):
+        sys.modules.pop(name)
+
+
+@pytest.fixture(scope="module")
+def text(root: Path) -> str:
+    return (root / "docs" / "physics.md").read_text("utf-8")
+
+
+def test_the_tables_are_those_of_the_profiles(root: Path, text: str) -> None:
+    tables = load(root, "physics_tables")
+    assert text == tables.filled(text), "run: .venv/bin/python docs/physics_tables.py"
+    shown = re.findall(r"<!-- table (\w+) -->", text)
+    assert sorted(shown) == sorted(set(SECTIONS) - {"safety"})
+
+
+def test_every_plot_is_shown_and_light(root: Path, text: str, drawing: ModuleType) -> None:
+    shown = re.findall(r"\(images/physics_(\w+)\.png\)", text)
+    assert sorted(shown) == sorted(drawing.PLOTS)
+    for name in shown:
+        picture = (root / "docs" / "images" / f"physics_{name}.png").read_bytes()
+        assert picture.startswith(b"\x89PNG") and len(picture) < 150_000
+
+
+@pytest.mark.parametrize("name", ["step_response", "ball_roll", "bounce", "duel", "dribble_turn"])
+def test_a_plot_is_drawn_from_a_run(name: str, drawing: ModuleType) -> None:
+    figure = drawing.PLOTS[name]()
+    lines = [line for panel in figure.axes for line in panel.lines if len(line.get_xdata()) > 2]
+    assert lines
+    assert all(np.ptp(np.asarray(line.get_xdata(), dtype=float)) > 0.1 for line in lines)
+
+
+def test_slow_plots_are_drawn_from_less(drawing: ModuleType) -> None:
+    """Top speeds in two directions within 2 % of the wheel limit over |sin| of its axle; noise from few pictures."""
+    runs = drawing.runs
+    wheels = load_profile("omni").wheels
+    _, speeds = runs.top_speeds("omni", 1)
+    assert speeds == approx([wheels.max_speed * 2**0.5] * 2, rel=0.02)
+    assert len(drawing.noise(pictures=20).axes) == 1
+    profile = load_profile("msl")
+    run = runs.kick(runs.KickMode.LOB, 8.0, 7.0, profile, seconds=1.5)
+    x, z = run.ball("x", "z").T
+    assert z[np.argmax(x > profile.field.goal_line)] < profile.field.goal_height
