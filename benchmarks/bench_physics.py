@@ -137,7 +137,7 @@ class Hall:
         self.step_world()
         ruling = self.referee.step(self.state, self.snapshot, (), self.profile.time.tick)
         self.state = ruling.state
-        self.sights.at(self.snapshot, self.state, self.advance.stuck, {}, {}, {}, nobody)
+        self.sights.at(self.snapshot, self.state, 1, self.advance.stuck, {}, {}, {}, nobody)
 
     def ready(self) -> None:
         """Give the raw engine the world's state, to go on from there."""

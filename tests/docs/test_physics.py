@@ -71,3 +71,20 @@ def test_slow_plots_are_drawn_from_less(drawing: ModuleType) -> None:
     run = runs.kick(runs.KickMode.LOB, 8.0, 7.0, profile, seconds=1.5)
     x, z = run.ball("x", "z").T
     assert z[np.argmax(x > profile.field.goal_line)] < profile.field.goal_height
+
+
+@pytest.mark.parametrize("drive", ["msl", "omni"])
+def test_the_benchmark_steps_more_robots_than_a_match_file_allows(drive: str, root: Path) -> None:
+    """Reference 13, row 23; the benchmark measures what this steps once."""
+    spec = importlib.util.spec_from_file_location("bench_physics", root / "benchmarks" / "bench_physics.py")
+    assert spec is not None and spec.loader is not None
+    bench = importlib.util.module_from_spec(spec)
+    sys.modules["bench_physics"] = bench
+    spec.loader.exec_module(bench)
+    hall = bench.Hall(drive, 22)
+    for body in (hall.tick, hall.ready, hall.step_raw, hall.sense):
+        body()
+    assert len(hall.snapshot.robots) == 22
+    assert bench.exponent([size**1.5 for size in bench.SIZES]) == approx(1.5)
+    hall.close()
+    del sys.modules["bench_physics"]
