@@ -6,8 +6,10 @@ import sys
 import threading
 from pathlib import Path
 
+from recordings.output import Limits
 from recordings.record import read_config, record
 from recordings.recorder import RecordingSummary
+from recordings.selection import Selection
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.errors import TouchlineError
 
@@ -25,6 +27,13 @@ def main(arguments: list[str] | None = None) -> int:
             options.out,
             name=options.name,
             sights=options.sights,
+            selection=Selection(tuple(options.include), tuple(options.exclude)),
+            limits=Limits(
+                size=round(options.split_size * 1e6) if options.split_size is not None else None,
+                duration=options.split_duration,
+                keep=options.keep,
+                snapshot=options.snapshot,
+            ),
             config=read_config(options.config) if options.config is not None else None,
             patience=options.patience,
             told_to_stop=stop.is_set,
@@ -43,15 +52,39 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--out", required=True, type=Path, help="the file, *.mcap")
     parser.add_argument("--name", default="recorder", help="what this recorder is called (%(default)s)")
     parser.add_argument("--sights", action="store_true", help="record too what the robots perceive")
+    more, positive = "may be given several times", _positive
+    parser.add_argument("--include", action="append", default=[], help=f"record these keys alone, robot/*/command; {more}")
+    parser.add_argument("--exclude", action="append", default=[], help=f"leave these keys out; {more}")
+    parser.add_argument("--split-size", type=positive, help="MB after which the next file is begun")
+    parser.add_argument("--split-duration", type=positive, help="simulated s after which the next file is begun")
+    parser.add_argument("--keep", type=_count, help="keep so many files, the newest")
+    parser.add_argument("--snapshot", type=positive, help="simulated s before a goal that are written; nothing else is")
     parser.add_argument("--config", type=Path, help="the match as JSON, to be kept in the file")
     parser.add_argument("--patience", type=float, default=30.0, help="s to wait for the host (%(default)s)")
     return parser
 
 
+def _positive(text: str) -> float:
+    number = float(text)
+    if not 0.0 < number < float("inf"):
+        raise ValueError(text)
+    return number
+
+
+def _count(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise ValueError(text)
+    return number
+
+
 def _sentence(summary: RecordingSummary) -> str:
     result = summary.result
+    files = f"{summary.files[0]}" + (f" and {len(summary.files) - 1} more" if summary.files[1:] else "")
+    if not summary.files:
+        return "nothing was to be kept"
     return (
-        f"{summary.path}: {result.messages} messages, {result.tick + 1} ticks, {result.lost} lost, "
+        f"{files}: {result.messages} messages, {result.tick + 1} ticks, {result.lost} lost, "
         f"{summary.size} bytes, ended by {result.ended.value}"
     )
 

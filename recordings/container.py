@@ -1,6 +1,7 @@
 """An MCAP file from outside: what it holds by its index, or, where it was cut off, by reading it up to the cut."""
 
 import struct
+import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,15 +11,17 @@ import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
 from mcap.reader import SeekingReader
-from mcap.records import Attachment, Channel, ChunkIndex, Header, McapRecord, Message, MessageIndex, Metadata
-from mcap.stream_reader import StreamReader
+from mcap.records import Attachment, Channel, Chunk, ChunkIndex, Header, McapRecord, Message, Metadata, Schema
+from mcap.stream_reader import StreamReader, breakup_chunk
 from mcap.summary import Summary
 from mcap.writer import MCAP0_MAGIC
 
 from schemas.errors import TouchlineError
 
-_BROKEN = (McapError, ValueError, struct.error, zstandard.ZstdError)
+_BROKEN = (McapError, ValueError, LookupError, OverflowError, MemoryError, struct.error, zstandard.ZstdError)
 """What the library raises on bytes that are cut off or damaged."""
+_FOOTER = struct.Struct("<BQQQI")
+"""Opcode, length, start of the summary, start of its offsets, checksum of the summary."""
 
 
 @dataclass(slots=True)
@@ -27,6 +30,8 @@ class ChannelRecord:
 
     key: str
     metadata: dict[str, str]
+    encoding: str = "json"
+    schema: Schema | None = None
     messages: int = 0
     first_ns: int = 0
     last_ns: int = 0
@@ -108,38 +113,63 @@ def _by_index(path: Path, file: IO[bytes]) -> Container | None:
     try:
         reader = SeekingReader(file, record_size_limit=size)
         summary = reader.get_summary()
-        if summary is None or summary.statistics is None:
+        if summary is None or summary.statistics is None or not _summary_is_whole(file, size):
             return None
         container = Container(path, library=reader.get_header().library)
         container.metadata = {record.name: record.metadata for record in reader.iter_metadata()}
         container.attachments = {record.name: record.data for record in reader.iter_attachments()}
         counts = summary.statistics.channel_message_counts
+        chunks: dict[int, dict[int, list[int]]] = {}
         for number, channel in summary.channels.items():
-            first, last = _extent(file, summary, number)
-            container.channels[number] = ChannelRecord(
-                channel.topic, channel.metadata, counts.get(number, 0), first, last
-            )
+            record = ChannelRecord(channel.topic, channel.metadata, channel.message_encoding)
+            record.schema = summary.schemas.get(channel.schema_id)
+            record.messages = counts.get(number, 0)
+            record.first_ns, record.last_ns = _extent(file, summary, number, chunks)
+            container.channels[number] = record
     except _BROKEN:
         return None
     return container
 
 
-def _extent(file: IO[bytes], summary: Summary, channel: int) -> tuple[int, int]:
-    """Times of the first and the last message of a channel, from the indexes beside its first and last chunk."""
+def _summary_is_whole(file: IO[bytes], size: int) -> bool:
+    """Whether the summary is as it was written, by its checksum; a writer may have left that out."""
+    end = size - len(MCAP0_MAGIC) - _FOOTER.size
+    file.seek(end)
+    footer = file.read(_FOOTER.size)
+    _, _, start, _, expected = _FOOTER.unpack(footer)
+    if not 0 < start <= end:
+        return False
+    file.seek(start)
+    return expected in (0, zlib.crc32(file.read(end - start) + footer[:-4]))
+
+
+def _extent(
+    file: IO[bytes], summary: Summary, channel: int, read: dict[int, dict[int, list[int]]]
+) -> tuple[int, int]:
+    """Times of the first and the last message of a channel, from its first and last chunk; `read` are chunks so far."""
     chunks = [index for index in summary.chunk_indexes if channel in index.message_index_offsets]
     if not chunks:
         return 0, 0
-    return min(_times(file, chunks[0], channel)), max(_times(file, chunks[-1], channel))
+    return min(_times(file, chunks[0], read)[channel]), max(_times(file, chunks[-1], read)[channel])
 
 
-def _times(file: IO[bytes], chunk: ChunkIndex, channel: int) -> list[int]:
-    file.seek(chunk.message_index_offsets[channel] + 9)  # behind opcode and length
-    return [log_ns for log_ns, _ in MessageIndex.read(ReadDataStream(file)).records]
+def _times(file: IO[bytes], chunk: ChunkIndex, read: dict[int, dict[int, list[int]]]) -> dict[int, list[int]]:
+    """Channel → log times of its messages in a chunk, which is checked; the indexes beside it have no checksum."""
+    at = chunk.chunk_start_offset
+    if at not in read:
+        file.seek(at + 9)  # behind opcode and length
+        times: dict[int, list[int]] = {}
+        for record in breakup_chunk(Chunk.read(ReadDataStream(file)), validate_crc=True):
+            if isinstance(record, Message):
+                times.setdefault(record.channel_id, []).append(record.log_time)
+        read[at] = times
+    return read[at]
 
 
 def _by_reading(path: Path, file: IO[bytes]) -> Container:
     """What can be read before the cut."""
     container = Container(path, complete=False)
+    schemas: dict[int, Schema] = {}
     file.seek(0)
     for record in _records(file, path.stat().st_size):
         match record:
@@ -149,8 +179,12 @@ def _by_reading(path: Path, file: IO[bytes]) -> Container:
                 container.metadata[record.name] = record.metadata
             case Attachment():
                 container.attachments[record.name] = record.data
+            case Schema():
+                schemas[record.id] = record
             case Channel():
-                container.channels.setdefault(record.id, ChannelRecord(record.topic, record.metadata))
+                channel = ChannelRecord(record.topic, record.metadata, record.message_encoding)
+                channel.schema = schemas.get(record.schema_id)
+                container.channels.setdefault(record.id, channel)
             case Message():
                 container.channels[record.channel_id].extend(record.log_time)
     return container

@@ -7,6 +7,7 @@ from pydantic_core import to_json
 from recordings.environment import libm_fingerprint, versions
 from recordings.json_schema import whole_schema
 from recordings.manifest import Manifest
+from recordings.selection import EVERYTHING, Selection
 from schemas.clock import Clock
 from schemas.host import Setup
 from schemas.match_config import MatchConfig
@@ -17,7 +18,14 @@ from schemas.topics import TOPICS, Delivery
 
 
 def manifest_of(
-    match: str, recorder: str, clock: Clock, setup: Setup | None, config: MatchConfig | None, *, sights: bool
+    match: str,
+    recorder: str,
+    clock: Clock,
+    setup: Setup | None,
+    config: MatchConfig | None,
+    *,
+    sights: bool,
+    selection: Selection = EVERYTHING,
 ) -> Manifest:
     """The manifest of a recording that begins now, on this machine."""
     return Manifest(
@@ -30,6 +38,8 @@ def manifest_of(
         libm=libm_fingerprint(),
         setup=setup,
         config=config,
+        include=list(selection.include),
+        exclude=list(selection.exclude),
     )
 
 

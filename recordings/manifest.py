@@ -4,9 +4,10 @@ MCAP metadata maps text to text: a field that is text stands as it is, any other
 out.
 """
 
+import hashlib
 import types
 from enum import StrEnum
-from typing import Any, TypeVar, get_args
+from typing import Any, Self, TypeVar, get_args
 
 from pydantic import ValidationError
 from pydantic_core import from_json, to_json, to_jsonable_python
@@ -16,10 +17,12 @@ from schemas.game import Phase, Score
 from schemas.host import Setup
 from schemas.match_config import MatchConfig
 from schemas.message import Name, Part
+from schemas.topics import EVENT
 
 MANIFEST = "manifest"
 RESULT = "result"
 """Names of the two metadata records."""
+_DIGEST = "digest"
 
 
 class Manifest(Part):
@@ -40,6 +43,18 @@ class Manifest(Part):
     """The host's own words; nothing when it gave none."""
     config: MatchConfig | None = None
     """The match file; nothing when the recorder was not told."""
+    include: list[str] = []
+    """Key expressions that were recorded; all where there is none."""
+    exclude: list[str] = []
+    """Key expressions that were not."""
+    part: int = 1
+    """Which file of a recording that was split, from 1."""
+    standing: int = 0
+    """So many messages at the beginning of the file repeat what stood when it began; files before it have them too."""
+    attached: dict[str, str] = {}
+    """Attachment → blake2b of its content, hex."""
+    made: str = "recorded"
+    """`recorded`, or how it was made of other recordings: `filtered`, `merged`."""
 
 
 class Ended(StrEnum):
@@ -51,6 +66,10 @@ class Ended(StrEnum):
     """The host left, died, or was cut off for good, before full time."""
     STOPPED = "stopped"
     """The recorder was told to stop before full time."""
+    SPLIT = "split"
+    """It goes on in the next file."""
+    SNAPSHOT = "snapshot"
+    """The file holds a moment of the match that somebody wanted to keep."""
 
 
 class KeyCount(Part):
@@ -70,6 +89,12 @@ class KeyCount(Part):
     """How often the writer began to count anew."""
     unstamped: int = 0
     """Messages without a sequence number, from a writer that does not use this library: their losses are unknown."""
+    left_out: int = 0
+    """Messages that came while the recorder was paused."""
+
+    def since(self, before: "KeyCount") -> Self:
+        """What was counted after `before`; a late message may take back a loss of an earlier file, so none is below 0."""
+        return type(self)(**{name: max(0, getattr(self, name) - getattr(before, name)) for name in KeyCount.model_fields})
 
 
 class Result(Part):
@@ -94,15 +119,42 @@ class Result(Part):
     """Payloads that the recorder itself wanted to read and could not, by key; recorded all the same."""
     keys: dict[str, KeyCount] = {}
 
+    def counted(self, keys: dict[str, KeyCount]) -> "Result":
+        """The same match, with the counts of a file that holds these."""
+        totals = {name: sum(getattr(count, name) for count in keys.values()) for name in _TOTALS}
+        events = keys.get(EVENT.key, KeyCount()).messages
+        return self.model_copy(update={"keys": keys, "events": events, **totals})
+
+
+_TOTALS = ("messages", "lost", "missed_before_start")
+
 
 def to_metadata(part: Part) -> dict[str, str]:
-    """The fields of a part as MCAP metadata."""
+    """The fields of a part as MCAP metadata, sealed."""
     fields = to_jsonable_python(part)
-    return {
-        name: value if isinstance(value, str) else to_json(value).decode()
-        for name, value in fields.items()
-        if value is not None
-    }
+    return sealed(
+        {
+            name: value if isinstance(value, str) else to_json(value).decode()
+            for name, value in fields.items()
+            if value is not None
+        }
+    )
+
+
+def sealed(metadata: dict[str, str]) -> dict[str, str]:
+    """The metadata with a digest over all its fields: MCAP guards its chunks with checksums, but not its metadata."""
+    fields = {name: value for name, value in metadata.items() if name != _DIGEST}
+    return {**fields, _DIGEST: digest(to_json(sorted(fields.items())))}
+
+
+def digest(content: bytes) -> str:
+    """blake2b of bytes, hex."""
+    return hashlib.blake2b(content, digest_size=16).hexdigest()
+
+
+def is_sealed(metadata: dict[str, str]) -> bool:
+    """Whether metadata is as it was written, as far as can be told: older recordings have no seal."""
+    return metadata.get(_DIGEST, "") in ("", sealed(metadata)[_DIGEST])
 
 
 P = TypeVar("P", Manifest, Result)

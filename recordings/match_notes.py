@@ -1,13 +1,18 @@
 """What the recorder itself reads of what it records: how far the match is, its score, its phase."""
 
 from collections import Counter
+from collections.abc import Callable
 from typing import Any
 
 from schemas.bus.contract import Received
 from schemas.game import EventKind, GameEvent, GameState, Phase
-from schemas.host import Applied, Health
+from schemas.host import Applied, Health, RosterEntry
 from schemas.message import BadMessageError
 from schemas.topics import APPLIED, EVENT, HEALTH, STATE
+
+
+_ROSTER = b'"robots":['
+"""In the inputs of a tick in which others take part than before."""
 
 
 class MatchNotes:
@@ -20,6 +25,7 @@ class MatchNotes:
         self.unreadable: Counter[str] = Counter()
         """Payloads that could not be read, by key."""
         self._newest_applied: Received | None = None
+        self._roster: Callable[[list[RosterEntry]], None] = _nobody
         self._joined_at_tick = -1
         self._notes = {
             APPLIED.key: self._note_applied,
@@ -40,6 +46,10 @@ class MatchNotes:
     def finished(self) -> bool:
         """The match was played to its end."""
         return self.state is not None and self.state.phase is Phase.FULL_TIME
+
+    def follow_roster(self, follow: Callable[[list[RosterEntry]], None]) -> None:
+        """Tell `follow` who takes part, whenever that has changed."""
+        self._roster = follow
 
     def take(self, received: Received) -> None:
         """Look at a message; most are none of ours."""
@@ -63,6 +73,9 @@ class MatchNotes:
 
     def _note_applied(self, received: Received) -> None:
         self._newest_applied = received
+        if _ROSTER in received.payload:
+            applied: Applied | None = self.read(received)
+            self._roster(applied.robots or [] if applied is not None else [])
 
     def _note_state(self, received: Received) -> None:
         self.state = self.read(received) or self.state
@@ -76,3 +89,7 @@ class MatchNotes:
         if self.applied is None and self._newest_applied is None and self._joined_at_tick < 0:
             health: Health | None = self.read(received)
             self._joined_at_tick = health.tick if health is not None else -1
+
+
+def _nobody(robots: list[RosterEntry]) -> None:
+    """Nobody wants to know."""

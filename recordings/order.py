@@ -7,7 +7,11 @@ stand before the first tick of the next; so they are held for a moment and relea
 from typing import NamedTuple
 
 from schemas.bus.contract import Received
-from schemas.topics import Party
+from schemas.topics import APPLIED, INTAKE, WORLD, Party
+
+
+_EACH_TICK = frozenset({WORLD.key, APPLIED.key, INTAKE.key})
+"""What the host says once in every tick: how far each of them has come tells what can be missing still."""
 
 
 class Timed(NamedTuple):
@@ -28,6 +32,7 @@ class SimOrder:
         self._held: list[Timed] = []
         self._of_key: dict[str, tuple[int, int]] = {}
         self._host_ns = 0
+        self._each_tick: dict[str, int] = {}
         self._released_ns = 0
 
     def __len__(self) -> int:
@@ -37,6 +42,21 @@ class SimOrder:
     def host_ns(self) -> int:
         """The newest simulated time that the host has sent, in ns."""
         return self._host_ns
+
+    @property
+    def settled_ns(self) -> int:
+        """Up to where all that comes in every tick has come, ns of simulated time: one of them may be recovered late."""
+        return min(self._each_tick.values(), default=self._host_ns)
+
+    def reach(self, received: Received) -> None:
+        """The host has said this, which is not kept here."""
+        if received.topic.writer is Party.HOST and received.stamp is not None:
+            self._reach(received.key, received.stamp.sim_ns)
+
+    def _reach(self, key: str, sim_ns: int) -> None:
+        self._host_ns = max(self._host_ns, sim_ns)
+        if key in _EACH_TICK:
+            self._each_tick[key] = max(self._each_tick.get(key, 0), sim_ns)
 
     def add(self, row: int, received: Received) -> None:
         """Take a message in; the order of calls is the order of its key."""
@@ -65,6 +85,6 @@ class SimOrder:
         """The sender's simulated time; the host's newest when the sender knows none, or claims to be ahead of it."""
         said = received.stamp.sim_ns if received.stamp is not None else -1
         if received.topic.writer is Party.HOST:
-            self._host_ns = max(self._host_ns, said)
+            self._reach(received.key, said)
             return said if said >= 0 else self._host_ns
         return min(said, self._host_ns) if said >= 0 else self._host_ns

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from recordings.container import ChannelRecord, Container, open_container
-from recordings.manifest import MANIFEST, RESULT, Manifest, Result, from_metadata
+from recordings.manifest import MANIFEST, RESULT, Manifest, Result, digest, from_metadata, is_sealed
 from schemas.bus.contract import Received, Stamp
 from schemas.errors import TouchlineError
 from schemas.message import VERSION, BadMessageError
@@ -76,7 +76,14 @@ class Recording:
         self.manifest = manifest
         self.result = result
         """How the match ended; nothing in a file that was cut off."""
-        self.attachments = container.attachments
+        self.attachments = {
+            name: content
+            for name, content in container.attachments.items()
+            if digest(content) == manifest.attached.get(name, digest(content))
+        }
+        """What is attached to the file and whole."""
+        self.damaged = sorted(({*manifest.attached, *container.attachments}) - {*self.attachments})
+        """Attachments that are missing, or whose bytes have changed."""
         self.unreadable: Counter[str] = Counter()
         """Payloads that `decoded` passed over because they are no valid message, by key."""
         self._topics = {channel.key: _topic(channel) for channel in container.channels.values()}
@@ -136,6 +143,9 @@ def open_recording(path: Path, *, whole: bool = False) -> Recording:
         if not container.complete:
             raise TouchlineError(f"{path}: truncated file, cut off before its manifest; nothing in it can be read")
         raise TouchlineError(f"{path}: an MCAP file without a manifest, not a recording of a match; record one")
+    for name in (MANIFEST, RESULT):
+        if not is_sealed(container.metadata.get(name, {})):
+            raise TouchlineError(f"{path}: its {name} is damaged, bytes of it have changed; take another copy of it")
     try:
         manifest = from_metadata(Manifest, container.metadata[MANIFEST])
         result = from_metadata(Result, container.metadata[RESULT]) if RESULT in container.metadata else None

@@ -3,11 +3,13 @@
 from collections.abc import Callable
 from pathlib import Path
 
+from recordings.account import Account
+from recordings.output import ONE_FILE, Files, Limits, Output, Snapshots
 from recordings.recorder import Recorder, RecordingSummary
-from recordings.writer import RecordingWriter
+from recordings.selection import EVERYTHING, Selection
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.zenoh_bus import open_client
-from schemas.clock import WallClock
+from schemas.clock import Clock, WallClock
 from schemas.errors import TouchlineError
 from schemas.match_config import MatchConfig
 
@@ -19,6 +21,8 @@ def record(
     *,
     name: str = "recorder",
     sights: bool = False,
+    selection: Selection = EVERYTHING,
+    limits: Limits = ONE_FILE,
     config: MatchConfig | None = None,
     patience: float = 30.0,
     told_to_stop: Callable[[], bool] = lambda: False,
@@ -30,11 +34,24 @@ def record(
     """
     clock = WallClock()
     with open_client(match, clock, connect, patience) as bus:
-        writer = RecordingWriter(out, clock, match)
+        account = Account()
+        output = output_at(out, clock, match, account, limits)
         try:
-            return Recorder(bus, writer, name=name, sights=sights, config=config).run(told_to_stop)
+            recorder = Recorder(
+                bus, output, account, name=name, sights=sights, selection=selection, config=config
+            )
+            return recorder.run(told_to_stop)
         finally:
-            writer.abandon()
+            output.abandon()
+
+
+def output_at(path: Path, clock: Clock, match: str, account: Account, limits: Limits = ONE_FILE) -> Output:
+    """Where a recording goes.
+
+    Raises:
+        TouchlineError: a file that cannot be written.
+    """
+    return (Files if limits.snapshot is None else Snapshots)(path, clock, match, account, limits)
 
 
 def read_config(path: Path) -> MatchConfig:

@@ -7,18 +7,23 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from recordings.account import Account
+from recordings.cast import Cast
+from recordings.control import Controls
 from recordings.head import attachments, date, manifest_of
-from recordings.manifest import Ended, Result, to_metadata
+from recordings.intake import received_of
+from recordings.manifest import Ended, Manifest, Result
 from recordings.match_notes import MatchNotes
 from recordings.order import SimOrder
+from recordings.output import Output
 from recordings.presence import HostWatch
-from recordings.sequences import KeyLedger
-from recordings.writer import RecordingWriter
+from recordings.selection import EVERYTHING, Selection
+from recordings.standing import Logged
 from schemas.bus.contract import Answer, Bus, NoAnswerError, Received
 from schemas.host import RecorderProgress, Setup, SetupRequest
 from schemas.match_config import MatchConfig
 from schemas.message import BadMessageError
-from schemas.topics import EVENT, PROGRESS, SETUP, SIGHT, TOPICS, Delivery, Topic
+from schemas.topics import EVENT, INTAKE, PROGRESS, SETUP, SIGHT, TOPICS, Delivery, Party, Topic
 
 REPORT_TICKS = 25
 """Ticks after which a lockstep host is told at once that they were taken in."""
@@ -46,17 +51,24 @@ _DRAIN_S = 10.0
 class RecordingSummary:
     """What was recorded."""
 
-    path: Path
+    files: list[Path]
+    """What is left of it, the oldest first."""
     size: int
-    """Bytes."""
+    """Bytes in all of them."""
     result: Result
+    """Of the last file, or of all that was seen where snapshots were taken."""
 
 
-def recorded_topics(sights: bool) -> Iterator[Topic]:
-    """The rows that are recorded; sights, when asked for, all of them and not the newest alone."""
-    yield from (topic for topic in TOPICS.values() if topic.recorded)
+def heard_topics(sights: bool) -> Iterator[Topic]:
+    """The rows that a recorder listens to.
+
+    What others than the host say it takes from the host's intake, which can be fetched again. Sights, when asked for,
+    all of them and not the newest alone; they can be fetched again where the match file has them recorded.
+    """
+    yield from (topic for topic in TOPICS.values() if topic.recorded and topic.writer is Party.HOST)
     if sights:
-        yield replace(SIGHT, delivery=Delivery.EVERY)
+        yield replace(SIGHT, delivery=Delivery.RECOVERED)
+    yield INTAKE
 
 
 class Recorder:
@@ -65,17 +77,23 @@ class Recorder:
     def __init__(
         self,
         bus: Bus,
-        writer: RecordingWriter,
+        output: Output,
+        account: Account,
         *,
         name: str = "recorder",
         sights: bool = False,
+        selection: Selection = EVERYTHING,
         config: MatchConfig | None = None,
     ) -> None:
-        self._bus, self._clock, self._writer = bus, bus.clock, writer
-        self._name, self._sights, self._config = name, sights, config
-        self._subscriptions = [bus.subscribe(topic) for topic in recorded_topics(sights)]
+        """`account` is the one that `output` keeps; keys that `selection` leaves out are heard and not written."""
+        self._bus, self._clock, self._output, self._account = bus, bus.clock, output, account
+        self._name, self._sights, self._selection, self._config = name, sights, selection, config
+        self._subscriptions = [bus.subscribe(topic) for topic in heard_topics(sights)]
         self._order = SimOrder()
-        self._ledgers: dict[str, KeyLedger] = {}
+        self._wanted: dict[str, bool] = {}
+        self._cast = Cast()
+        self._setup: Setup | None = None
+        self._begun = False
         self._messages = 0
         self._notes = MatchNotes()
         self._synced_goals = 0
@@ -86,6 +104,7 @@ class Recorder:
         self._reported, self._reported_at = -2, self._clock.now()
         self._released_at = self._clock.now()
         self._host = HostWatch(bus)
+        self._controls = Controls(bus, name, output)
 
     def run(self, told_to_stop: Callable[[], bool]) -> RecordingSummary:
         """Record until the host is gone or somebody says stop, take in what is still on its way, and finish."""
@@ -99,17 +118,18 @@ class Recorder:
 
     def pump(self) -> int:
         """Take in what has come, hand on what is in order, tell how far it is; returns how many messages came."""
-        if not self._writer.begun and not self._begin_when_known():
+        if not self._begun and not self._begin_when_known():
             self._report(idle=True)
             return 0
         came = self._take_in()
         self._hand_on()
+        self._controls.attend(self._messages, sum(self._account.losses.values()), self._notes.tick)
         self._report(idle=came == 0)
         return came
 
     def drain(self, patience: float) -> None:
         """Take in all that is still on its way, until nothing has come for a moment, for `patience` s at most."""
-        if not self._writer.begun:
+        if not self._begun:
             self._begin(None)
         limit = self._clock.now() + patience
         quiet = self._clock.now() + _QUIET_S
@@ -121,13 +141,14 @@ class Recorder:
 
     def finish(self, stopped: bool = False) -> RecordingSummary:
         """Write what is held, and the result; close the file."""
-        if not self._writer.begun:
+        if not self._begun:
             self._begin(None)
-        batch = self._order.release()
-        if batch:
-            self._writer.write(batch)
-        result = self._result(self._ended(stopped))
-        return RecordingSummary(self._writer.path, self._writer.finish(to_metadata(result)), result)
+        self._write(self._order.release())
+        ended = self._ended(stopped)
+        result = self._result(ended)
+        size = self._output.finish(ended)
+        self._tell(leaving=True)
+        return RecordingSummary(self._output.files, size, result)
 
     def _ended(self, stopped: bool) -> Ended:
         if self._notes.finished:
@@ -138,14 +159,19 @@ class Recorder:
         """Give the writer what is in order, or everything when nothing could be given for long; a goal is kept safe."""
         now = self._clock.now()
         waited = now - self._released_at > _HOLD_S
-        batch = self._order.release(None if waited else self._order.host_ns - _HOLD_NS)
+        batch = self._order.release(None if waited else self._order.settled_ns - _HOLD_NS)
         if batch or not self._order:
             self._released_at = now
-        if batch:
-            self._writer.write(batch)
+        self._write(batch)
         if self._notes.goals > self._synced_goals and any(received.key == EVENT.key for _, received in batch):
             self._synced_goals = self._notes.goals
-            self._writer.sync()
+            self._output.sync()
+
+    def _write(self, batch: list[Logged]) -> None:
+        if batch and self._controls.paused:
+            self._output.pass_over(batch)
+        elif batch:
+            self._output.write(batch)
 
     def _take_in(self) -> int:
         came = 0
@@ -154,20 +180,34 @@ class Recorder:
                 received = subscription.receive()
                 if received is None:
                     break
-                self._enter(row, received)
-                came += 1
+                came += self._enter(row, received)
         self._messages += came
         self._notes.catch_up()
         return came
 
-    def _enter(self, row: int, received: Received) -> None:
-        key = received.key
-        ledger = self._ledgers.get(key)
-        if ledger is None:
-            ledger = self._ledgers[key] = KeyLedger()
-        ledger.enter(received.stamp, len(received.payload))
-        self._order.add(row, received)
+    def _enter(self, row: int, received: Received) -> int:
+        """Take a message in, or all that one of the host's intake holds; returns how many that were."""
+        if received.topic.key == INTAKE.key:
+            return self._unpack(row, received)
         self._notes.take(received)
+        key = received.key
+        wanted = self._wanted.get(key)
+        if wanted is None:
+            wanted = self._wanted[key] = self._selection.wants(key)
+        if wanted:
+            self._order.add(row, received)
+        else:
+            self._order.reach(received)
+        return wanted
+
+    def _unpack(self, row: int, received: Received) -> int:
+        try:
+            entries = received_of(received)
+        except BadMessageError:
+            self._notes.unreadable[INTAKE.key] += 1
+            return 0
+        self._order.reach(received)
+        return sum(self._enter(row, entry) for entry in entries)
 
     def _report(self, idle: bool) -> None:
         """Tell progress: after a number of ticks, after a while, and when the host seems to wait for it."""
@@ -175,9 +215,21 @@ class Recorder:
         tick = self._notes.tick
         new = tick - self._reported
         if new >= REPORT_TICKS or (idle and new > 0) or now - self._reported_at >= REPORT_S:
-            lost = sum(ledger.lost for ledger in self._ledgers.values())
-            self._progress.put(RecorderProgress(tick=tick, messages=self._messages, lost=lost))
+            self._tell()
             self._reported, self._reported_at = tick, now
+
+    def _tell(self, *, leaving: bool = False) -> None:
+        losses = self._account.losses
+        self._progress.put(
+            RecorderProgress(
+                tick=self._notes.tick,
+                messages=self._messages,
+                lost=sum(losses.values()),
+                losses=losses,
+                paused=self._controls.paused,
+                leaving=leaving,
+            )
+        )
 
     def _begin_when_known(self) -> bool:
         """Ask the host how the match is set up, again and again; begin when it has answered."""
@@ -195,18 +247,30 @@ class Recorder:
         except BadMessageError:
             self._notes.unreadable[SETUP.key] += 1
             self._begin(None)
-        return self._writer.begun
+        return self._begun
 
     def _begin(self, setup: Setup | None) -> None:
-        manifest = manifest_of(self._bus.match, self._name, self._clock, setup, self._config, sights=self._sights)
-        self._writer.begin(to_metadata(manifest), attachments(self._config))
+        self._begun, self._setup, self._cast = True, setup, Cast(setup)
+        self._notes.follow_roster(self._cast.follow)
+        self._output.begin(self._head, self._result, self._cast)
         self._bus.declare_alive("recorder", self._name)  # from now on a lockstep host waits for this recorder
 
+    def _head(self) -> tuple[Manifest, dict[str, bytes]]:
+        manifest = manifest_of(
+            self._bus.match,
+            self._name,
+            self._clock,
+            self._setup,
+            self._config,
+            sights=self._sights,
+            selection=self._selection,
+        )
+        return manifest, attachments(self._config)
+
     def _result(self, ended: Ended) -> Result:
-        counts = {key: ledger.count() for key, ledger in sorted(self._ledgers.items())}
+        """How the file ends that is being written."""
         state, applied = self._notes.state, self._notes.applied
-        events = counts.get(EVENT.key)
-        return Result(
+        result = Result(
             ended=ended,
             finished=date(self._clock),
             phase=state.phase if state is not None else None,
@@ -214,10 +278,6 @@ class Recorder:
             clock=state.clock if state is not None else 0.0,
             tick=applied.tick if applied is not None else -1,
             time=applied.time if applied is not None else 0.0,
-            events=events.messages if events is not None else 0,
-            messages=self._messages,
-            lost=sum(count.lost for count in counts.values()),
-            missed_before_start=sum(count.missed_before_start for count in counts.values()),
             unreadable=dict(self._notes.unreadable),
-            keys=counts,
         )
+        return result.counted(self._account.of_this_file())

@@ -17,6 +17,7 @@ class KeyLedger:
         "bytes",
         "duplicates",
         "late",
+        "left_out",
         "lost",
         "messages",
         "missed_before_start",
@@ -25,16 +26,19 @@ class KeyLedger:
     )
 
     def __init__(self) -> None:
-        self.messages = self.bytes = 0
+        self.messages = self.bytes = self.left_out = 0
         self.lost = self.missed_before_start = self.duplicates = self.late = self.restarts = self.unstamped = 0
         self._expected = -1
         self._sent_ns = 0
         self._missing: set[int] = set()
 
-    def enter(self, stamp: Stamp | None, size: int) -> None:
-        """Account for a message of `size` bytes that came with this stamp."""
-        self.messages += 1
-        self.bytes += size
+    def enter(self, stamp: Stamp | None, size: int, *, left_out: bool = False) -> None:
+        """Account for a message of `size` bytes that came with this stamp; `left_out`, it is not in the file."""
+        if left_out:
+            self.left_out += 1
+        else:
+            self.messages += 1
+            self.bytes += size
         if stamp is None:
             self.unstamped += 1
         elif stamp.sequence == self._expected:

@@ -16,8 +16,10 @@ from mcap.writer import IndexType as Index
 from pydantic_core import to_json
 
 from recordings.environment import library
+from recordings.cast import Cast
 from recordings.json_schema import flat_schema
-from recordings.manifest import MANIFEST, RESULT
+from recordings.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
+from recordings.standing import Logged
 from schemas.bus.contract import Received
 from schemas.clock import Clock
 from schemas.errors import TouchlineError
@@ -33,15 +35,18 @@ _BACKLOG = 64
 _SEQUENCES = 0xFFFF_FFFF
 """MCAP counts in 32 bits."""
 
-Batch = list[tuple[int, Received]]
-"""Log time in ns, and message."""
+Batch = list[Logged]
 
 
 class RecordingWriter:
     """One file that is being written. Any method may raise `TouchlineError` when the disk refuses."""
 
-    def __init__(self, path: Path, clock: Clock, match: str) -> None:
+    def __init__(self, path: Path, clock: Clock, match: str, cast: Cast | None = None) -> None:
+        """`cast` knows who the robots are that the keys name."""
         self.path = path
+        self._cast = cast or Cast()
+        self.size = 0
+        """Bytes in the file so far; what waits for the thread or for its chunk to be full is not among them."""
         self.part = path.with_name(path.name + ".part")
         self._clock = clock
         self._root = root(match)
@@ -56,15 +61,28 @@ class RecordingWriter:
             self._file = self.part.open("wb")
         except OSError as error:
             raise TouchlineError(f"{path}: {error.strerror}; give a path that can be written") from None
-        self._mcap = Writer(self._file, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD, index_types=Index.ALL)
+        self._mcap = Writer(
+            self._file,
+            chunk_size=CHUNK_BYTES,
+            compression=CompressionType.ZSTD,
+            index_types=Index.ALL,
+            enable_data_crcs=True,
+        )
         self._thread = Thread(target=self._run, name="recording writer", daemon=True)
         self.begun = False
 
-    def begin(self, manifest: dict[str, str], attachments: dict[str, bytes]) -> None:
-        """Write what stands before the first message; `attachments` are named with their suffix, `match.json`."""
+    def begin(self, manifest: Manifest, attachments: dict[str, bytes], standing: Batch | None = None) -> None:
+        """Write what stands before the first message; `attachments` are named with their suffix, `match.json`.
+
+        `standing` are messages that stood when this file began, and are in the files before it too.
+        """
         self.begun = True
         self._thread.start()
-        self._hand_over(partial(self._write_head, manifest, attachments))
+        attached = {name: digest(content) for name, content in attachments.items()}
+        manifest = manifest.model_copy(update={"attached": attached, "standing": len(standing or ())})
+        self._hand_over(partial(self._write_head, to_metadata(manifest), attachments))
+        if standing:
+            self.write(standing)
 
     def write(self, batch: Batch) -> None:
         """Hand over messages in the order they shall stand in; waits while the thread is far behind."""
@@ -74,14 +92,26 @@ class RecordingWriter:
         """Have what was handed over on the disk soon, so that it survives a loss of power."""
         self._hand_over(self._sync)
 
-    def finish(self, result: dict[str, str]) -> int:
+    def finish(self, result: Result) -> int:
         """Write the result, close the file, give it its name, and return its size in bytes."""
-        self._hand_over(partial(self._write_tail, result))
+        self._hand_over(partial(self._write_tail, to_metadata(result)))
         self._end()
         self._raise_error()
+        try:
+            self._file.close()
+            self.part.replace(self.path)
+            return self.path.stat().st_size
+        except OSError as error:
+            raise TouchlineError(f"{self.path}: {error.strerror}; {self.part} has everything") from None
+
+    def know(self, cast: Cast) -> None:
+        """Who the robots are, before anything is written."""
+        self._cast = cast
+
+    def discard(self) -> None:
+        """Leave no file; for one that was opened to see whether it can be, and not begun."""
         self._file.close()
-        self.part.replace(self.path)
-        return self.path.stat().st_size
+        self.part.unlink()
 
     def abandon(self) -> None:
         """Close the file as it is, `*.part`, with all that was handed over. Does nothing after `finish`."""
@@ -119,6 +149,7 @@ class RecordingWriter:
                 continue
             try:
                 job()
+                self.size = self._file.tell()
                 if self._clock.now() >= due:
                     self._mcap.flush()  # type: ignore[no-untyped-call]
                     due = self._clock.now() + FLUSH_S
@@ -153,8 +184,8 @@ class RecordingWriter:
             "topic": name,
             "row": topic.key,
             "message": topic.message.__name__,
-            "contract": VERSION,
-            **received.chunks,
+            "version": VERSION,
+            **self._cast.describe(received.chunks),
         }
         schema = self._schema(received)
         channel = self._mcap.register_channel(key, "json", schema, metadata)

@@ -263,3 +263,8 @@ class RecorderProgress(Message):
     """Taken in so far."""
     lost: int
     """Known to be missing."""
+    losses: dict[str, int] = {}
+    """The same by key; the keys without loss are left out."""
+    paused: bool = False
+    leaving: bool = False
+    """Its last word: nobody need wait for it."""

@@ -130,6 +130,8 @@ class Patience(Part):
     """For all robots to be there before the first tick."""
     answer: Annotated[float, Field(gt=0, le=60)] = 1.0
     """Lockstep: for a robot's answer to one tick."""
+    recorder: Annotated[float, Field(gt=0, le=600)] = 5.0
+    """Lockstep: for a recorder that stands still or has lost its link."""
 
 
 class MatchConfig(Part):

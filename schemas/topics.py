@@ -11,10 +11,12 @@ from functools import cache
 
 from schemas.coach import CoachOrder
 from schemas.command import Command
+from schemas.control import RecorderReply, RecorderRequest
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import ActionReply, GameEvent, GameState, RefereeAction
 from schemas.hand import HandDrive
 from schemas.host import Applied, Belief, Health, Invalid, RecorderProgress, Setup, SetupRequest
+from schemas.intake import Intake
 from schemas.message import Message
 from schemas.parameters import ParametersReply, ParametersRequest
 from schemas.scene import SceneReply, SceneRequest
@@ -273,6 +275,16 @@ INVALID = Topic(
     True,
     "a payload that was no valid message, and why",
 )
+INTAKE = Topic(
+    "host/intake",
+    Intake,
+    Party.HOST,
+    (Party.RECORDER,),
+    _TICK,
+    Delivery.RECOVERED,
+    False,
+    "commands and orders as they reached the host; recorders record them on their own keys from here",
+)
 PROGRESS = Topic(
     "record/{name}/progress",
     RecorderProgress,
@@ -282,6 +294,17 @@ PROGRESS = Topic(
     Delivery.EVERY,
     False,
     "how far a recorder has come",
+)
+CONTROL = Topic(
+    "record/{name}/control",
+    RecorderRequest,
+    Party.OPERATOR,
+    (Party.RECORDER,),
+    "at will",
+    Delivery.QUERY,
+    False,
+    "pause, resume, split, snapshot, status of a recorder; refused with the reason",
+    reply=RecorderReply,
 )
 ALIVE = Topic(
     "alive/{kind}/{name}",
@@ -312,7 +335,9 @@ TOPICS: dict[str, Topic] = {
     "applied": APPLIED,
     "health": HEALTH,
     "invalid": INVALID,
+    "intake": INTAKE,
     "progress": PROGRESS,
+    "control": CONTROL,
     "alive": ALIVE,
 }
 """Topic name → its row."""

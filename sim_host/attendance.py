@@ -15,14 +15,19 @@ _KNOWN = 100
 class Attendance:
     """Presence of agents and recorders."""
 
-    def __init__(self, bus: Bus, ledgers: dict[str, Ledger]) -> None:
+    def __init__(self, bus: Bus, ledgers: dict[str, Ledger], patience: float) -> None:
+        """`patience` is how long a recorder whose link broke is expected back, in s of wall time."""
+        self._clock = bus.clock
+        self._patience = patience
         self._watch = bus.watch_alive()
         self._progress = bus.subscribe(PROGRESS)
         self._ledgers = ledgers
         self._agents: dict[str, bool] = {}
         """Everyone who came as an agent, also for a robot that does not play yet: whether it is there."""
         self.recorders: dict[str, int] = {}
-        """Recorder → the newest tick it has taken in."""
+        """Recorder → the newest tick it has taken in; one whose link broke is in here until it is given up."""
+        self._lost: dict[str, float] = {}
+        """Recorder → when it is given up, wall time."""
 
     def update(self, timeout: float = 0.0) -> list[Presence]:
         """Take in what has changed, waiting up to `timeout` s for it; returns the agents that came or went."""
@@ -39,6 +44,7 @@ class Attendance:
                 self._recorder(presence)
             presence = self._watch.receive(0.0)
         self.hear_recorders(0.0)
+        self._give_up()
         return changed
 
     def follow(self) -> None:
@@ -52,18 +58,33 @@ class Attendance:
         while received is not None:
             name = received.chunks["name"]
             try:
-                tick = received.message().tick
+                progress = received.message()
             except BadMessageError:
-                tick = None
-            if tick is not None and name in self.recorders:
-                self.recorders[name] = max(self.recorders[name], tick)
+                progress = None
+            if progress is not None and progress.leaving:
+                self._forget(name)
+            elif progress is not None and name in self.recorders:
+                self.recorders[name] = max(self.recorders[name], progress.tick)
             received = self._progress.receive(0.0)
 
     def _recorder(self, presence: Presence) -> None:
+        """A recorder that is frozen loses its link, and comes back: it is waited for like one that is there."""
+        name = presence.name
         if presence.alive:
-            self.recorders[presence.name] = -1
-        else:
-            self.recorders.pop(presence.name, None)
+            self.recorders.setdefault(name, -1)
+            self._lost.pop(name, None)
+        elif name in self.recorders:
+            self._lost[name] = self._clock.now() + self._patience
+
+    def _give_up(self) -> None:
+        if self._lost:
+            now = self._clock.now()
+            for name in [name for name, until in self._lost.items() if now >= until]:
+                self._forget(name)
+
+    def _forget(self, name: str) -> None:
+        self.recorders.pop(name, None)
+        self._lost.pop(name, None)
 
     def all_here(self, wait_for_recorder: bool) -> bool:
         """Every robot's agent is there, and a recorder where one is waited for."""

@@ -9,17 +9,18 @@ from sim_host.clerks.actions import ActionClerk
 from sim_host.clerks.orders import OrderClerk
 from sim_host.clerks.prompt import PromptClerk
 from sim_host.complaints import Complaints
+from sim_host.relay import Relay
 from sim_host.simulation import Simulation
 
 
 class Desk:
     """Answers between two ticks."""
 
-    def __init__(self, bus: Bus, simulation: Simulation, complaints: Complaints) -> None:
+    def __init__(self, bus: Bus, simulation: Simulation, complaints: Complaints, relay: Relay) -> None:
         self._setup = PromptClerk(bus, SETUP, lambda _: simulation.setup(), complaints)
         self._parameters = PromptClerk(bus, PARAMETERS, simulation.parameters, complaints)
         self._scene = PromptClerk(bus, SCENE, simulation.scene, complaints)
-        self._orders = OrderClerk(bus, simulation.orders, complaints)
+        self._orders = OrderClerk(bus, simulation.orders, complaints, relay)
         self._actions = ActionClerk(bus, complaints)
 
     @property

@@ -12,6 +12,7 @@ from sim_host.inbox import Inbox
 from sim_host.outbox import Outbox
 from sim_host.pace import Lockstep, Pace, Realtime
 from sim_host.pulse import Pulse
+from sim_host.relay import Relay
 from sim_host.simulation import Simulation, Tick
 
 _PARTING_S = 5.0
@@ -24,14 +25,16 @@ class Host:
     def __init__(self, config: MatchConfig, bus: Bus) -> None:
         self.simulation = Simulation(config)
         self._complaints = Complaints()
-        self.inbox = Inbox(bus, self.simulation.roster, self._complaints)
-        self.attendance = Attendance(bus, self.inbox.ledgers)
+        self._relay = Relay(bus)
+        self.inbox = Inbox(bus, self.simulation.roster, self._complaints, self._relay)
+        self.attendance = Attendance(bus, self.inbox.ledgers, config.patience.recorder)
         self._hands = Hands(bus, self._complaints)
         self._config = config
         self._clock = bus.clock
-        self._desk = Desk(bus, self.simulation, self._complaints)
+        self._desk = Desk(bus, self.simulation, self._complaints, self._relay)
         self.pace = _pace(config, bus, self.inbox, self.attendance, self._desk, self.simulation.profile)
-        self._outbox = Outbox(bus, self.simulation.roster, self.simulation.profile.time.tick)
+        tick_s = self.simulation.profile.time.tick
+        self._outbox = Outbox(bus, self.simulation.roster, tick_s, sights_kept=config.record.sights)
         self._pulse = Pulse(bus.clock, config.pace)
         self._roster = self.simulation.roster
         self._silent = dict.fromkeys(self._roster.names, False)
@@ -83,6 +86,7 @@ class Host:
         silent = {name for name, is_silent in self._silent.items() if is_silent and name not in commands}
         tick = self.simulation.step(commands, self._desk.actions, self._send_sight, silent)
         self._outbox.truth(tick, self.simulation.state)
+        self._relay.send(tick.tick)
         self._desk.reply(tick.replies)
         self._keep_account(tick)
         self._report(tick)
@@ -96,6 +100,7 @@ class Host:
             self.attendance.update(timeout=0.005)
             self._desk.attend()
             self._desk.refuse("the match is over")
+            self._relay.send(last)
             if not any(self.attendance.behind(last).values()):
                 return
 

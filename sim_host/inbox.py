@@ -12,6 +12,7 @@ from schemas.host import RobotHealth
 from schemas.message import BadMessageError
 from schemas.topics import COMMAND
 from sim_host.complaints import Complaints
+from sim_host.relay import Relay
 from sim_host.snapshot import Roster
 
 SILENT_TICKS = 3
@@ -87,9 +88,11 @@ class Ledger:
 class Inbox:
     """The commands of all robots."""
 
-    def __init__(self, bus: Bus, roster: Roster, complaints: Complaints) -> None:
+    def __init__(self, bus: Bus, roster: Roster, complaints: Complaints, relay: Relay) -> None:
+        """`relay` gets everything that comes, for the record."""
         self._commands = bus.subscribe(COMMAND)
         self._complaints = complaints
+        self._relay = relay
         self.ledgers: dict[str, Ledger] = {}
         self.strangers: dict[str, int] = {}
         self._sent_at: deque[tuple[int, int]] = deque(maxlen=_LATENCIES)
@@ -117,6 +120,7 @@ class Inbox:
             received = self._commands.receive(wait)
             if received is None:
                 return None
+            self._relay.note(received)
             taken = self._judge(received, tick)
             if taken is not None:
                 return taken

@@ -1,12 +1,25 @@
 """What the host says: one writer per key, each message encoded once."""
 
+from dataclasses import replace
 from typing import Any
 
 from schemas.bus.contract import Bus, Publisher
 from schemas.game import GameEvent
 from schemas.host import Health, Invalid
 from schemas.side import Side
-from schemas.topics import APPLIED, BELIEF, EVENT, HEALTH, INVALID, SIGHT, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
+from schemas.topics import (
+    APPLIED,
+    BELIEF,
+    EVENT,
+    HEALTH,
+    INVALID,
+    SIGHT,
+    STATE,
+    WORLD,
+    WORLD_BALL,
+    WORLD_ROBOT,
+    Delivery,
+)
 from sim_host.referee.state import RefereeState
 from sim_host.simulation import Tick
 from sim_host.snapshot import Roster
@@ -20,7 +33,9 @@ _STATE_S = 1.0
 class Outbox:
     """All writers of the host."""
 
-    def __init__(self, bus: Bus, roster: Roster, tick_s: float) -> None:
+    def __init__(self, bus: Bus, roster: Roster, tick_s: float, *, sights_kept: bool = False) -> None:
+        """`sights_kept`: sights are kept for a recorder to fetch again, which costs memory: some 30 MB for ten robots."""
+        self._sight_topic = replace(SIGHT, delivery=Delivery.RECOVERED) if sights_kept else SIGHT
         self._bus = bus
         self._world = bus.publisher(WORLD)
         self._applied = bus.publisher(APPLIED)
@@ -43,7 +58,7 @@ class Outbox:
         self._roster = roster
         for name, side in zip(roster.names, roster.sides, strict=True):
             if name not in self._sights:
-                self._sights[name] = self._bus.publisher(SIGHT, robot=name)
+                self._sights[name] = self._bus.publisher(self._sight_topic, robot=name)
                 self._robots[name] = self._bus.publisher(WORLD_ROBOT, robot=name)
             if (name, side) not in self._beliefs:
                 self._beliefs[name, side] = self._bus.publisher(BELIEF, side=side.value, robot=name)

@@ -88,6 +88,7 @@ class Lockstep:
         self._inbox = inbox
         self._attendance = attendance
         self._patience = patience.answer
+        self._recorder_patience = patience.recorder
         self._stalled: dict[str, int] = {}
         self._hurried = False
         self.silent_ticks = SILENT_TICKS
@@ -159,7 +160,7 @@ class Lockstep:
             if not late or self._hurried:
                 return
             if late != before:
-                deadline = now + self._patience
+                deadline = now + self._recorder_patience
             elif now > deadline:
                 self._stalled.update(late)
                 return

@@ -186,11 +186,11 @@ class Bus(ABC):
         """
 
     @abstractmethod
-    def serve(self, topic: Topic) -> Server:
-        """Become the one who answers this topic's questions."""
+    def serve(self, topic: Topic, **chunks: str) -> Server:
+        """Become the one who answers this topic's questions; every chunk must be given."""
 
     @abstractmethod
-    def ask(self, topic: Topic, question: Message, timeout: float = 2.0) -> Answer:
+    def ask(self, topic: Topic, question: Message, timeout: float = 2.0, **chunks: str) -> Answer:
         """Ask; `timeout` is how long the question stays open, in s."""
 
     @abstractmethod

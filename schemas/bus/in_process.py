@@ -174,22 +174,24 @@ class InProcessBus(Bus):
         self._ends.append(subscription)
         return subscription
 
-    def serve(self, topic: Topic) -> Server:
+    def serve(self, topic: Topic, **chunks: str) -> Server:
         self.check_open()
         server = _Server()
+        key = self.prefix + full_key(topic, chunks)
         with self.medium.lock:
-            self.medium.servers[self.prefix + topic.key] = server
-        self._served.append(self.prefix + topic.key)
+            self.medium.servers[key] = server
+        self._served.append(key)
         self._mailboxes.append(server.mailbox)
         return server
 
-    def ask(self, topic: Topic, question: Message, timeout: float = 2.0) -> Answer:
+    def ask(self, topic: Topic, question: Message, timeout: float = 2.0, **chunks: str) -> Answer:
         self.check_open()
         del timeout  # nothing is on its way here: a question waits with its server or was refused at once
         answer = _Answer(topic)
-        server = self.medium.servers.get(self.prefix + topic.key)
+        key = full_key(topic, chunks)
+        server = self.medium.servers.get(self.prefix + key)
         if server is None:
-            answer.mailbox.put("", f"nobody answers {topic.key}")
+            answer.mailbox.put("", f"nobody answers {key}")
         else:
             server.mailbox.put("", _Question(topic, question.encode(), answer))
         return answer

@@ -217,14 +217,14 @@ class _Question(Question):
 
 
 class _Server(Server):
-    def __init__(self, topic: Topic, bus: "ZenohBus") -> None:
+    def __init__(self, topic: Topic, key: str, bus: "ZenohBus") -> None:
         self.mailbox: EveryMailbox[Question] = EveryMailbox()
 
         def bring(query: zenoh.Query) -> None:
             self.mailbox.put("", _Question(topic, query))
 
         self._queryable = bus.session.declare_queryable(
-            bus.prefix + topic.key, zenoh.handlers.Callback(bring, indirect=False)
+            bus.prefix + key, zenoh.handlers.Callback(bring, indirect=False)
         )
 
     def receive(self, timeout: float | None = 0.0) -> Question | None:
@@ -232,8 +232,8 @@ class _Server(Server):
 
 
 class _Answer(Answer):
-    def __init__(self, topic: Topic, question: Message, timeout: float, bus: "ZenohBus") -> None:
-        self._topic = topic
+    def __init__(self, topic: Topic, key: str, question: Message, timeout: float, bus: "ZenohBus") -> None:
+        self._topic, self._key = topic, key
         mailbox: EveryMailbox[bytes | str] = EveryMailbox()
         self._mailbox = mailbox
 
@@ -244,10 +244,10 @@ class _Answer(Answer):
                 mailbox.put("", reply.err.payload.to_string())
 
         def nobody() -> None:
-            mailbox.put("", f"nobody answers {topic.key}")
+            mailbox.put("", f"nobody answers {key}")
 
         bus.session.get(
-            bus.prefix + topic.key,
+            bus.prefix + key,
             zenoh.handlers.Callback(bring, nobody, indirect=False),
             payload=question.encode(),
             timeout=timeout,
@@ -256,7 +256,7 @@ class _Answer(Answer):
     def result(self, timeout: float) -> Any:
         reply = self._mailbox.take(timeout)
         if reply is None:
-            raise NoAnswerError(f"nobody answers {self._topic.key} within {timeout:g} s")
+            raise NoAnswerError(f"nobody answers {self._key} within {timeout:g} s")
         if isinstance(reply, str):
             raise NoAnswerError(reply)
         assert self._topic.reply is not None
@@ -308,13 +308,13 @@ class ZenohBus(Bus):
         self._subscriptions.append(subscription)
         return subscription
 
-    def serve(self, topic: Topic) -> Server:
-        server = _Server(topic, self._open())
+    def serve(self, topic: Topic, **chunks: str) -> Server:
+        server = _Server(topic, full_key(topic, chunks), self._open())
         self._mailboxes.append(server.mailbox)
         return server
 
-    def ask(self, topic: Topic, question: Message, timeout: float = 2.0) -> Answer:
-        return _Answer(topic, question, timeout, self._open())
+    def ask(self, topic: Topic, question: Message, timeout: float = 2.0, **chunks: str) -> Answer:
+        return _Answer(topic, full_key(topic, chunks), question, timeout, self._open())
 
     def declare_alive(self, kind: str, name: str) -> None:
         key = self.prefix + TOPICS["alive"].fill(kind=kind, name=name)

@@ -6,20 +6,23 @@ from schemas.message import BadMessageError
 from schemas.side import Side
 from schemas.topics import ORDER
 from sim_host.complaints import Complaints
+from sim_host.relay import Relay
 
 
 class OrderClerk:
     """Keeps the standing orders."""
 
-    def __init__(self, bus: Bus, standing: dict[Side, CoachOrder], complaints: Complaints) -> None:
+    def __init__(self, bus: Bus, standing: dict[Side, CoachOrder], complaints: Complaints, relay: Relay) -> None:
         """`standing` is where the orders are kept: side → its newest."""
         self._orders = bus.subscribe(ORDER)
         self._standing = standing
         self._complaints = complaints
+        self._relay = relay
 
     def attend(self) -> None:
         """Take in what has come."""
         while (received := self._orders.receive()) is not None:
+            self._relay.note(received)
             try:
                 order, side = received.message(), _side_of(received)
             except BadMessageError as error:

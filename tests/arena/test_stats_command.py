@@ -8,7 +8,7 @@ from typer.testing import CliRunner, Result
 
 from arena.__main__ import app
 from recordings.head import manifest_of
-from recordings.manifest import Ended, to_metadata
+from recordings.manifest import Ended
 from recordings.manifest import Result as Ending
 from recordings.writer import RecordingWriter
 from schemas.bus.contract import Received, Stamp
@@ -27,7 +27,7 @@ def write(path: Path, *, setup: bool = True, worlds: int = 50) -> Path:
     clock, config = SteppedClock(), load_match(None)
     known = Setup.of(config, load_profile("msl"), load_rule_book("friendly")) if setup else None
     writer = RecordingWriter(path, clock, "friendly")
-    writer.begin(to_metadata(manifest_of("friendly", "test", clock, known, config, sights=False)), {})
+    writer.begin(manifest_of("friendly", "test", clock, known, config, sights=False), {})
     batch = []
     for tick in range(worlds):
         robot = RobotTruth(x=0.02 * tick, y=0.0, z=0.4, heading=0.0, vx=1.0, vy=0.0, omega=0.0, holding=False)
@@ -40,7 +40,7 @@ def write(path: Path, *, setup: bool = True, worlds: int = 50) -> Path:
             for topic, message in ((STATE, state), (WORLD, world))
         ]
     writer.write(batch)
-    writer.finish(to_metadata(Ending(ended=Ended.STOPPED, finished="")))
+    writer.finish(Ending(ended=Ended.STOPPED, finished=""))
     return path
 
 

@@ -10,24 +10,31 @@ import pytest
 from arena.in_process import Table
 from recordings.reader import Recording, open_recording
 from recordings.recorder import Recorder, RecordingSummary
-from recordings.writer import RecordingWriter
-from schemas.bus.contract import Bus, Publisher
+from recordings.account import Account
+from recordings.output import ONE_FILE, Limits, Output
+from recordings.record import output_at
+from recordings.selection import EVERYTHING, Selection
+from schemas.bus.contract import Bus, Publisher, Received
 from schemas.bus.in_process import Medium
 from schemas.clock import SteppedClock
 from schemas.command import Command, Drive
 from schemas.game import EventKind, GameEvent, GameState, Phase, Score
 from schemas.host import Applied, AppliedInput, Setup
+from schemas.intake import payload_field
 from schemas.match_config import MatchConfig, load_match
 from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
 from schemas.sight import Sight
-from schemas.topics import APPLIED, COMMAND, EVENT, SETUP, STATE, WORLD
+from schemas.topics import APPLIED, COMMAND, EVENT, INTAKE, ORDER, SETUP, STATE, WORLD
 from schemas.world import BallTruth, RobotTruth, World
 from sim_host.outbox import Outbox
+from sim_host.relay import Relay
 
 ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
 TICK = 0.02
+MOMENT = 5.0
+"""s of wall time that a robot's word may take to the host; nothing depends on how soon it comes."""
 
 
 def make_setup(match: str = "friendly") -> Setup:
@@ -66,7 +73,8 @@ class HandMadeHost:
     def __post_init__(self) -> None:
         self.server = self.bus.serve(SETUP)
         self.bus.declare_alive("host", "host")
-        for topic in (WORLD, APPLIED, STATE, EVENT):
+        self.ears = [self.bus.subscribe(topic) for topic in (COMMAND, ORDER)]
+        for topic in (WORLD, APPLIED, STATE, EVENT, INTAKE):
             self.writers[topic.key] = self.bus.publisher(topic)
         for name in ROBOTS:
             self.writers[COMMAND.fill(robot=name)] = self.robots.publisher(COMMAND, robot=name)
@@ -83,6 +91,23 @@ class HandMadeHost:
         self.writers["host/applied"].put(Applied(tick=tick, time=tick * TICK, inputs=inputs, chain=f"{tick:016x}"))
         for name in ROBOTS:
             self.writers[f"robot/{name}/command"].put(Command(answers_tick=tick, drive=Drive(vx=1.0)))
+        self.relay(tick, len(ROBOTS))
+
+    def relay(self, tick: int, count: int = 0) -> None:
+        """Hand on what has come from others, `count` of it at least, as the host does."""
+        came: list[Received] = []
+        for ear in self.ears:
+            while (received := ear.receive(MOMENT if len(came) < count else 0.0)) is not None:
+                came.append(received)
+        entries = [
+            {
+                "key": received.key,
+                **payload_field(received.payload),
+                **(received.stamp._asdict() if received.stamp is not None else {}),
+            }
+            for received in came
+        ]
+        self.writers["host/intake"].put_fields({"tick": tick, "entries": entries})
 
     def referee(self, tick: int, phase: Phase, score: Score, side: Side | None = None) -> None:
         self.writers["game/state"].put(
@@ -104,7 +129,7 @@ class Stage:
     host: HandMadeHost
     recorder: Recorder
     recorder_bus: Bus
-    writer: RecordingWriter
+    output: Output
     path: Path
 
     def begin(self) -> None:
@@ -134,21 +159,28 @@ StageMaker = Callable[..., Stage]
 def make_stage(tmp_path: Path) -> Iterator[StageMaker]:
     stages: list[Stage] = []
 
-    def make(sights: bool = False, config: MatchConfig | None = None, path: Path | None = None) -> Stage:
+    def make(
+        sights: bool = False,
+        config: MatchConfig | None = None,
+        path: Path | None = None,
+        limits: Limits = ONE_FILE,
+        selection: Selection = EVERYTHING,
+    ) -> Stage:
         medium = Medium()
         wall = SteppedClock()
         host_bus, robot_bus = medium.seat("friendly", SteppedClock()), medium.seat("friendly", SteppedClock())
         bus = medium.seat("friendly", wall)
         path = path or tmp_path / "match.mcap"
-        writer = RecordingWriter(path, wall, "friendly")
+        account = Account()
+        output = output_at(path, wall, "friendly", account, limits)
         host = HandMadeHost(host_bus, robot_bus, make_setup())
-        recorder = Recorder(bus, writer, name="recorder", sights=sights, config=config)
-        stages.append(Stage(host, recorder, bus, writer, path))
+        recorder = Recorder(bus, output, account, name="recorder", sights=sights, config=config, selection=selection)
+        stages.append(Stage(host, recorder, bus, output, path))
         return stages[-1]
 
     yield make
     for stage in stages:
-        stage.writer.abandon()
+        stage.output.abandon()
 
 
 @pytest.fixture
@@ -185,8 +217,9 @@ def record_match(path: Path, config: MatchConfig, until: float) -> None:
     simulation = table.simulation
     host_bus.declare_alive("host", "host")
     outbox = Outbox(host_bus, simulation.roster, simulation.profile.time.tick)
-    writer = RecordingWriter(path, bus.clock, config.name)
-    recorder = Recorder(bus, writer, config=config)
+    account = Account()
+    recorder = Recorder(bus, output_at(path, bus.clock, config.name, account), account, config=config)
+    relay, ear = Relay(host_bus), host_bus.subscribe(COMMAND)
     commands = {name: host_bus.publisher(COMMAND, robot=name) for name in table.brains}
     recorder.pump()
     while (question := server.receive()) is not None:
@@ -195,6 +228,9 @@ def record_match(path: Path, config: MatchConfig, until: float) -> None:
     while True:
         host_bus.clock.sim_ns = round(tick.time * 1e9)
         outbox.truth(tick, simulation.state)
+        while (received := ear.receive()) is not None:
+            relay.note(received)
+        relay.send(tick.tick)
         if tick.tick % 25 == 0:
             recorder.pump()
         if simulation.over or tick.time >= until:

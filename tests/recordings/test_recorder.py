@@ -82,8 +82,11 @@ def test_channels_say_what_they_carry(stage):
         "topic": "command",
         "row": "robot/{robot}/command",
         "message": "Command",
-        "contract": "1.0",
+        "version": "1.0",
         "robot": "cyan1",
+        "side": "cyan",
+        "team": "Team cyan",
+        "model": "standard",
     }
 
 
@@ -143,6 +146,7 @@ def test_a_sender_without_simulated_time_is_recorded_at_the_hosts(make_stage):
     stage.play(range(50))
     stage.recorder.pump()
     order.put_payload(b'{"version":"1.0","sequence":1}')
+    stage.host.relay(49)
     stage.recorder.pump()
     stage.play(range(50, 100))
     stage.leave()
@@ -197,6 +201,7 @@ def test_a_message_without_a_stamp_is_recorded_and_counted_as_unstamped(stage):
     stage.play(range(5))
     for reader in stage.recorder_bus.medium.subscriptions["friendly/" + COMMAND.key]:
         reader.bring("robot/cyan1/command", Received(COMMAND, "robot/cyan1/command", b"{}", None))
+    stage.host.relay(5)
     summary = stage.leave()
 
     assert summary.result.keys["robot/cyan1/command"].unstamped == 1
@@ -288,9 +293,9 @@ def test_a_host_that_stands_still_leaves_nothing_unwritten_for_long(stage):
     clock = stage.recorder_bus.clock
     clock.sleep_until(clock.now() + 1.0)
     stage.recorder.pump()
-    stage.writer.abandon()
+    stage.output.abandon()
 
-    assert len(list(open_recording(stage.writer.part).messages("world"))) == 4
+    assert len(list(open_recording(stage.path.with_name("match.mcap.part")).messages("world"))) == 4
 
 
 def test_a_goal_is_on_the_disk_before_the_recording_ends(stage, monkeypatch):

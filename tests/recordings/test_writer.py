@@ -1,5 +1,6 @@
 import pytest
 
+from recordings.manifest import Ended, Manifest, Result
 from recordings.reader import open_recording
 from recordings.writer import RecordingWriter
 from schemas.bus.contract import Received, Stamp
@@ -13,10 +14,11 @@ def batch(*numbers: int):
 
 
 @pytest.fixture
-def manifest(recorded) -> dict[str, str]:
-    from recordings.manifest import to_metadata
+def manifest(recorded) -> Manifest:
+    return recorded.manifest
 
-    return to_metadata(recorded.manifest)
+
+RESULT = Result(ended=Ended.STOPPED, finished="2026-01-01T00:00:00.000+00:00")
 
 
 def test_the_file_has_its_name_only_when_it_is_finished(recorded, manifest, tmp_path):
@@ -26,7 +28,7 @@ def test_the_file_has_its_name_only_when_it_is_finished(recorded, manifest, tmp_
     writer.write(batch(1, 2))
     assert not path.exists()
     assert writer.part.exists()
-    size = writer.finish({})
+    size = writer.finish(RESULT)
     assert path.stat().st_size == size
     assert not writer.part.exists()
 
@@ -47,7 +49,7 @@ def test_a_leftover_of_a_recorder_that_died_is_kept(manifest, tmp_path):
     (tmp_path / "final.mcap.part").write_bytes(b"what was left")
     writer = RecordingWriter(path, SteppedClock(), "friendly")
     writer.begin(manifest, {})
-    writer.finish({})
+    writer.finish(RESULT)
     assert (tmp_path / "final.mcap.part.old").read_bytes() == b"what was left"
 
 
@@ -77,7 +79,7 @@ def test_a_full_disk_is_one_sentence_and_no_hanging(manifest, tmp_path):
     with pytest.raises(TouchlineError, match=r"final\.mcap\.part: No space left on device"):
         for number in range(1000):
             writer.write(batch(number))
-        writer.finish({})
+        writer.finish(RESULT)
     writer.abandon()
     full.close()
 

@@ -12,6 +12,7 @@ from schemas.side import Side
 from schemas.topics import COMMAND, INVALID, ORDER, WORLD
 from sim_host import inbox
 from sim_host.complaints import Complaints
+from sim_host.relay import Relay
 from sim_host.snapshot import Roster
 
 RUBBISH = {
@@ -101,7 +102,7 @@ class Endless:
 
 def test_a_flood_does_not_hold_the_host(monkeypatch):
     seat = Medium().seat("friendly", SteppedClock())
-    box = inbox.Inbox(seat, Roster.of(MatchConfig(), load_profile("msl")), Complaints())
+    box = inbox.Inbox(seat, Roster.of(MatchConfig(), load_profile("msl")), Complaints(), Relay(seat))
     flood = Endless(seat)
     monkeypatch.setattr(box, "_commands", flood)
     monkeypatch.setattr(inbox, "_AT_ONCE", 20)

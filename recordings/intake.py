@@ -1,0 +1,25 @@
+"""What robots and coaches sent, out of what the host handed on: each message as it came from its own sender."""
+
+from schemas.bus.contract import Received, Stamp
+from schemas.intake import Intake
+from schemas.topics import TOPICS, Party
+
+_OTHERS = tuple(topic for topic in TOPICS.values() if topic.recorded and topic.writer is not Party.HOST)
+"""The rows that are recorded and that others than the host write."""
+
+
+def received_of(intake: Received) -> list[Received]:
+    """The messages that a message of the host's intake holds; keys of no recorded topic are passed over.
+
+    Raises:
+        BadMessageError: it is no intake.
+    """
+    message: Intake = intake.message()
+    found = []
+    for entry in message.entries:
+        topic = next((topic for topic in _OTHERS if topic.match(entry.key) is not None), None)
+        if topic is None:
+            continue
+        stamp = Stamp(entry.sequence, entry.sent_ns, entry.sim_ns) if entry.sequence is not None else None
+        found.append(Received(topic, entry.key, entry.payload, stamp, entry.arrived_ns))
+    return found

@@ -1,0 +1,352 @@
+"""Where a recorder's messages go: one file, several that follow each other, or snapshots of the last seconds."""
+
+import re
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from recordings.account import Account
+from recordings.cast import Cast
+from recordings.manifest import Ended, Manifest, Result
+from recordings.standing import Logged, Standing
+from recordings.writer import RecordingWriter
+from schemas.clock import Clock
+from schemas.errors import TouchlineError
+from schemas.game import EventKind, GameEvent
+from schemas.message import BadMessageError
+from schemas.topics import EVENT
+
+Head = Callable[[], tuple[Manifest, dict[str, bytes]]]
+"""Makes the manifest and the attachments of a file that begins now."""
+Tail = Callable[[Ended], Result]
+"""Makes the result of a file that ends now."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """When a file is finished and the next one begun, and how much is kept."""
+
+    size: int | None = None
+    """Bytes of a file."""
+    duration: float | None = None
+    """Simulated s in a file."""
+    keep: int | None = None
+    """Finished files that are kept, the newest; all where nothing is said."""
+    snapshot: float | None = None
+    """Simulated s that are held in memory and written when there is a goal, or on request; nothing else is."""
+
+    def __post_init__(self) -> None:
+        """Check.
+
+        Raises:
+            TouchlineError: the limits do not go together.
+        """
+        if self.keep is not None and not self.in_many:
+            raise TouchlineError(f"--keep {self.keep} is for many files; add --split-size, --split-duration or --snapshot")
+        if self.snapshot is not None and (self.size is not None or self.duration is not None):
+            raise TouchlineError("--snapshot writes files of its own; leave --split-size and --split-duration out")
+
+    @property
+    def in_many(self) -> bool:
+        """Several files may come of it."""
+        return any(limit is not None for limit in (self.size, self.duration, self.snapshot))
+
+
+ONE_FILE = Limits()
+
+
+class Output(Protocol):
+    """Takes messages in their order. Any method may raise `TouchlineError` when the disk refuses."""
+
+    files: list[Path]
+    """Finished and kept, the oldest first."""
+
+    @property
+    def path(self) -> Path:
+        """Where it writes, or, with snapshots, wrote last."""
+
+    def begin(self, head: Head, tail: Tail, cast: Cast) -> None:
+        """The match is known."""
+
+    def write(self, batch: list[Logged]) -> None:
+        """Messages in the order they shall stand in."""
+
+    def pass_over(self, batch: list[Logged]) -> None:
+        """Messages that came while the recorder was paused; what stands after them is written when it goes on."""
+
+    def sync(self) -> None:
+        """Have all of it on the disk soon."""
+
+    def split(self) -> str:
+        """Go on in another file; why not, or nothing."""
+
+    def snapshot(self, why: str) -> str:
+        """Write what is held in memory; why not, or nothing."""
+
+    def finish(self, ended: Ended) -> int:
+        """Finish; returns the bytes in all files that are kept."""
+
+    def abandon(self) -> None:
+        """Leave a file that is not finished as it is."""
+
+
+class Files:
+    """One file, or several, each whole in itself."""
+
+    def __init__(self, path: Path, clock: Clock, match: str, account: Account, limits: Limits = ONE_FILE) -> None:
+        """Opens the first file.
+
+        Raises:
+            TouchlineError: it cannot be written.
+        """
+        self._base, self._clock, self._match, self._account, self._limits = path, clock, match, account, limits
+        self._part = 1
+        self._many = limits.in_many
+        if self._many:
+            _check_free(path)
+        self.files: list[Path] = []
+        self._cast = Cast()
+        self._writer = self._open()
+        self._standing = Standing()
+        self._first_ns: int | None = None
+        self._last_ns = -1
+        self._passed_over_ns: int | None = None
+
+    @property
+    def path(self) -> Path:
+        """The file that is being written, by the name it will have."""
+        return self._writer.path
+
+    def begin(self, head: Head, tail: Tail, cast: Cast) -> None:
+        """Write the head of the first file."""
+        self._head, self._tail = head, tail
+        self._writer.know(cast)
+        self._cast = cast
+        self._begin_file([])
+
+    def write(self, batch: list[Logged]) -> None:
+        """Write, in as many files as the limits ask for."""
+        if self._passed_over_ns is not None:
+            self._writer.write(self._standing.messages(since_ns=self._passed_over_ns))
+            self._passed_over_ns = None
+        begin = 0
+        for index, logged in enumerate(batch):
+            if self._is_full(logged[0]):
+                self._hand_on(batch[begin:index])
+                begin = index
+                self._next(Ended.SPLIT)
+            if self._first_ns is None:
+                self._first_ns = logged[0]
+            self._last_ns = logged[0]
+            self._account.enter(logged[1])
+            self._standing.take(logged)
+        self._hand_on(batch[begin:])
+
+    def pass_over(self, batch: list[Logged]) -> None:
+        """Follow what stands."""
+        if batch and self._passed_over_ns is None:
+            self._passed_over_ns = batch[0][0]
+        for logged in batch:
+            self._account.enter(logged[1], left_out=True)
+            self._standing.take(logged)
+
+    def sync(self) -> None:
+        """Have all of it on the disk soon."""
+        self._writer.sync()
+
+    def split(self) -> str:
+        """Go on in another file."""
+        if not self._many:
+            return "it writes one file; start it with --split-size or --split-duration"
+        if self._first_ns is None:
+            return "its file is empty still"
+        self._next(Ended.SPLIT)
+        return ""
+
+    def snapshot(self, why: str) -> str:
+        """Everything is written anyway."""
+        del why
+        return "it records all the time; start it with --snapshot SECONDS"
+
+    def finish(self, ended: Ended) -> int:
+        """Finish the last file."""
+        self._finish_file(ended)
+        return sum(file.stat().st_size for file in self.files)
+
+    def abandon(self) -> None:
+        """Leave the last file as it is."""
+        self._writer.abandon()
+
+    def _open(self) -> RecordingWriter:
+        path = numbered(self._base, self._part) if self._many else self._base
+        return RecordingWriter(path, self._clock, self._match, self._cast)
+
+    def _begin_file(self, standing: list[Logged]) -> None:
+        manifest, attachments = self._head()
+        self._writer.begin(manifest.model_copy(update={"part": self._part}), attachments, standing)
+        self._first_ns = None
+
+    def _hand_on(self, batch: list[Logged]) -> None:
+        if batch:
+            self._writer.write(batch)
+
+    def _is_full(self, log_ns: int) -> bool:
+        """Whether a message of this log time belongs into the next file; those of one tick stay together."""
+        if self._first_ns is None or log_ns == self._last_ns:
+            return False
+        limits = self._limits
+        if limits.duration is not None and log_ns - self._first_ns >= round(limits.duration * 1e9):
+            return True
+        return limits.size is not None and self._writer.size >= limits.size
+
+    def _next(self, ended: Ended) -> None:
+        self._finish_file(ended)
+        self._part += 1
+        self._writer = self._open()
+        self._begin_file(self._standing.messages())
+
+    def _finish_file(self, ended: Ended) -> None:
+        self._writer.finish(self._tail(ended))
+        self.files.append(self._writer.path)
+        self._account.next_file()
+        drop_oldest(self.files, self._limits.keep)
+
+
+class Snapshots:
+    """Holds the last seconds in memory, and writes them to a file of their own at a goal, or on request."""
+
+    def __init__(self, path: Path, clock: Clock, match: str, account: Account, limits: Limits) -> None:
+        """Checks that a file can be written there.
+
+        Raises:
+            TouchlineError: it cannot.
+        """
+        assert limits.snapshot is not None
+        self._base, self._clock, self._match, self._account, self._keep = path, clock, match, account, limits.keep
+        self._horizon_ns = round(limits.snapshot * 1e9)
+        self._held: deque[Logged] = deque()
+        self._before = Standing()
+        """What stood when the oldest message that is held came."""
+        self._number = 0
+        self.files: list[Path] = []
+        _check_free(path)
+        probe = RecordingWriter(numbered(path, 1), clock, match)
+        probe.discard()
+
+    @property
+    def path(self) -> Path:
+        """The newest snapshot, or where the first one will be."""
+        return self.files[-1] if self.files else numbered(self._base, 1)
+
+    def begin(self, head: Head, tail: Tail, cast: Cast) -> None:
+        """Remember how to make a file."""
+        self._head, self._tail, self._cast = head, tail, cast
+
+    def write(self, batch: list[Logged]) -> None:
+        """Hold messages, forget those that are too old, and write all when there was a goal."""
+        for logged in batch:
+            self._account.enter(logged[1])
+            self._held.append(logged)
+        if batch:
+            self._forget(batch[-1][0] - self._horizon_ns)
+        if any(_is_goal(logged) for logged in batch):
+            self.snapshot("goal")
+
+    def pass_over(self, batch: list[Logged]) -> None:
+        """Follow what stands: a pause is a hole in what is held, and what was before it is forgotten."""
+        for logged in batch:
+            self._account.enter(logged[1], left_out=True)
+        self._forget(None)
+        for logged in batch:
+            self._before.take(logged)
+
+    def sync(self) -> None:
+        """Snapshots are on the disk when they are written."""
+
+    def split(self) -> str:
+        """There is no file to go on with."""
+        return "it writes snapshots; ask it for one"
+
+    def snapshot(self, why: str) -> str:
+        """Write what is held."""
+        if not self._held:
+            return "it holds nothing yet"
+        self._number += 1
+        writer = RecordingWriter(numbered(self._base, self._number), self._clock, self._match, self._cast)
+        manifest, attachments = self._head()
+        made = {"part": self._number, "made": f"snapshot: {why}"}
+        try:
+            writer.begin(manifest.model_copy(update=made), attachments, self._before.messages())
+            writer.write(list(self._held))
+            writer.finish(self._result())
+        finally:
+            writer.abandon()
+        self.files.append(writer.path)
+        drop_oldest(self.files, self._keep)
+        return ""
+
+    def finish(self, ended: Ended) -> int:
+        """What is held and nobody wanted is forgotten."""
+        del ended
+        return sum(file.stat().st_size for file in self.files)
+
+    def abandon(self) -> None:
+        """No file is open between two calls."""
+
+    def _forget(self, before_ns: int | None) -> None:
+        while self._held and (before_ns is None or self._held[0][0] < before_ns):
+            self._before.take(self._held.popleft())
+
+    def _result(self) -> Result:
+        """The result of these seconds alone."""
+        account = Account()
+        for _, received in self._held:
+            account.enter(received)
+        counts = {
+            key: count.model_copy(update={"missed_before_start": 0}) for key, count in account.of_this_file().items()
+        }
+        return self._tail(Ended.SNAPSHOT).counted(counts)
+
+
+def numbered(path: Path, number: int) -> Path:
+    """The file of this number beside a path: `final.mcap` → `final.0001.mcap`."""
+    return path.with_name(f"{path.stem}.{number:04d}{path.suffix}")
+
+
+def files_at(path: Path) -> list[Path]:
+    """The finished files of a recording at this path: itself, or its numbered ones."""
+    return [path] if path.exists() else numbered_files(path)
+
+
+def numbered_files(path: Path) -> list[Path]:
+    """The numbered files beside a path, in order."""
+    pattern = re.compile(re.escape(path.stem) + r"\.\d{4,}" + re.escape(path.suffix))
+    if not path.parent.is_dir():
+        return []
+    return sorted(file for file in path.parent.iterdir() if pattern.fullmatch(file.name))
+
+
+def _check_free(path: Path) -> None:
+    """Numbered files of another recording would be taken for this one's."""
+    others = numbered_files(path)
+    if others:
+        raise TouchlineError(f"{others[0]}: is there already; give another name, or move the files away")
+
+
+def drop_oldest(files: list[Path], keep: int | None) -> None:
+    """Delete the oldest of the files until so many are left."""
+    while keep is not None and len(files) > keep:
+        files.pop(0).unlink(missing_ok=True)
+
+
+def _is_goal(logged: Logged) -> bool:
+    received = logged[1]
+    if received.key != EVENT.key:
+        return False
+    try:
+        event: GameEvent = received.message()
+    except BadMessageError:
+        return False
+    return event.kind is EventKind.GOAL
