@@ -53,7 +53,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--name", default="recorder", help="what this recorder is called (%(default)s)")
     parser.add_argument("--sights", action="store_true", help="record too what the robots perceive")
     more, positive = "may be given several times", _positive
-    parser.add_argument("--include", action="append", default=[], help=f"record these keys alone, robot/*/command; {more}")
+    parser.add_argument(
+        "--include", action="append", default=[], help=f"record these keys alone, robot/*/command; {more}"
+    )
     parser.add_argument("--exclude", action="append", default=[], help=f"leave these keys out; {more}")
     parser.add_argument("--split-size", type=positive, help="MB after which the next file is begun")
     parser.add_argument("--split-duration", type=positive, help="simulated s after which the next file is begun")

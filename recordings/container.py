@@ -1,15 +1,18 @@
 """An MCAP file from outside: what it holds by its index, or, where it was cut off, by reading it up to the cut."""
 
+import mmap
 import struct
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from io import BytesIO
 from pathlib import Path
-from typing import IO
+from typing import IO, cast
 
 import zstandard
-from mcap.data_stream import ReadDataStream
+from mcap.data_stream import ReadDataStream, RecordBuilder
 from mcap.exceptions import McapError
+from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
 from mcap.records import Attachment, Channel, Chunk, ChunkIndex, Header, McapRecord, Message, Metadata, Schema
 from mcap.stream_reader import StreamReader, breakup_chunk
@@ -18,8 +21,9 @@ from mcap.writer import MCAP0_MAGIC
 
 from schemas.errors import TouchlineError
 
-_BROKEN = (McapError, ValueError, LookupError, OverflowError, MemoryError, struct.error, zstandard.ZstdError)
+BROKEN = (McapError, ValueError, LookupError, OverflowError, MemoryError, struct.error, zstandard.ZstdError)
 """What the library raises on bytes that are cut off or damaged."""
+DAMAGED = "damaged inside ({}); take another copy of it, or have `touchline recover` leave out what is damaged"
 _FOOTER = struct.Struct("<BQQQI")
 """Opcode, length, start of the summary, start of its offsets, checksum of the summary."""
 
@@ -73,8 +77,8 @@ class Container:
                     keys, log_time_order=False, starting_at=start_ns, ending_before=end_ns
                 ):
                     yield channel.topic, message
-            except _BROKEN as error:
-                raise TouchlineError(f"{self.path}: damaged inside ({error}); take another copy of it") from None
+            except BROKEN as error:
+                raise TouchlineError(f"{self.path}: {DAMAGED.format(error)}") from None
 
     def _streamed(
         self, file: IO[bytes], keys: set[str], start_ns: int | None, end_ns: int | None
@@ -106,15 +110,12 @@ def open_container(path: Path) -> Container:
 def _by_index(path: Path, file: IO[bytes]) -> Container | None:
     """What the summary at the end says; nothing when the file has none, because it was cut off."""
     size = path.stat().st_size
-    file.seek(max(0, size - len(MCAP0_MAGIC)))
-    if size < 2 * len(MCAP0_MAGIC) or file.read() != MCAP0_MAGIC:
+    summary = summary_of(file, size) if summary_is_whole(file, size) else None
+    if summary is None or summary.statistics is None:
         return None
     file.seek(0)
     try:
         reader = SeekingReader(file, record_size_limit=size)
-        summary = reader.get_summary()
-        if summary is None or summary.statistics is None or not _summary_is_whole(file, size):
-            return None
         container = Container(path, library=reader.get_header().library)
         container.metadata = {record.name: record.metadata for record in reader.iter_metadata()}
         container.attachments = {record.name: record.data for record in reader.iter_attachments()}
@@ -126,26 +127,46 @@ def _by_index(path: Path, file: IO[bytes]) -> Container | None:
             record.messages = counts.get(number, 0)
             record.first_ns, record.last_ns = _extent(file, summary, number, chunks)
             container.channels[number] = record
-    except _BROKEN:
-        return None
+    except BROKEN as error:
+        raise TouchlineError(f"{path}: {DAMAGED.format(error)}") from None
     return container
 
 
-def _summary_is_whole(file: IO[bytes], size: int) -> bool:
-    """Whether the summary is as it was written, by its checksum; a writer may have left that out."""
+def summary_is_whole(file: IO[bytes] | mmap.mmap, size: int) -> bool:
+    """Whether there is a summary and it is as it was written, by its checksum; a writer may have left that out."""
     end = size - len(MCAP0_MAGIC) - _FOOTER.size
+    if end < len(MCAP0_MAGIC):
+        return False
     file.seek(end)
     footer = file.read(_FOOTER.size)
-    _, _, start, _, expected = _FOOTER.unpack(footer)
-    if not 0 < start <= end:
+    opcode, length, start, _, expected = _FOOTER.unpack(footer)
+    if file.read() != MCAP0_MAGIC or (opcode, length) != (Opcode.FOOTER, _FOOTER.size - 9) or not 0 < start <= end:
         return False
     file.seek(start)
     return expected in (0, zlib.crc32(file.read(end - start) + footer[:-4]))
 
 
-def _extent(
-    file: IO[bytes], summary: Summary, channel: int, read: dict[int, dict[int, list[int]]]
-) -> tuple[int, int]:
+def summary_of(file: IO[bytes] | mmap.mmap, size: int) -> Summary | None:
+    """The summary, or nothing where it cannot be read."""
+    file.seek(0)
+    try:
+        summary = SeekingReader(cast(IO[bytes], file), record_size_limit=size).get_summary()
+    except BROKEN:
+        return None
+    return summary if summary is not None and summary.statistics is not None else None
+
+
+def bytes_of(builder: RecordBuilder) -> bytes:
+    """The records that were built since this was last asked."""
+    return bytes(builder.end())  # type: ignore[no-untyped-call]
+
+
+def stream_of(content: bytes) -> ReadDataStream:
+    """Bytes to read a record from."""
+    return ReadDataStream(BytesIO(content))
+
+
+def _extent(file: IO[bytes], summary: Summary, channel: int, read: dict[int, dict[int, list[int]]]) -> tuple[int, int]:
     """Times of the first and the last message of a channel, from its first and last chunk; `read` are chunks so far."""
     chunks = [index for index in summary.chunk_indexes if channel in index.message_index_offsets]
     if not chunks:
@@ -194,5 +215,5 @@ def _records(file: IO[bytes], size: int) -> Iterator[McapRecord]:
     """Every record up to the first that is not whole."""
     try:
         yield from StreamReader(file, validate_crcs=True, record_size_limit=size).records
-    except _BROKEN:
+    except BROKEN:
         return

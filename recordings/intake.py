@@ -2,6 +2,7 @@
 
 from schemas.bus.contract import Received, Stamp
 from schemas.intake import Intake
+from schemas.message import BadMessageError
 from schemas.topics import TOPICS, Party
 
 _OTHERS = tuple(topic for topic in TOPICS.values() if topic.recorded and topic.writer is not Party.HOST)
@@ -17,9 +18,13 @@ def received_of(intake: Received) -> list[Received]:
     message: Intake = intake.message()
     found = []
     for entry in message.entries:
+        try:
+            payload = entry.payload
+        except ValueError as error:
+            raise BadMessageError(f"Intake: octets of {entry.key}: {error}") from None
         topic = next((topic for topic in _OTHERS if topic.match(entry.key) is not None), None)
         if topic is None:
             continue
         stamp = Stamp(entry.sequence, entry.sent_ns, entry.sim_ns) if entry.sequence is not None else None
-        found.append(Received(topic, entry.key, entry.payload, stamp, entry.arrived_ns))
+        found.append(Received(topic, entry.key, payload, stamp, entry.arrived_ns))
     return found

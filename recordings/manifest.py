@@ -93,8 +93,10 @@ class KeyCount(Part):
     """Messages that came while the recorder was paused."""
 
     def since(self, before: "KeyCount") -> Self:
-        """What was counted after `before`; a late message may take back a loss of an earlier file, so none is below 0."""
-        return type(self)(**{name: max(0, getattr(self, name) - getattr(before, name)) for name in KeyCount.model_fields})
+        """What was counted after `before`; none is below 0, though a late message takes back a loss."""
+        return type(self)(
+            **{name: max(0, getattr(self, name) - getattr(before, name)) for name in KeyCount.model_fields}
+        )
 
 
 class Result(Part):

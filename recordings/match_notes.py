@@ -10,7 +10,6 @@ from schemas.host import Applied, Health, RosterEntry
 from schemas.message import BadMessageError
 from schemas.topics import APPLIED, EVENT, HEALTH, STATE
 
-
 _ROSTER = b'"robots":['
 """In the inputs of a tick in which others take part than before."""
 

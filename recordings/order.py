@@ -9,7 +9,6 @@ from typing import NamedTuple
 from schemas.bus.contract import Received
 from schemas.topics import APPLIED, INTAKE, WORLD, Party
 
-
 _EACH_TICK = frozenset({WORLD.key, APPLIED.key, INTAKE.key})
 """What the host says once in every tick: how far each of them has come tells what can be missing still."""
 
@@ -45,7 +44,7 @@ class SimOrder:
 
     @property
     def settled_ns(self) -> int:
-        """Up to where all that comes in every tick has come, ns of simulated time: one of them may be recovered late."""
+        """Up to where all that comes in every tick has come, ns; one of them may be recovered late."""
         return min(self._each_tick.values(), default=self._host_ns)
 
     def reach(self, received: Received) -> None:

@@ -44,7 +44,9 @@ class Limits:
             TouchlineError: the limits do not go together.
         """
         if self.keep is not None and not self.in_many:
-            raise TouchlineError(f"--keep {self.keep} is for many files; add --split-size, --split-duration or --snapshot")
+            raise TouchlineError(
+                f"--keep {self.keep} is for many files; add --split-size, --split-duration or --snapshot"
+            )
         if self.snapshot is not None and (self.size is not None or self.duration is not None):
             raise TouchlineError("--snapshot writes files of its own; leave --split-size and --split-duration out")
 

@@ -37,9 +37,7 @@ def record(
         account = Account()
         output = output_at(out, clock, match, account, limits)
         try:
-            recorder = Recorder(
-                bus, output, account, name=name, sights=sights, selection=selection, config=config
-            )
+            recorder = Recorder(bus, output, account, name=name, sights=sights, selection=selection, config=config)
             return recorder.run(told_to_stop)
         finally:
             output.abandon()

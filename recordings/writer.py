@@ -15,8 +15,8 @@ from mcap.writer import CompressionType, Writer
 from mcap.writer import IndexType as Index
 from pydantic_core import to_json
 
-from recordings.environment import library
 from recordings.cast import Cast
+from recordings.environment import library
 from recordings.json_schema import flat_schema
 from recordings.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
 from recordings.standing import Logged

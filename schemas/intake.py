@@ -1,9 +1,9 @@
-"""What reached the host from others, handed on for the record: commands and orders, byte for byte, as it took them in."""
+"""What reached the host from others, handed on for the record: commands and orders, byte for byte."""
 
-from base64 import b64encode
+from base64 import b64decode, b64encode
 from typing import Annotated, Any, ClassVar
 
-from pydantic import Base64Bytes, Field
+from pydantic import Field
 
 from schemas.message import Message, Part
 
@@ -15,8 +15,8 @@ class IntakeEntry(Part):
     """Key below the match, `robot/cyan1/command`."""
     text: str | None = None
     """The payload, where it is UTF-8."""
-    octets: Base64Bytes | None = None
-    """The payload, where it is not."""
+    octets: str | None = None
+    """The payload in base64, where it is not."""
     sequence: Annotated[int, Field(ge=0)] | None = None
     """Its sender's number on that key; nothing when it gave none."""
     sent_ns: int = 0
@@ -29,7 +29,7 @@ class IntakeEntry(Part):
     @property
     def payload(self) -> bytes:
         """The bytes that came."""
-        return self.text.encode() if self.text is not None else self.octets or b""
+        return self.text.encode() if self.text is not None else b64decode(self.octets or "")
 
 
 class Intake(Message):

@@ -34,7 +34,7 @@ class Outbox:
     """All writers of the host."""
 
     def __init__(self, bus: Bus, roster: Roster, tick_s: float, *, sights_kept: bool = False) -> None:
-        """`sights_kept`: sights are kept for a recorder to fetch again, which costs memory: some 30 MB for ten robots."""
+        """`sights_kept`: a recorder can fetch sights again, which costs some 30 MB of memory for ten robots."""
         self._sight_topic = replace(SIGHT, delivery=Delivery.RECOVERED) if sights_kept else SIGHT
         self._bus = bus
         self._world = bus.publisher(WORLD)

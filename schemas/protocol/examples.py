@@ -2,6 +2,7 @@
 
 from schemas.coach import CoachMode, CoachOrder
 from schemas.command import BallBelief, Command, Drive, Kick, KickMode, Motion, Radio
+from schemas.control import RecorderDeed, RecorderReply, RecorderRequest
 from schemas.game import (
     ActionName,
     ActionReply,
@@ -28,6 +29,7 @@ from schemas.host import (
     Setup,
     SetupRequest,
 )
+from schemas.intake import Intake, IntakeEntry
 from schemas.match_config import MatchConfig
 from schemas.message import Message
 from schemas.parameters import Parameter, ParameterDeed, ParametersReply, ParametersRequest
@@ -167,7 +169,24 @@ def _host() -> tuple[Message, ...]:
             reason="Command: drive.vx is 'fast': Input should be a valid number",
             size=41,
         ),
+        Intake(
+            tick=_TICK + 1,
+            entries=[
+                IntakeEntry(
+                    key="robot/cyan2/command",
+                    text=Command(answers_tick=_TICK, drive=_DRIVE).encode().decode(),
+                    sequence=412,
+                    sent_ns=1_767_225_608_240_311_872,
+                    sim_ns=8_240_000_000,
+                    arrived_ns=1_767_225_608_240_498_113,
+                )
+            ],
+        ),
         RecorderProgress(tick=403, messages=6045, lost=0),
+        RecorderRequest(deed=RecorderDeed.SNAPSHOT),
+        RecorderReply(
+            accepted=True, recorder="recorder", paused=False, file="final.0003.mcap", messages=6045, lost=0, tick=403
+        ),
     )
 
 

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from arena.in_process import Table
-from recordings.reader import Recording, open_recording
-from recordings.recorder import Recorder, RecordingSummary
 from recordings.account import Account
 from recordings.output import ONE_FILE, Limits, Output
+from recordings.reader import Recording, open_recording
 from recordings.record import output_at
+from recordings.recorder import Recorder, RecordingSummary
 from recordings.selection import EVERYTHING, Selection
 from schemas.bus.contract import Bus, Publisher, Received
 from schemas.bus.in_process import Medium

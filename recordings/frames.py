@@ -1,0 +1,204 @@
+"""The records of an MCAP file as they lie in it: found by their heads, checked by their checksums, none decoded."""
+
+import mmap
+import struct
+import zlib
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import zstandard
+from mcap.data_stream import RecordBuilder
+from mcap.exceptions import McapError
+from mcap.opcode import Opcode
+from mcap.records import Channel, MessageIndex, Schema
+from mcap.writer import MCAP0_MAGIC
+
+from recordings.container import bytes_of, stream_of
+
+BROKEN = (McapError, ValueError, LookupError, OverflowError, MemoryError, struct.error, zstandard.ZstdError)
+"""What is raised on bytes that are cut off or damaged."""
+HEAD = struct.Struct("<BQ")
+"""Opcode, and length of the content."""
+PRIVATE = 0x80
+"""Readers pass over records whose opcode is this or higher."""
+_CHUNK = struct.Struct("<QQQII")
+"""First and last log time, size and checksum of what is in it uncompressed, length of the compression's name."""
+_INDEX = struct.Struct("<HI")
+"""Channel, bytes of its entries."""
+_MESSAGE = struct.Struct("<HIQ")
+"""Channel, sequence, log time."""
+_LAST_OPCODE = max(Opcode)
+
+
+class Frame(NamedTuple):
+    """One record."""
+
+    opcode: int
+    at: int
+    """Where its head begins."""
+    end: int
+
+    @property
+    def content(self) -> int:
+        """Where its content begins."""
+        return self.at + HEAD.size
+
+
+class ChunkHead(NamedTuple):
+    """What stands before the packed content of a chunk."""
+
+    first_ns: int
+    last_ns: int
+    size: int
+    checksum: int
+    compression: str
+    packed: int
+    """Where the packed content begins."""
+
+
+@dataclass(slots=True)
+class ChunkFrame:
+    """A chunk, and the indexes behind it."""
+
+    frame: Frame
+    indexes: list[Frame] = field(default_factory=list)
+
+    @property
+    def end(self) -> int:
+        """Behind its last index."""
+        return self.indexes[-1].end if self.indexes else self.frame.end
+
+
+def frames_of(content: mmap.mmap, known: list[int]) -> Iterator[Frame]:
+    """The records of the data section, up to its end or to the first that is not whole.
+
+    `known` are places where a record begins, in order: where the head of one is damaged, the next place is gone to, and
+    what lies between is a private record.
+    """
+    at, size = len(MCAP0_MAGIC), len(content)
+    places = iter(known)
+    place = next(places, None)
+    while at + HEAD.size <= size:
+        while place is not None and place <= at:
+            place = next(places, None)
+        opcode, length = HEAD.unpack_from(content, at)
+        end = at + HEAD.size + length
+        sound = 0 < opcode <= _LAST_OPCODE or opcode >= PRIVATE
+        if place is not None and (not sound or end > place):
+            opcode, end = PRIVATE, place
+        elif not sound or end > size:
+            return
+        yield Frame(opcode, at, end)
+        if opcode == Opcode.DATA_END:
+            return
+        at = end
+
+
+def chunks_of(frames: list[Frame]) -> dict[int, ChunkFrame]:
+    """Chunks with the indexes behind them, by where they begin."""
+    chunks: dict[int, ChunkFrame] = {}
+    last: ChunkFrame | None = None
+    for frame in frames:
+        if frame.opcode == Opcode.CHUNK:
+            last = chunks[frame.at] = ChunkFrame(frame)
+        elif frame.opcode == Opcode.MESSAGE_INDEX and last is not None:
+            last.indexes.append(frame)
+        else:
+            last = None
+    return chunks
+
+
+def damaged_chunks(content: mmap.mmap, chunks: dict[int, ChunkFrame]) -> set[int]:
+    """Where those chunks begin whose checksum does not fit; looked for on all cores."""
+    with ThreadPoolExecutor() as pool:
+        whole = pool.map(lambda chunk: _is_whole(content, chunk.frame), chunks.values())
+        return {at for at, fits in zip(chunks, whole, strict=True) if not fits}
+
+
+def _is_whole(content: mmap.mmap, frame: Frame) -> bool:
+    try:
+        return unpacked(content, frame) is not None
+    except BROKEN:
+        return False
+
+
+def chunk_head(content: mmap.mmap, frame: Frame) -> ChunkHead:
+    """The head of a chunk.
+
+    Raises:
+        ValueError: the lengths in it do not fit each other.
+    """
+    first, last, size, checksum, name = _CHUNK.unpack_from(content, frame.content)
+    at = frame.content + _CHUNK.size + name
+    if name > 16 or at + 8 > frame.end or at + 8 + struct.unpack_from("<Q", content, at)[0] != frame.end:
+        raise ValueError("chunk of another length")
+    return ChunkHead(first, last, size, checksum, content[at - name : at].decode(), at + 8)
+
+
+def unpacked(content: mmap.mmap, frame: Frame) -> bytes:
+    """The records in a chunk.
+
+    Raises:
+        ValueError, zstandard.ZstdError: it is damaged, or packed in a way that is not read here.
+    """
+    head = chunk_head(content, frame)
+    packed = content[head.packed : frame.end]
+    if head.compression == "zstd":
+        data = zstandard.ZstdDecompressor().decompress(packed)  # the packed bytes say how long it is, not the head
+    elif head.compression == "":
+        data = packed
+    else:
+        raise ValueError(f"compression {head.compression}")
+    if len(data) != head.size or (head.checksum and zlib.crc32(data) != head.checksum):
+        raise ValueError("checksum")
+    return data
+
+
+class ChunkContent(NamedTuple):
+    """What is in a chunk."""
+
+    schemas: dict[int, Schema]
+    channels: dict[int, Channel]
+    indexes: dict[int, MessageIndex]
+    """Channel → times and places of its messages, as the indexes behind a chunk have them."""
+
+
+def content_of(data: bytes) -> ChunkContent:
+    """Schemas, channels and the places of all messages in the unpacked records of a chunk."""
+    found = ChunkContent({}, {}, {})
+    at = 0
+    while at + HEAD.size <= len(data):
+        opcode, length = HEAD.unpack_from(data, at)
+        start = at + HEAD.size
+        if opcode == Opcode.MESSAGE:
+            channel, _, log_ns = _MESSAGE.unpack_from(data, start)
+            index = found.indexes.setdefault(channel, MessageIndex(channel, []))
+            index.records.append((log_ns, at))
+        elif opcode == Opcode.SCHEMA:
+            schema = Schema.read(stream_of(data[start : start + length]))
+            found.schemas[schema.id] = schema
+        elif opcode == Opcode.CHANNEL:
+            channel_record = Channel.read(stream_of(data[start : start + length]))
+            found.channels[channel_record.id] = channel_record
+        at = start + length
+    return found
+
+
+def index_counts(content: mmap.mmap, chunk: ChunkFrame) -> dict[int, tuple[int, int]]:
+    """Channel → how many messages the indexes behind a chunk have of it, and where its index lies."""
+    found = {}
+    for frame in chunk.indexes:
+        channel, length = _INDEX.unpack_from(content, frame.content)
+        found[channel] = length // 16, frame.at
+    return found
+
+
+def index_bytes(indexes: dict[int, MessageIndex], at: int) -> tuple[bytes, dict[int, int]]:
+    """The indexes of a chunk as they are written at this place, and channel → where its index lies."""
+    builder, places = RecordBuilder(), {}
+    for channel, index in indexes.items():
+        places[channel] = at + builder.count
+        index.write(builder)
+    return bytes_of(builder), places

@@ -1,0 +1,148 @@
+"""The end of an MCAP file, made from what was found in it: summary, where its groups begin, and footer."""
+
+import zlib
+from collections.abc import Iterable
+from typing import Any
+
+from mcap.data_stream import RecordBuilder
+from mcap.opcode import Opcode
+from mcap.records import (
+    Attachment,
+    AttachmentIndex,
+    Channel,
+    ChunkIndex,
+    DataEnd,
+    Footer,
+    Metadata,
+    MetadataIndex,
+    Schema,
+    Statistics,
+    SummaryOffset,
+)
+from mcap.writer import MCAP0_MAGIC
+
+from recordings.container import bytes_of
+from recordings.environment import library
+from recordings.frames import ChunkHead, Frame
+from recordings.manifest import sealed
+
+RECOVERED = "recovered"
+"""Name of the metadata record that a repair leaves."""
+
+
+class SummaryBuilder:
+    """Collects what a summary says."""
+
+    def __init__(self) -> None:
+        self._schemas: dict[int, Schema] = {}
+        self._channels: dict[int, Channel] = {}
+        self._counts: dict[int, int] = {}
+        self._chunks: list[ChunkIndex] = []
+        self._attachments: list[AttachmentIndex] = []
+        self._metadata: list[MetadataIndex] = []
+
+    @property
+    def empty(self) -> bool:
+        """Nothing is in the file that a reader could want."""
+        return not (self._chunks or self._metadata or self._attachments)
+
+    def learn(self, schemas: dict[int, Schema], channels: dict[int, Channel]) -> None:
+        """What messages are of."""
+        self._schemas.update(schemas)
+        self._channels.update(channels)
+
+    def knows(self, channels: Iterable[int]) -> bool:
+        """Whether all these channels are known."""
+        return all(channel in self._channels for channel in channels)
+
+    def add_chunk(self, head: ChunkHead, frame: Frame, counted: dict[int, tuple[int, int]], index_length: int) -> None:
+        """A chunk with its messages: channel → how many, and where their index lies, 0 where there is none."""
+        for channel, (count, _) in counted.items():
+            self._counts[channel] = self._counts.get(channel, 0) + count
+        self._chunks.append(
+            ChunkIndex(
+                chunk_length=frame.end - frame.at,
+                chunk_start_offset=frame.at,
+                compression=head.compression,
+                compressed_size=frame.end - head.packed,
+                message_end_time=head.last_ns,
+                message_index_length=index_length,
+                message_index_offsets={channel: place for channel, (_, place) in counted.items() if place},
+                message_start_time=head.first_ns,
+                uncompressed_size=head.size,
+            )
+        )
+
+    def add_beside(self, record: Attachment | Metadata, frame: Frame) -> None:
+        """An attachment, or metadata."""
+        length = frame.end - frame.at
+        if isinstance(record, Metadata):
+            self._metadata.append(MetadataIndex(frame.at, length, record.name))
+            return
+        self._attachments.append(
+            AttachmentIndex(
+                offset=frame.at,
+                length=length,
+                log_time=record.log_time,
+                create_time=record.create_time,
+                data_size=len(record.data),
+                name=record.name,
+                media_type=record.media_type,
+            )
+        )
+
+    def tail(self, at: int, checksum: int, note: dict[str, str]) -> bytes:
+        """Everything from `at`, where the messages end, to the end of the file.
+
+        `checksum` is that of the file up to there; `note` says what the repair did.
+        """
+        builder = RecordBuilder()
+        Metadata(RECOVERED, sealed({**note, "library": library()})).write(builder)
+        self._metadata.append(MetadataIndex(at, builder.count, RECOVERED))
+        data = bytes_of(builder)
+        DataEnd(zlib.crc32(data, checksum)).write(builder)
+        data += bytes_of(builder)
+        return data + self._summary(at + len(data))
+
+    def _summary(self, start: int) -> bytes:
+        builder, offsets = RecordBuilder(), []
+        groups: list[tuple[int, Iterable[Any]]] = [
+            (Opcode.SCHEMA, self._schemas.values()),
+            (Opcode.CHANNEL, self._channels.values()),
+            (Opcode.STATISTICS, [self._statistics()]),
+            (Opcode.CHUNK_INDEX, self._chunks),
+            (Opcode.ATTACHMENT_INDEX, self._attachments),
+            (Opcode.METADATA_INDEX, self._metadata),
+        ]
+        for opcode, records in groups:
+            group = builder.count
+            for record in records:
+                record.write(builder)
+            if builder.count > group:
+                offsets.append(SummaryOffset(opcode, start + group, builder.count - group))
+        offset_start = start + builder.count
+        for offset in offsets:
+            offset.write(builder)
+        return _closed(builder, start, offset_start)
+
+    def _statistics(self) -> Statistics:
+        return Statistics(
+            attachment_count=len(self._attachments),
+            channel_count=len(self._channels),
+            channel_message_counts=self._counts,
+            chunk_count=len(self._chunks),
+            message_count=sum(self._counts.values()),
+            metadata_count=len(self._metadata),
+            message_start_time=min((chunk.message_start_time for chunk in self._chunks), default=0),
+            message_end_time=max((chunk.message_end_time for chunk in self._chunks), default=0),
+            schema_count=len(self._schemas),
+        )
+
+
+def _closed(builder: RecordBuilder, start: int, offset_start: int) -> bytes:
+    """The summary with its footer, whose checksum is over all before it."""
+    summary = bytes_of(builder)
+    Footer(start, offset_start, 0).write(builder)
+    footer = bytes_of(builder)
+    checksum = zlib.crc32(summary + footer[:-4])
+    return summary + footer[:-4] + checksum.to_bytes(4, "little") + MCAP0_MAGIC
