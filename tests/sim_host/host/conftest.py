@@ -83,6 +83,10 @@ class FakeRecorder:
         self._progress = bus.publisher(PROGRESS, name="recorder")
         bus.declare_alive("recorder", "recorder")
 
+    def leave(self) -> None:
+        self._progress.put(RecorderProgress(tick=self.seen, messages=0, lost=0, leaving=True))
+        self.bus.close()
+
     def pump(self) -> None:
         while not self.stands and (received := self.worlds.receive()) is not None:
             self.seen = received.message().tick

@@ -2,10 +2,11 @@
 
 import pytest
 
+from schemas.match_config import MatchConfig
 from sim_host.attendance import WINDOW
 
-PATIENCE_S = 1.0
-"""How long the host waits for a recorder that stands still; the match file's default for an answer."""
+PATIENCE_S = MatchConfig().patience.recorder
+"""How long the host waits for a recorder that stands still; the match file's default."""
 
 
 @pytest.fixture
@@ -48,30 +49,51 @@ def test_a_recorder_that_is_slow_is_waited_for_as_long_as_it_moves(pitch, record
     assert pitch.clock.now() >= 0.5 * 19
 
 
-def test_a_dead_recorder_does_not_stop_the_match(pitch, recorder):
+def test_a_dead_recorder_stops_the_match_no_longer_than_one_that_stands_still(pitch, recorder):
     pitch.ticks(5)
     recorder.stands = True
     pitch.ticks(WINDOW - 20)
     pitch.idle.remove(recorder.pump)
     recorder.bus.close()
     pitch.ticks(60)
-    assert pitch.clock.now() < PATIENCE_S
+    assert PATIENCE_S < pitch.clock.now() < PATIENCE_S + 1.0
     assert pitch.health().recorders == {}
 
 
-def test_a_recorder_that_dies_while_it_is_waited_for_is_waited_for_no_longer(pitch, recorder):
+def test_a_recorder_that_says_it_leaves_is_waited_for_no_longer(pitch, recorder):
     recorder.stands = True
     pitch.ticks(WINDOW - 2)
     began = pitch.clock.now()
 
-    def die():
+    def leave():
         if pitch.clock.now() > began + 0.3:
-            recorder.bus.close()
+            recorder.leave()
             pitch.idle.clear()
 
-    pitch.idle.append(die)
+    pitch.idle.append(leave)
     pitch.ticks(10)
-    assert 0.3 < pitch.clock.now() - began < 0.9 * PATIENCE_S
+    assert 0.3 < pitch.clock.now() - began < 0.5
+    assert pitch.health().recorders == {}
+
+
+def test_a_frozen_recorder_whose_link_broke_is_waited_for_until_it_is_back(pitch, recorder):
+    """A link breaks after 2 s of silence; the host must not run out of what can be fetched again meanwhile."""
+    pitch.ticks(5)
+    pitch.idle.remove(recorder.pump)
+    recorder.bus.close()
+    newest = recorder.seen
+    back = []
+
+    def come_back():
+        if pitch.clock.now() > 3.0 and not back:
+            assert pitch.host.simulation.now.tick <= newest + WINDOW + 1
+            back.append(pitch.record())
+            back[0].seen = newest
+
+    pitch.idle.append(come_back)
+    pitch.ticks(2 * WINDOW)
+    assert back
+    assert pitch.health().recorders["recorder"] <= 2
 
 
 def test_a_recorder_that_talks_without_end_and_does_not_move_is_left_behind(pitch, recorder):
