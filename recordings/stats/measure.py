@@ -144,9 +144,9 @@ def figures_of_recording(recording: Recording, *also: Taker) -> Figures:
         TouchlineError: it is damaged inside, has no setup, or no world.
     """
     setup, (start, end) = setup_of(recording), extent(recording)
-    all_figures = Measure(setup, start, end)
+    all_figures, before = Measure(setup, start, end), recording.unreadable.total()
     for moment in moments_of(recording):
         all_figures.take(moment)
         for other in also:
             other.take(moment)
-    return all_figures.figures(sum(recording.unreadable.values()))
+    return all_figures.figures(recording.unreadable.total() - before)

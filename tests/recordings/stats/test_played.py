@@ -1,18 +1,21 @@
 """A real match in figures: sums agree with each other and with what was recorded."""
 
 import math
+from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import pytest
 from pytest import approx
 
-from recordings.reader import Recording, open_recording
+from recordings.reader import Recorded, Recording, open_recording
 from recordings.stats.figures import Figures
 from recordings.stats.kicks import Outcome
 from recordings.stats.measure import figures_of_recording
 from schemas.game import EventKind, Phase
 from schemas.side import Side
+from schemas.world import World
 
 
 @pytest.fixture(scope="module")
@@ -107,3 +110,23 @@ def test_the_lines_of_python_in_the_documents_read_the_kicks(
     monkeypatch.chdir(played.parent)
     exec(compile(code, "docs/recordings.md", "exec"), {})
     assert len(capsys.readouterr().out.splitlines()) == len(figures.kicks)
+
+
+def test_worlds_that_cannot_be_are_counted_and_in_no_figure(
+    played: Path, figures: Figures, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    recording = open_recording(played)
+    decoded = recording.decoded
+
+    def spoiled(*keys: str) -> Iterator[tuple[Recorded, Any]]:
+        for recorded, message in decoded(*keys):
+            if isinstance(message, World) and message.tick in (300, 301):
+                message = message.model_copy(update={"time": 1e12})
+            yield recorded, message
+
+    monkeypatch.setattr(recording, "decoded", spoiled)
+    for _ in range(2):  # what was counted at the first reading is not counted again
+        again = figures_of_recording(recording)
+        assert (again.evidence.unreadable, again.evidence.worlds) == (2, figures.evidence.worlds - 2)
+        assert again.duration == figures.duration
+        assert again.sides[Side.CYAN].distance == approx(figures.sides[Side.CYAN].distance, rel=0.01)
