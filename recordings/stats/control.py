@@ -37,7 +37,7 @@ class Control:
     def _after(self, moment: Moment) -> Side | None:
         if moment.state is None or not moment.state.running or not moment.running:
             return None
-        world, side = moment.world, self.side
+        world, side = moment.world, self.side if moment.before is not None else None
         for robot in touching(moment):
             own = moment.side(robot)
             if own is not None and (side is None or robot in (world.kicked, world.possession)):

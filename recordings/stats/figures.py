@@ -29,6 +29,8 @@ class Evidence:
     kicks: int
     states: int
     events: int
+    missing: float
+    """s without a world, where the recorder was paused or cut off; in no figure but the duration."""
     unreadable: int
     """Messages that could not be read, and are in no figure."""
 

@@ -9,7 +9,7 @@ from recordings.stats.carries import Carries
 from recordings.stats.control import Control
 from recordings.stats.figures import Evidence, Figures, figures_of
 from recordings.stats.kicks import Kicks
-from recordings.stats.moment import KEYS, Moment, moments
+from recordings.stats.moment import GAP, KEYS, Moment, moments
 from recordings.stats.momentum import Momentum
 from recordings.stats.motion import Motions
 from schemas.errors import TouchlineError
@@ -87,6 +87,7 @@ class Measure:
         self._figures: tuple[Taker, ...] = (self._control, self._motions, self._carries, self._kicks, self._calls)
         self._momentum = Momentum(start, end, setup.pitch.goal_line)
         self._worlds = self._touched = self._held = self._states = 0
+        self._missing = 0.0
         self._first: Moment | None = None
         self._last: Moment | None = None
 
@@ -100,6 +101,8 @@ class Measure:
         self._touched += bool(world.touches)
         self._held += world.possession is not None
         self._states += moment.state is not moment.state_before
+        waited = world.time - self._last.world.time if self._last is not None else 0.0
+        self._missing += waited if waited > GAP else 0.0
         self._first = self._first or moment
         self._last = moment
 
@@ -120,6 +123,7 @@ class Measure:
             kicks=len(self._kicks.stories),
             states=self._states,
             events=len(self._calls.events),
+            missing=self._missing,
             unreadable=unreadable,
         )
         return figures_of(

@@ -17,6 +17,9 @@ from schemas.world import World
 KEYS = (WORLD.key, APPLIED.key, STATE.key, EVENT.key)
 """Of the messages that moments are made of."""
 
+GAP = 1.0
+"""s; ours: what was played in a longer one, while the recorder was paused or cut off, is not known."""
+
 
 @dataclass(frozen=True, slots=True)
 class Moment:
@@ -24,7 +27,7 @@ class Moment:
 
     world: World
     before: World | None
-    """The world of the moment before; nothing at the first one and where the world was set up anew."""
+    """The world of the moment before; nothing at the first one, after a `GAP`, and where the world was set up anew."""
     state: GameState | None
     """The game after this tick."""
     state_before: GameState | None
@@ -89,7 +92,7 @@ def moments(setup: Setup, messages: Iterable[tuple[int, Any]]) -> Iterator[Momen
                 cast = cast.changed(applied.robots)
         if world is None or (before is not None and world.time <= before.time):
             continue
-        if before is not None and world.episode != before.episode:
+        if before is not None and (world.episode != before.episode or world.time - before.time > GAP):
             before = None
         yield Moment(world, before, newest, state, cast, tuple(events), frozenset(placed), _kick(world, applied))
         before, state, events = world, newest, []

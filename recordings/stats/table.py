@@ -49,6 +49,7 @@ def remarks(figures: Figures) -> list[str]:
         (not evidence.touched, "no touches recorded: passes, shots and saves are not known"),
         (not evidence.held, "nobody holds the ball in it: time with the ball and dribbles are not known"),
         (not evidence.events, "no events recorded: goals by robot, fouls and cards are not known"),
+        (bool(evidence.missing), f"{evidence.missing:.1f} s were not recorded and are in no figure but the duration"),
         (bool(evidence.unreadable), f"{evidence.unreadable} messages could not be read and are in no figure"),
     ]
     return [words for holds, words in said if holds]

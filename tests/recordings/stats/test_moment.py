@@ -1,6 +1,10 @@
 """How the messages of a recording become moments."""
 
+from pytest import approx
+
+from recordings.stats.table import remarks
 from schemas.game import EventKind, Phase
+from schemas.side import Side
 from schemas.world import World
 
 
@@ -28,3 +32,15 @@ def test_what_is_said_in_a_tick_without_a_world_belongs_to_the_next(film) -> Non
 def test_the_kick_is_what_the_kicker_had_asked_for(film) -> None:
     film.shot(touches=["cyan2"], kicked="cyan2", speed=(5.0, 0.0, 0.0))
     assert [moment.kick.speed if moment.kick else None for moment in film.moments()] == [None, 5.0]
+
+
+def test_what_was_not_recorded_is_missing_and_in_no_figure(film) -> None:
+    film.held_by = "cyan2"
+    film.rest(50)
+    lost = {round(tick * 0.1 * 1e9) for tick in range(11, 41)}
+    film.messages = [(time, message) for time, message in film.messages if time not in lost]
+    figures = film.figures()
+    assert (figures.duration, figures.evidence.missing) == (approx(5.0), approx(3.1))
+    assert figures.in_play_s == approx(1.9)
+    assert figures.sides[Side.CYAN].with_ball_s == approx(1.8)  # held since the end of the first tick
+    assert "3.1 s were not recorded" in remarks(figures)[-1]
