@@ -2,6 +2,7 @@
 
 import pytest
 
+from schemas.game import EventKind
 from schemas.side import Side
 
 STORIES = {
@@ -23,6 +24,37 @@ STORIES = {
 def test_a_mirrored_story_has_mirrored_decisions(new_bench, profile, story):
     told = [tell(new_bench(profile, duration=40.0, dt=0.1, mirrored=mirrored), story) for mirrored in (False, True)]
     assert told[0] == told[1] and len(told[0]) > 8
+
+
+SET_PIECES = {
+    "double touch": [(0.0, ["cyan2"], "cyan2"), (0.2, [], None), (0.2, [], None), (0.3, ["cyan2"], None)],
+    "early touch of a mate": [(0.0, ["cyan2"], "cyan2"), (0.3, ["cyan3"], None)],
+    "early touch of an opponent": [(0.0, ["cyan2"], "cyan2"), (0.3, ["magenta3"], None)],
+    "dragged": [(0.4, ["cyan2"], None)],
+}
+"""Way of the ball from its spot in m, who touches it, and who kicks."""
+
+
+@pytest.mark.parametrize("name", ["free_kick", "throw_in", "corner", "penalty"])
+@pytest.mark.parametrize("story", SET_PIECES.values(), ids=SET_PIECES.keys())
+def test_a_mirrored_set_piece_has_mirrored_decisions(new_bench, name, story):
+    told = []
+    for mirrored in (False, True):
+        bench = new_bench("msl", duration=60.0, dt=0.1, mirrored=mirrored)
+        bench.playing()
+        bench.ask(name, Side.CYAN)
+        bench.robots["magenta4"] = (2.0, 2.0)
+        bench.until(lambda state: state.running)
+        x, y = bench.ball[:2]
+        for way, touches, kicker in story:
+            bench.tick((x - way, y), touches, kicked=kicker)
+        bench.ask("yellow_card", robot=bench.robot("cyan3"))
+        bench.ask("red_card", robot=bench.robot("magenta5"))
+        bench.run(20.0)
+        told.append(([unmirrored(bench, event) for event in bench.events], bench.robots))
+    assert told[0][0] == told[1][0] and any(event[1] is EventKind.FOUL for event in told[0][0])
+    for robot, place in told[0][1].items():
+        assert told[1][1][robot] == pytest.approx(place)
 
 
 def tell(bench, story):
