@@ -30,6 +30,8 @@ class Asked(NamedTuple):
     """m; how far one may drive backward with the ball, more than once."""
     keeps_out: bool
     """Nobody but the goalkeeper enters a goal area."""
+    takes_turns: bool
+    """One field robot of a side at a time is in a penalty area."""
     passes_first: bool
     """A ball won in the own half is passed in the other before it is shot."""
     roll: float
@@ -40,11 +42,12 @@ class Asked(NamedTuple):
         """Those of the match."""
         fouls, handling, scoring = setup.fouls, setup.handling, setup.scoring
         if fouls is None or handling is None or scoring is None:
-            return cls(math.inf, math.inf, False, False, 0.0)
+            return cls(math.inf, math.inf, False, False, False, 0.0)
         return cls(
             circle=handling.circle if fouls.dribble_circle != "off" else math.inf,
             backward=handling.backward_once if fouls.backward != "off" else math.inf,
             keeps_out=fouls.goal_area != "off",
+            takes_turns=fouls.penalty_area != "off",
             passes_first=fouls.own_half_goal != "off",
             roll=scoring.pass_roll,
         )

@@ -1,6 +1,7 @@
-"""Keep out of the goal areas: the part of a velocity that would lead into one is taken away."""
+"""Keep out of an area before a goal: the part of a velocity that would lead into it is taken away."""
 
 import math
+from typing import NamedTuple
 
 from robot_agent.bodies import Body, Limits
 from robot_agent.skills.braking import braking_speed
@@ -12,11 +13,36 @@ MARGIN = 0.15
 """m that the robot's centre stays outside the lines."""
 
 
-def keep_out(me: Body, wanted: Drive, pitch: Field, limits: Limits) -> Drive:
-    """The same demand, braked before the front or side line of a goal area; a robot inside drives out the front."""
+class Area(NamedTuple):
+    """The goal areas or the penalty areas of a pitch, one before each goal."""
+
+    goal_line: float
+    """m; |x| of the goal lines."""
+    depth: float
+    """m."""
+    width: float
+    """m."""
+
+    @classmethod
+    def goal(cls, pitch: Field) -> "Area":
+        """The goal areas."""
+        return cls(pitch.goal_line, pitch.goal_area_depth, pitch.goal_area_width)
+
+    @classmethod
+    def penalty(cls, pitch: Field) -> "Area":
+        """The penalty areas."""
+        return cls(pitch.goal_line, pitch.penalty_area_depth, pitch.penalty_area_width)
+
+    def has(self, end: float, x: float, y: float) -> bool:
+        """Whether a place, m, lies in the one at that end, by the sign of its x."""
+        return x * end > self.goal_line - self.depth and abs(y) < 0.5 * self.width
+
+
+def keep_out(me: Body, wanted: Drive, area: Area, limits: Limits) -> Drive:
+    """The same demand, braked before the front or side line of the area; a robot inside drives out the front."""
     end = 1.0 if me.x > 0 else -1.0
-    front = pitch.goal_line - pitch.goal_area_depth - MARGIN - me.x * end
-    side = abs(me.y) - 0.5 * pitch.goal_area_width - MARGIN
+    front = area.goal_line - area.depth - MARGIN - me.x * end
+    side = abs(me.y) - 0.5 * area.width - MARGIN
     if front > limits.speed or side > limits.speed:
         return wanted
     c, s = math.cos(me.heading), math.sin(me.heading)

@@ -10,7 +10,7 @@ from robot_agent.fair_play import Asked, Carry, Control, carried, control_after
 from robot_agent.skills.avoid import circles, go_around
 from robot_agent.skills.go_to import go_to
 from robot_agent.skills.keep_goal import keep_goal
-from robot_agent.skills.keep_out import keep_out
+from robot_agent.skills.keep_out import Area, keep_out
 from robot_agent.skills.let_go import let_go
 from robot_agent.skills.search import search_place
 from robot_agent.teams import shoot_out
@@ -78,6 +78,8 @@ class Player(ABC):
         self._full_limits = self.limits
         self._world = WorldModel(briefing)
         self._asked = Asked.of(briefing.setup)
+        self._goal_area = Area.goal(self.setup.pitch)
+        self._penalty_area = Area.penalty(self.setup.pitch)
         self._carry: Carry | None = None
         self.control = Control()
         """Which side has the ball, and whether a goal would count."""
@@ -167,8 +169,21 @@ class Player(ABC):
         if action.kick is None and self._carry is not None:
             action = self._carry_on(scene, action, self._carry)
         if self._asked.keeps_out and not self.is_keeper:
-            action = action._replace(drive=keep_out(scene.me, action.drive, self.setup.pitch, self.limits))
+            action = action._replace(drive=keep_out(scene.me, action.drive, self._goal_area, self.limits))
+        if self._asked.takes_turns and not self.is_keeper and self._is_second_in_area(scene):
+            action = action._replace(drive=keep_out(scene.me, action.drive, self._penalty_area, self.limits))
         return action
+
+    def _is_second_in_area(self, scene: Scene) -> bool:
+        """Whether a teammate in the field is in the nearer penalty area, and nearer to the ball than this robot."""
+        end = math.copysign(1.0, scene.me.x)
+        ball = scene.ball.now[:2] if scene.ball is not None else (end * self.setup.pitch.goal_line, 0.0)
+        mine = math.dist(ball, scene.me[:2])
+        return not scene.holding and any(
+            self._penalty_area.has(end, *mate.body[:2]) and math.dist(ball, mate.body[:2]) < mine
+            for name, mate in scene.mates.items()
+            if name != self.keeper
+        )
 
     def _carry_on(self, scene: Scene, action: Action, carry: Carry) -> Action:
         """Before the circle ends the ball is let go, or the robot stops; it turns before it has gone back for long."""

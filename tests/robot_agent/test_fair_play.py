@@ -14,6 +14,7 @@ from schemas.host import Setup
 from schemas.match_config import MatchConfig
 from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
+from schemas.sight import Heard, Motion
 
 AT, NOBODYS = Body(-3.0, 0.0, 0.0), Control()
 PASS = 1.0
@@ -37,14 +38,14 @@ def after(*scenes, before=NOBODYS):
     return before
 
 
-def test_a_friendly_asks_nothing_but_to_keep_out_of_goal_areas(setup, league):
-    assert Asked.of(setup) == Asked(math.inf, math.inf, True, False, 1.0)
-    assert Asked.of(league) == Asked(3.0, 1.0, True, True, 1.0)
+def test_a_friendly_asks_nothing_but_to_keep_out_of_areas(setup, league):
+    assert Asked.of(setup) == Asked(math.inf, math.inf, True, True, False, 1.0)
+    assert Asked.of(league) == Asked(3.0, 1.0, True, True, True, 1.0)
 
 
 def test_a_setup_that_is_older_than_these_rules_asks_nothing(league):
     old = league.model_copy(update={"handling": None, "scoring": None, "fouls": None})
-    assert Asked.of(old) == Asked(math.inf, math.inf, False, False, 0.0)
+    assert Asked.of(old) == Asked(math.inf, math.inf, False, False, False, 0.0)
 
 
 def test_a_carry_knows_its_way_from_the_catch_and_the_way_backward():
@@ -111,3 +112,14 @@ def test_in_a_friendly_nobody_lets_go(setup, sight_of):
     robot = Simple(Briefing.of("cyan2", setup))
     command = play(robot, sight_of, 2.5)
     assert command.kick is None and command.drive.vx > 0.5
+
+
+def test_the_second_of_two_stays_out_of_the_penalty_area_while_the_nearer_one_is_in_it(league, sight_of):
+    """The first plays the ball there; the second, who wants to hold its place near it, comes no nearer."""
+    front = league.pitch.goal_line - league.pitch.penalty_area_depth
+    robot = Simple(Briefing.of("cyan2", league))
+    word = Heard(age=0.0, self=Motion(x=-10.0, y=2.0, heading=0.0), role="striker")
+    seen = {"ball": (-10.2, 2.2), "radio": {"cyan3": word}, "at": (-front + 0.1, 0.5, 0.0)}
+    for tick in range(3):
+        drive = robot.act(sight_of(tick, **seen)).drive
+    assert drive.vx > -0.1
