@@ -25,6 +25,16 @@ actions = st.builds(
     robot=st.sampled_from([None, *NAMES]),
 )
 wishes = st.none() | actions
+TOO_MUCH = {"dribble_circle", "backward", "not_rolling", "long_hold", "goal_area", "penalty_area", "pushing", "lob"}
+"""Fouls of doing more than the limit."""
+scuffles = st.none() | st.tuples(
+    st.sampled_from(NAMES),
+    st.floats(-11.5, 11.5),
+    st.floats(-7.5, 7.5),
+    st.sampled_from(NAMES),
+    st.booleans(),
+)
+"""A robot goes somewhere and leans on another, or holds the ball for the whole flight."""
 silences = st.sampled_from([(), (), ("cyan2",), ("magenta1", "magenta3")])
 
 
@@ -33,12 +43,13 @@ silences = st.sampled_from([(), (), ("cyan2",), ("magenta1", "magenta3")])
     rules=st.sampled_from(["friendly", "msl", "paper", "china-sim-2020"]),
     mode=st.sampled_from(Mode),
     winner=st.booleans(),
-    story=st.lists(st.tuples(flights, wishes, silences), max_size=40),
+    story=st.lists(st.tuples(flights, wishes, silences, scuffles), max_size=40),
 )
 def test_score_clock_and_restarts_are_sound_in_any_match(new_bench, rules, mode, winner, story):
     profile = "paper" if rules == "paper" else "msl"
     bench = new_bench(profile, rules, dt=0.1, duration=24.0, mode=mode, proposal=1.0, winner=winner)
-    for (x, y, z, toucher, ticks), wish, silent in story:
+    for (x, y, z, toucher, ticks), wish, silent, scuffle in story:
+        seen = scuffled(bench, scuffle)
         for left in range(ticks, 0, -1):
             way = (
                 [b + (n - b) / left for b, n in zip(bench.ball, (x, y, z), strict=True)]
@@ -47,7 +58,7 @@ def test_score_clock_and_restarts_are_sound_in_any_match(new_bench, rules, mode,
             )
             touches = [toucher] if toucher and left == ticks else []
             asked = [wish] if wish and left == ticks else []
-            sound_step(bench, way, touches, asked, kicked=toucher if touches else None, silent=silent)
+            sound_step(bench, way, touches, asked, kicked=toucher if touches else None, silent=silent, **seen)
     for _ in range(9000):
         if bench.state.phase is Phase.FULL_TIME:
             break
@@ -55,6 +66,19 @@ def test_score_clock_and_restarts_are_sound_in_any_match(new_bench, rules, mode,
         sound_step(bench, None, [], [RefereeAction(action=word)] if word else [])
     assert bench.state.phase is Phase.FULL_TIME
     every_stop_leads_on(bench.events)
+
+
+def scuffled(bench, scuffle):
+    """What there is to see of a scuffle: contact and motion of two robots, or a hold."""
+    if scuffle is None:
+        return {}
+    name, x, y, other, holds = scuffle
+    if bench.robot(name) not in bench.state.people.away:
+        bench.robots[name] = (x, y)
+    pushing = {"motions": {name: (0.5, 1.0, 0.5), other: (0.5, 1.0, 0.4)}}
+    if name != other:
+        pushing["contacts"] = [(name, other)]
+    return pushing | ({"possession": name} if holds else {})
 
 
 def what_people_must_say(state, mode):
@@ -91,6 +115,9 @@ def sound_step(bench, ball, touches, asked, **seen):
     for placement in ruling.placements:
         inside = abs(placement.x) <= bench.pitch.goal_line and abs(placement.y) <= bench.pitch.touch_line
         assert inside or placement.body in {*after.people.away, *before.people.away}
+    for event in ruling.events:
+        if event.kind is EventKind.FOUL and event.rule in TOO_MUCH:
+            assert event.measured > event.limit and event.robot is not None and event.unit
     one_robot_of_each_number(bench)
     after.game_state(bench.at, bench.at * bench.dt)
 
