@@ -8,6 +8,7 @@ from arena.commands import (
     drive,
     export,
     host,
+    import_log,
     info,
     match,
     parameters,
@@ -41,6 +42,7 @@ app.command("record")(record.record)
 app.command("info")(info.info)
 app.command("stats")(stats.stats)
 app.command("export")(export.export)
+app.command("import")(import_log.import_log)
 app.command("topics")(topics.topics)
 app.command("schema")(schema.schema)
 

@@ -5,6 +5,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from recordings.exchange import csv_files
+from recordings.exchange.msl import export as msl_log
+from recordings.exchange.msl.importing import Imported, import_log
 from recordings.exchange.outlet import Exported
 from recordings.reader import Recording
 
@@ -20,5 +22,9 @@ class Exporter(NamedTuple):
 
 EXPORTERS: dict[str, Exporter] = {
     "csv": Exporter(csv_files.export, "-csv", "a folder of tables: robots, ball, events, states, commands"),
+    "msl-log": Exporter(msl_log.export, ".msl.zip", "the log of the league's referee box, in its own axes"),
 }
 """Format → its exporter."""
+
+IMPORTERS: dict[str, Callable[[list[Path], Path, str, str | None], Imported]] = {"msl-log": import_log}
+"""Format → its importer: files of the log, the recording to write, the profile of the pitch, what team A is called."""

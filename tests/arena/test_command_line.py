@@ -28,6 +28,7 @@ COMMANDS = (
     "scenes",
     "drive",
     "export",
+    "import",
 )
 NOBODY = "--connect=tcp/127.0.0.1:9"
 

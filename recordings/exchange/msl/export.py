@@ -1,0 +1,177 @@
+"""Recording → the league's log, one zip: what each team would have said of the world, were its eyes perfect."""
+
+import math
+from collections.abc import Iterator
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+from zipfile import ZIP_DEFLATED, ZipFile
+
+from pydantic_core import to_json
+
+from recordings.exchange.msl import LOG_PERIOD
+from recordings.exchange.msl.axes import heading_across, vector_to_log
+from recordings.exchange.msl.game_log import GameLog
+from recordings.exchange.outlet import Exported, outlet
+from recordings.exchange.sides import sides_of
+from recordings.reader import Recording
+from schemas.errors import TouchlineError
+from schemas.game import GameState
+from schemas.host import Setup
+from schemas.side import Side
+from schemas.topics import BELIEF, EVENT, STATE, WORLD
+from schemas.world import BallTruth, RobotTruth, World
+
+FILES = {Side.CYAN: "A", Side.MAGENTA: "B"}
+"""Side → the letter of its file."""
+_DIGITS = 3
+"""After the point, as the format's own description has it: mm and mrad."""
+
+
+def export(recording: Recording, out: Path) -> Exported:
+    """Write the log of a match.
+
+    Raises:
+        TouchlineError: `out` is there already or cannot be written, the recording has no setup or is damaged inside.
+    """
+    setup = recording.manifest.setup
+    if setup is None:
+        raise TouchlineError(f"{recording.path}: its manifest has no setup, so the teams are unknown; record it again")
+    log = _Log(recording, setup)
+    for recorded, message in recording.decoded(*(topic.fill() for topic in (WORLD, STATE, EVENT, BELIEF))):
+        log.take(recorded.topic.key, message)
+    log.end()
+    started = log.started.strftime("%Y%m%d_%H%M%S")
+    with outlet(out) as file, ZipFile(file, "w", ZIP_DEFLATED) as archive:
+        archive.writestr(f"{started}.msl", "".join(f"{line}\n" for line in log.game.lines))
+        for side, letter in FILES.items():
+            archive.writestr(f"{started}.{letter}.msl", b"[" + b",\n".join(log.records[side]) + b"]")
+    written = {f"{started}.{letter}.msl": len(log.records[side]) for side, letter in FILES.items()}
+    return Exported(out, written | {f"{started}.msl": len(log.game.lines)}, dict(recording.unreadable))
+
+
+class _Log:
+    """Both teams' world states and the referee's lines, made message by message."""
+
+    def __init__(self, recording: Recording, setup: Setup) -> None:
+        self._setup = setup
+        self._sides = sides_of(recording)
+        self._numbers = _numbers(self._sides)
+        self._intentions: dict[str, str] = {}
+        self._next = -math.inf
+        self._held: World | None = None
+        self.started = datetime.fromisoformat(recording.manifest.started)
+        self._start_ms = round(self.started.timestamp() * 1e3)
+        self.game = GameLog(self._start_ms)
+        self.records: dict[Side, list[bytes]] = {side: [] for side in Side}
+
+    def take(self, key: str, message: Any) -> None:
+        """The next message of the recording; a world waits for all else that is said of its tick."""
+        if self._held is not None and message.time > self._held.time:
+            self.end()
+        if key == WORLD.key:
+            self._held = message
+        elif key == BELIEF.key:
+            self._intentions[message.robot] = message.radio.intention or ""
+        else:
+            self.game.take(message)
+
+    def end(self) -> None:
+        """Nothing more will be said of the newest tick."""
+        if self._held is not None:
+            self._world(self._held)
+            self._held = None
+
+    def _world(self, world: World) -> None:
+        tick = self._setup.time.tick
+        if world.time < self._next - tick / 2:
+            return
+        self._next = world.time + max(1, round(LOG_PERIOD / tick)) * tick
+        state = self.game.state
+        for side in Side:
+            record = {
+                "teamName": self._setup.teams[side].name,
+                "timestamp": self._start_ms + round(world.time * 1e3),
+                "gametimeMs": round(self.game.game_s(world.clock) * 1e3),
+                "worldstate": self._world_state(world, side, _attack(state, side)),
+            }
+            self.records[side].append(to_json(record))
+
+    def _world_state(self, world: World, side: Side, attack: int) -> dict[str, Any]:
+        playing = {name: robot for name, robot in world.robots.items() if robot.off_field is None}
+        others = [robot for name, robot in playing.items() if self._sides.get(name) is side.opponent]
+        radius = self._setup.robot.radius
+        obstacles = [_obstacle(other.x, other.y, other.vx, other.vy, radius, attack) for other in others]
+        obstacles += [_obstacle(body.x, body.y, 0.0, 0.0, body.radius, attack) for body in world.obstacles.values()]
+        return {
+            "type": "worldstate",
+            "teamName": self._setup.teams[side].name,
+            "intention": "",
+            "robots": [
+                self._robot(name, robot, attack) for name, robot in playing.items() if self._sides.get(name) is side
+            ],
+            "balls": [_ball(world.ball, attack)],
+            "obstacles": obstacles,
+            "ageMs": 0,
+        }
+
+    def _robot(self, name: str, robot: RobotTruth, attack: int) -> dict[str, Any]:
+        pose = [*_place(robot.x, robot.y, attack), _short(heading_across(robot.heading, attack))]
+        return {
+            "id": self._numbers[name],
+            "pose": pose,
+            "targetPose": pose,  # the schema wants one, and where a robot is going to is not recorded
+            "velocity": [*_place(robot.vx, robot.vy, attack), _short(robot.omega)],
+            "intention": self._intentions.get(name, ""),
+            "batteryLevel": 100.0,
+            "ballEngaged": int(robot.holding),
+        }
+
+
+def _ball(ball: BallTruth, attack: int) -> dict[str, Any]:
+    return {
+        "position": [*_place(ball.x, ball.y, attack), _short(ball.z)],
+        "velocity": [*_place(ball.vx, ball.vy, attack), _short(ball.vz)],
+        "confidence": 1.0,
+    }
+
+
+def _obstacle(x: float, y: float, vx: float, vy: float, radius: float, attack: int) -> dict[str, Any]:
+    return {
+        "position": _place(x, y, attack),
+        "velocity": _place(vx, vy, attack),
+        "radius": _short(radius),
+        "confidence": 1.0,
+    }
+
+
+def _place(x: float, y: float, attack: int) -> list[float]:
+    return [_short(value) for value in vector_to_log(x, y, attack)]
+
+
+def _short(value: Any) -> float:
+    return round(float(value), _DIGITS) + 0.0  # no -0.0
+
+
+def _attack(state: GameState | None, side: Side) -> int:
+    return side.attack(state.cyan_attacks if state is not None else 1)
+
+
+def _numbers(sides: dict[str, Side]) -> dict[str, int]:
+    """Robot → its number in the log: that at the end of its name, or else its place in its team."""
+    numbers: dict[str, int] = {}
+    for side in Side:
+        names = [name for name, own in sides.items() if own is side]
+        said = [_number_of(name) for name in names]
+        clear = None not in said and len(set(said)) == len(said)
+        numbers |= {name: (given or 0) if clear else place for place, (name, given) in _counted(names, said)}
+    return numbers
+
+
+def _counted(names: list[str], said: list[int | None]) -> Iterator[tuple[int, tuple[str, int | None]]]:
+    return enumerate(zip(names, said, strict=True), 1)
+
+
+def _number_of(name: str) -> int | None:
+    digits = name[len(name.rstrip("0123456789")) :]
+    return int(digits) if digits else None

@@ -1,0 +1,106 @@
+"""Reads values that keep to no schema: keys spelled as a team likes, numbers as texts, nothing for a number."""
+
+import math
+from functools import cache
+from typing import Any
+
+from recordings.exchange.msl.findings import Findings
+
+KEYS = (
+    *(
+        "teamName",
+        "timestamp",
+        "gametimeMs",
+        "worldstate",
+        "type",
+        "intention",
+        "robots",
+        "balls",
+        "obstacles",
+        "ageMs",
+    ),
+    *("id", "pose", "targetPose", "velocity", "batteryLevel", "ballEngaged", "position", "confidence", "radius"),
+)
+"""As the schema spells them (reference 9.4)."""
+_OTHER_NAMES = {
+    "time": "timestamp",
+    "timestampms": "timestamp",
+    "gametime": "gametimeMs",
+    "worldmodel": "worldstate",
+    "team": "teamName",
+    "age": "ageMs",
+    "ball": "balls",
+    "players": "robots",
+    "robotid": "id",
+    "number": "id",
+    "pos": "position",
+    "target": "targetPose",
+    "vel": "velocity",
+    "speed": "velocity",
+    "battery": "batteryLevel",
+    "hasball": "ballEngaged",
+}
+_BY_SPELLING = {key.lower(): key for key in KEYS} | _OTHER_NAMES
+_COMPONENTS = (("x",), ("y",), ("z", "theta", "heading", "phi", "w", "omega"))
+
+
+@cache
+def _canonical(key: str) -> str:
+    return _BY_SPELLING.get("".join(letter for letter in key.lower() if letter.isalnum()), key)
+
+
+def fields_of(value: Any, findings: Findings) -> dict[str, Any]:
+    """An object by the schema's spelling of its keys; nothing in it when it is none."""
+    if not isinstance(value, dict):
+        return {}
+    fields: dict[str, Any] = {}
+    for key, content in value.items():
+        known = _canonical(key)
+        if known != key and known not in value:
+            findings.note(f'key "{key}" where the schema says "{known}"')
+        if known == key or known not in value:
+            fields[known] = content
+    return fields
+
+
+def items_of(value: Any) -> list[Any]:
+    """A list; one thing alone counts as a list of it."""
+    if isinstance(value, list):
+        return value
+    return [value] if isinstance(value, dict) else []
+
+
+def number(value: Any, what: str, findings: Findings) -> float | None:
+    """A finite number, or nothing."""
+    if isinstance(value, str):
+        try:
+            value = float(value)
+            findings.note(f"{what} written as a text")
+        except ValueError:
+            findings.note(f"{what} is a text that is no number")
+            return None
+    if not isinstance(value, int | float):
+        return None
+    try:
+        plain = float(value)
+    except OverflowError:
+        plain = math.inf
+    if not math.isfinite(plain):
+        findings.note(f"{what} is not finite")
+        return None
+    return plain
+
+
+def vector(value: Any, length: int, what: str, findings: Findings) -> list[float | None]:
+    """So many coordinates, nothing for those that are not there."""
+    if isinstance(value, dict):
+        findings.note(f"{what} is an object of coordinates, not a list")
+        value = [next((value[name] for name in names if name in value), None) for names in _COMPONENTS[:length]]
+    if not isinstance(value, list):
+        return [None] * length
+    if len(value) != length:
+        findings.note(f"{what} has {len(value)} numbers, not {length}")
+    if None in value[:length]:
+        findings.note(f"{what} has null for a coordinate")
+    numbers = [number(one, what, findings) for one in value[:length]]
+    return numbers + [None] * (length - len(numbers))

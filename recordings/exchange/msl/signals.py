@@ -1,0 +1,90 @@
+"""The referee box's signals: their names since 2020, their characters before, and what they do to the game."""
+
+from dataclasses import dataclass
+
+from schemas.game import Card, EventKind, Phase, Stage
+from schemas.side import Side
+
+
+@dataclass(frozen=True, slots=True)
+class Signal:
+    """One signal; `character` is that of cyan where a side is meant, magenta's is the small letter (reference 9.2)."""
+
+    name: str
+    character: str
+    kind: EventKind
+    says: str
+    sided: bool = False
+    phase: Phase | None = None
+    """What is being played from now on."""
+    goals: int = 0
+    card: Card | None = None
+    half: int = 0
+    """Begins this half."""
+    stage: Stage = Stage.REGULAR
+
+
+START = Signal("START", "s", EventKind.START, "START", phase=Phase.PLAY)
+STOP = Signal("STOP", "S", EventKind.STOP, "STOP", phase=Phase.STOPPED)
+GOAL = Signal("GOAL", "A", EventKind.GOAL, "Goal+", True, goals=1)
+SUBGOAL = Signal("SUBGOAL", "D", EventKind.ACTION, "Goal-", True, goals=-1)
+HALF_TIME = Signal("HALF_TIME", "h", EventKind.HALF_TIME, "Halftime", phase=Phase.HALF_TIME)
+END_GAME = Signal("END_GAME", "e", EventKind.FULL_TIME, "End Game", phase=Phase.FULL_TIME)
+
+SIGNALS: tuple[Signal, ...] = (
+    START,
+    STOP,
+    Signal("KICKOFF", "K", EventKind.RESTART, "Kickoff", True, Phase.KICK_OFF),
+    Signal("FREEKICK", "F", EventKind.RESTART, "Freekick", True, Phase.FREE_KICK),
+    Signal("GOALKICK", "G", EventKind.RESTART, "Goalkick", True, Phase.GOAL_KICK),
+    Signal("THROWIN", "T", EventKind.RESTART, "Throw In", True, Phase.THROW_IN),
+    Signal("CORNER", "C", EventKind.RESTART, "Corner", True, Phase.CORNER),
+    Signal("PENALTY", "P", EventKind.RESTART, "Penalty Kick", True, Phase.PENALTY),
+    Signal("DROP_BALL", "N", EventKind.RESTART, "Drop Ball", phase=Phase.DROP_BALL),
+    GOAL,
+    SUBGOAL,
+    Signal("YELLOW_CARD", "Y", EventKind.CARD, "Yellow Card", True, card=Card.YELLOW),
+    Signal("DOUBLE_YELLOW", "B", EventKind.CARD, "Double Yellow", True, card=Card.YELLOW),
+    Signal("RED_CARD", "R", EventKind.CARD, "Red Card", True, card=Card.RED),
+    Signal("REPAIR", "O", EventKind.OFF_FIELD, "Repair Out", True),
+    Signal("REPAIR_END", "I", EventKind.ON_FIELD, "Repair In", True),
+    Signal("SUBSTITUTION", "", EventKind.OFF_FIELD, "Substitution", True),
+    Signal("PARK", "L", EventKind.PARKING, "Park", phase=Phase.PARKING),
+    Signal("FIRST_HALF", "1", EventKind.ACTION, "1st half", half=1),
+    Signal("SECOND_HALF", "2", EventKind.ACTION, "2nd half", half=2),
+    Signal("FIRST_HALF_OVERTIME", "3", EventKind.ACTION, "Overtime 1st half", half=3, stage=Stage.EXTRA_TIME),
+    Signal("SECOND_HALF_OVERTIME", "4", EventKind.ACTION, "Overtime 2nd half", half=4, stage=Stage.EXTRA_TIME),
+    HALF_TIME,
+    Signal("END_PART", "", EventKind.HALF_TIME, "End Part", phase=Phase.HALF_TIME),
+    END_GAME,
+    Signal("GAMEOVER", "z", EventKind.FULL_TIME, "Game Over", phase=Phase.FULL_TIME),
+    Signal("WELCOME", "W", EventKind.ACTION, "Welcome"),
+    Signal("RESET", "Z", EventKind.ACTION, "Reset"),
+    Signal("TESTMODE_ON", "U", EventKind.ACTION, "Test mode on"),
+    Signal("TESTMODE_OFF", "u", EventKind.ACTION, "Test mode off"),
+    Signal("IS_ALIVE", "", EventKind.ACTION, "Is alive"),
+)
+
+BY_NAME = {signal.name: signal for signal in SIGNALS} | {
+    "GAME_OVER": next(signal for signal in SIGNALS if signal.name == "GAMEOVER"),  # as the document spells it
+}
+BY_CHARACTER: dict[str, tuple[Signal, Side | None]] = {
+    signal.character: (signal, Side.CYAN if signal.sided else None) for signal in SIGNALS if signal.character
+} | {signal.character.lower(): (signal, Side.MAGENTA) for signal in SIGNALS if signal.sided and signal.character}
+RESTART_OF = {signal.phase: signal for signal in SIGNALS if signal.kind is EventKind.RESTART}
+"""Phase of a restart → its signal."""
+HALF_OF = {signal.half: signal for signal in SIGNALS if signal.half}
+"""Number of a half → the signal that begins it."""
+CARD_OF = {Card.YELLOW: BY_NAME["YELLOW_CARD"], Card.RED: BY_NAME["RED_CARD"]}
+
+
+def line(epoch_ms: int, game_s: float, run_s: float, state: str, signal: Signal, side: Side | None) -> str:
+    """A line of the event file, as the referee box wrote it until 2019: five columns."""
+    character = signal.character.lower() if side is Side.MAGENTA else signal.character
+    says = f"{side.value.upper()} {signal.says}" if side is not None and signal.sided else signal.says
+    return f"{epoch_ms},{_minutes(game_s)}({_minutes(run_s)}),{state},{character},{says}"
+
+
+def _minutes(seconds: float) -> str:
+    whole = max(0, int(seconds))
+    return f"{whole // 60:02d}:{whole % 60:02d}"

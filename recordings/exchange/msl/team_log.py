@@ -1,0 +1,235 @@
+"""One team's file of a log: its records read one by one, as far as each can be read.
+
+Real logs deviate from their schema in many ways (reference 9.6); each way is counted, and what is left out is told.
+"""
+
+import json
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from statistics import median
+from typing import Any
+
+from recordings.exchange.msl.findings import Findings
+from recordings.exchange.msl.lenient import fields_of, items_of, number, vector
+
+GAP_S = 1.0
+"""A team that says nothing for longer has a gap. Ours: ten times what the league asks for at least."""
+_BURST_S = 0.01
+"""Records that follow each other faster came in a burst. Ours: no team thinks a hundred times a second."""
+_FAR_M = 40.0
+"""A coordinate farther out is a mistake. Ours: the league's longest pitch is 22 m, so that 11 m are the goal line."""
+_OTHER_DAY_MS = 6 * 3600 * 1000
+"""A record farther from the middle one has a clock of its own. Ours: no match lasts longer."""
+_REQUIRED = ("type", "teamName", "intention", "robots", "balls", "obstacles", "ageMs")
+"""Of a world state, by the league's schema."""
+_RECORD = re.compile(r'\{\s*"(?:team|time|game|world)\w*"\s*:', re.IGNORECASE)
+"""How a record begins, to find the next one behind damage."""
+_BETWEEN = re.compile(r"[\s,\[\]\x00]*")
+_DECODER = json.JSONDecoder(strict=False)
+
+RobotRow = tuple[float, float, float, float, float, float, float, float]
+"""Time in ms, then x, y, heading, vx, vy, omega in the league's axes, NaN where not said, and 1 with the ball."""
+BallRow = tuple[float, float, float, float, float, float, float, float]
+"""Time in ms, then x, y, z, vx, vy, vz in the league's axes, NaN where not said, and the team's confidence."""
+
+
+@dataclass(slots=True)
+class TeamLog:
+    """What one team said, in the order of time."""
+
+    team: str = ""
+    records: int = 0
+    """In the file."""
+    read: int = 0
+    """Of which a world state could be read."""
+    moments: list[float] = field(default_factory=list)
+    """Time of each that was read, ms since 1970."""
+    robots: dict[int, list[RobotRow]] = field(default_factory=dict)
+    balls: list[BallRow] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class _Record:
+    moment: float
+    number: int
+    team: str
+    robots: dict[int, RobotRow]
+    ball: BallRow | None
+
+
+def read_team(text: str, letter: str, findings: Findings) -> TeamLog:
+    """The file of one team; `letter` is A or B."""
+    log = TeamLog()
+    found: list[_Record] = []
+    for number_, raw in enumerate(_raw_records(text, letter, findings), 1):
+        log.records = number_
+        findings.place = f"{letter}, record {number_}"
+        record = _record(raw, number_, findings)
+        if record is not None:
+            found.append(record)
+    kept = _in_order(found, letter, findings)
+    log.read = len(kept)
+    log.team = next((record.team for record in kept if record.team), "")
+    log.moments = [record.moment for record in kept]
+    for record in kept:
+        for robot, row in record.robots.items():
+            log.robots.setdefault(robot, []).append(row)
+        if record.ball is not None:
+            log.balls.append(record.ball)
+    return log
+
+
+def _raw_records(text: str, letter: str, findings: Findings) -> Iterator[Any]:
+    """Every record of the file as JSON has it; behind damage it goes on with the next that begins like one."""
+    position, count, damaged = 0, 0, False
+    while True:
+        between = _BETWEEN.match(text, position)
+        position = between.end() if between is not None else position
+        if position >= len(text):
+            return
+        try:
+            raw, position = _DECODER.raw_decode(text, position)
+        except (ValueError, RecursionError) as error:
+            findings.place = f"{letter}, behind record {count}"
+            findings.note("damaged, not JSON up to the next record", lost=True)
+            following = _RECORD.search(text, max(position, getattr(error, "pos", position)) + 1)
+            if following is None:
+                return
+            position, damaged = following.start(), True
+            continue
+        if damaged and not (isinstance(raw, dict) and fields_of(raw, Findings()).get("timestamp")):
+            continue  # what is left of the damaged record
+        damaged = False
+        count += 1
+        yield raw
+
+
+def _record(raw: Any, number_: int, findings: Findings) -> _Record | None:
+    record = fields_of(raw, findings)
+    moment = number(record.get("timestamp"), "timestamp", findings)
+    if moment is None or moment <= 0:
+        findings.note("record without a time", lost=True)
+        return None
+    content = record.get("worldstate")
+    if isinstance(content, str):
+        findings.note("worldstate is a text of JSON")
+        try:
+            content = _DECODER.decode(content)
+        except (ValueError, RecursionError):
+            content = None
+    world = fields_of(content, findings)
+    if not world:
+        findings.note("record without a worldstate", lost=True)
+        return None
+    for key in _REQUIRED:
+        if key not in world:
+            findings.note(f"worldstate without {key}")
+    robots: dict[int, RobotRow] = {}
+    for one in items_of(world.get("robots")):
+        read = _robot(fields_of(one, findings), moment, findings)
+        if read is None:
+            continue
+        name, row = read
+        if name in robots:
+            findings.note("robot twice in one record, the second left out", lost=True)
+        else:
+            robots[name] = row
+    team = record.get("teamName") or world.get("teamName")
+    return _Record(moment, number_, team if isinstance(team, str) else "", robots, _best_ball(world, moment, findings))
+
+
+def _robot(robot: dict[str, Any], moment: float, findings: Findings) -> tuple[int, RobotRow] | None:
+    given = robot.get("id")
+    name = number(given, "id of a robot", findings)
+    if name is None or name != int(name) or not 0 <= name < 1000:
+        findings.note("robot without a number", lost=True)
+        return None
+    if isinstance(given, float):
+        findings.note("id of a robot written as 1.0")
+    pose = robot["pose"] if "pose" in robot else robot.get("position")
+    x, y, heading = vector(pose, 3, "pose", findings)
+    if x is None or y is None:
+        findings.note("robot without a position", lost=True)
+        return None
+    if max(abs(x), abs(y)) > _FAR_M:
+        findings.note(f"robot more than {_FAR_M:g} m from the centre", lost=True)
+        return None
+    if heading is None:
+        findings.note("robot without a heading: its last one stands in")
+    velocity = vector(robot.get("velocity"), 3, "velocity of a robot", findings)
+    if velocity[0] is None or velocity[1] is None:
+        findings.note("robot without a velocity: its way between two records stands in")
+    engaged = robot.get("ballEngaged")
+    if isinstance(engaged, bool):
+        findings.note("ballEngaged is true or false, not 1 or 0")
+    has_ball = number(engaged, "ballEngaged", findings)
+    if has_ball is None:
+        findings.note("robot without ballEngaged: it counts as 0")
+    rest = [_or_nan(value) for value in (heading, *velocity)]
+    return int(name), (moment, x, y, rest[0], rest[1], rest[2], rest[3], float((has_ball or 0.0) > 0.5))
+
+
+def _best_ball(world: dict[str, Any], moment: float, findings: Findings) -> BallRow | None:
+    """The ball that the team is surest of."""
+    best: BallRow | None = None
+    for one in items_of(world.get("balls")):
+        ball = fields_of(one, findings)
+        x, y, z = vector(ball.get("position"), 3, "position of a ball", findings)
+        if x is None or y is None:
+            findings.note("ball without a position", lost=True)
+            continue
+        if max(abs(x), abs(y)) > _FAR_M:
+            findings.note(f"ball more than {_FAR_M:g} m from the centre", lost=True)
+            continue
+        velocity = vector(ball.get("velocity"), 3, "velocity of a ball", findings)
+        if velocity[0] is None or velocity[1] is None:
+            findings.note("ball without a velocity: its way between two records stands in")
+        confidence = number(ball.get("confidence"), "confidence", findings)
+        if confidence is None:
+            findings.note("ball without a confidence: it counts as sure")
+            confidence = 1.0
+        if not 0 <= confidence <= 1:
+            findings.note("confidence outside 0 to 1: the nearer of both stands in")
+            confidence = min(1.0, max(0.0, confidence))
+        if best is None or confidence > best[-1]:
+            vx, vy, vz = (_or_nan(value) for value in velocity)
+            best = (moment, x, y, _or_nan(z), vx, vy, vz, confidence)
+    return best
+
+
+def _or_nan(value: float | None) -> float:
+    return math.nan if value is None else value
+
+
+def _in_order(found: list[_Record], letter: str, findings: Findings) -> list[_Record]:
+    """The records by time, each moment once, without those of another day."""
+    if not found:
+        return []
+    middle = median(record.moment for record in found)
+    kept: list[_Record] = []
+    newest = -math.inf
+    for record in found:
+        findings.place = f"{letter}, record {record.number}"
+        if abs(record.moment - middle) > _OTHER_DAY_MS:
+            findings.note("record hours away from the others", lost=True)
+            continue
+        if record.moment < newest:
+            findings.note("record out of order: sorted by time")
+        newest = max(newest, record.moment)
+        kept.append(record)
+    kept.sort(key=lambda record: record.moment)
+    once: list[_Record] = []
+    for record in kept:
+        findings.place = f"{letter}, record {record.number}"
+        pause = (record.moment - once[-1].moment) / 1e3 if once else _BURST_S
+        if pause == 0:
+            findings.note("several records of one moment: the last stands")
+            once.pop()
+        elif pause < _BURST_S:
+            findings.note(f"records in a burst, less than {_BURST_S * 1e3:g} ms apart")
+        elif pause > GAP_S:
+            findings.note(f"gap of more than {GAP_S:g} s: what was not said is left out")
+        once.append(record)
+    return once
