@@ -5,7 +5,8 @@ from datetime import datetime
 from pathlib import Path
 from typing import NamedTuple
 
-from recordings.manifest import Ended, Manifest, Result, to_metadata
+from recordings.cast import Cast
+from recordings.manifest import Ended, Manifest, Result
 from recordings.sequences import KeyLedger
 from recordings.writer import RecordingWriter
 from schemas.bus.contract import Received, Stamp
@@ -36,11 +37,11 @@ def compose(path: Path, manifest: Manifest, attachments: dict[str, bytes], said:
     """
     clock = WallClock()
     began_ns = round(datetime.fromisoformat(manifest.started).timestamp() * 1e9)
-    writer = RecordingWriter(path, clock, manifest.match)
+    writer = RecordingWriter(path, clock, manifest.match, Cast(manifest.setup))
     ledgers: dict[str, KeyLedger] = {}
     state, tick, time = GameState(tick=0, time=0.0, phase=Phase.PRE_GAME), -1, 0.0
     try:
-        writer.begin(to_metadata(manifest), attachments)
+        writer.begin(manifest, attachments)
         batch: list[tuple[int, Received]] = []
         for one in said:
             ledger = ledgers.setdefault(one.key, KeyLedger())
@@ -69,7 +70,7 @@ def compose(path: Path, manifest: Manifest, attachments: dict[str, bytes], said:
             messages=sum(count.messages for count in counts.values()),
             keys=counts,
         )
-        writer.finish(to_metadata(result))
+        writer.finish(result)
     finally:
         writer.abandon()
     return result
