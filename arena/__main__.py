@@ -18,6 +18,7 @@ from arena.commands import (
     schema,
     stats,
     topics,
+    verify,
 )
 from arena.front import Front
 
@@ -43,6 +44,7 @@ app.command("info")(info.info)
 app.command("stats")(stats.stats)
 app.command("export")(export.export)
 app.command("import")(import_log.import_log)
+app.command("verify")(verify.verify)
 app.command("topics")(topics.topics)
 app.command("schema")(schema.schema)
 

@@ -72,9 +72,18 @@ def read_match(file: Path | None, **flags: Any) -> MatchConfig:
     config = load_match(file, given)
     models_of(config, load_profile(config.profile))
     load_rule_book(config.rules)
+    need_pybullet()
+    return config
+
+
+def need_pybullet() -> None:
+    """Make sure that this machine can simulate.
+
+    Raises:
+        TouchlineError: with the line that brings what is missing.
+    """
     if importlib.util.find_spec("pybullet") is None:
         raise TouchlineError(NO_PYBULLET)
-    return config
 
 
 def listening(listen: str, *, insecure: bool) -> str:

@@ -12,9 +12,12 @@ from schemas.clock import Clock
 from schemas.host import Setup
 from schemas.match_config import MatchConfig
 from schemas.message import VERSION, Message
-from schemas.profile import profile_text
+from schemas.profile import profile_tables, profile_text
 from schemas.rule_book import rule_book_text
 from schemas.topics import TOPICS, Delivery
+
+PROFILE = "profile.json"
+"""The attachment with the whole profile: laid over those that it extends, as `schemas.profile.profile_of` reads it."""
 
 
 def manifest_of(
@@ -54,6 +57,7 @@ def attachments(config: MatchConfig | None) -> dict[str, bytes]:
     if config is not None:
         files["match.json"] = to_json(config)
         files["profile.toml"] = profile_text(config.profile).encode()
+        files[PROFILE] = to_json(profile_tables(config.profile))
         files["rules.toml"] = rule_book_text(config.rules).encode()
     return files
 

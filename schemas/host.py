@@ -188,7 +188,20 @@ class Applied(Message):
     episode: int = 1
     """Which start this tick goes back to: the match's is 1, each scene that is loaded and each reset begin another."""
     chain: str
-    """blake2b over the state of this tick, keyed with the chain before it; hex."""
+    """blake2b over the state of this tick and this message up to its chain, keyed with the chain before it; hex."""
+
+
+_CHAIN = b',"chain":"'
+
+
+def noted(applied: bytes) -> bytes:
+    """An `Applied` as it is on the wire, up to its chain, which is made over this and the state of the world."""
+    return applied.rpartition(_CHAIN)[0]
+
+
+def chained(noted: bytes, chain: str) -> bytes:
+    """The whole `Applied` again."""
+    return b'%s%s%s"}' % (noted, _CHAIN, chain.encode())
 
 
 class RobotHealth(Part):

@@ -314,7 +314,15 @@ def load_profile(name: str) -> Profile:
     Raises:
         TouchlineError: no such profile, or something in it is wrong.
     """
-    tables = _tables(name)
+    return profile_of(name, profile_tables(name))
+
+
+def profile_of(name: str, tables: Mapping[str, Any]) -> Profile:
+    """The profile of these tables, as `profile_tables` gives them.
+
+    Raises:
+        TouchlineError: something in it is wrong.
+    """
     origins: dict[str, str] = {}
     sections: dict[str, Any] = {
         key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins) for key, cls in SECTIONS.items()
@@ -355,7 +363,12 @@ def _table(content: Any, at: str) -> dict[str, Any]:
     return content
 
 
-def _tables(name: str, below: tuple[str, ...] = ()) -> dict[str, Any]:
+def profile_tables(name: str, below: tuple[str, ...] = ()) -> dict[str, Any]:
+    """The tables of a profile laid over those of what it extends; `below` are the profiles that extend it.
+
+    Raises:
+        TouchlineError: no such profile, no TOML, or one that extends itself.
+    """
     if name in below:
         raise TouchlineError(f"{name}: extends itself over {' → '.join(below)}; break the circle")
     try:
@@ -363,7 +376,7 @@ def _tables(name: str, below: tuple[str, ...] = ()) -> dict[str, Any]:
     except tomllib.TOMLDecodeError as error:
         raise TouchlineError(f"{name}: not TOML: {error}") from None
     parent = tables.pop("extends", None)
-    return extend(_tables(str(parent), (*below, name)), tables) if parent is not None else tables
+    return extend(profile_tables(str(parent), (*below, name)), tables) if parent is not None else tables
 
 
 def profile_text(name: str) -> str:

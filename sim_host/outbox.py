@@ -99,7 +99,7 @@ class Outbox:
         for side, robot, fields in tick.beliefs:
             self._beliefs[robot, side].put_fields(fields)
         self._world.put_fields(tick.world)
-        self._applied.put_fields(tick.applied)
+        self._applied.put_payload(tick.applied_encoded)
         self._bodies(tick)
 
     def event(self, event: GameEvent) -> None:

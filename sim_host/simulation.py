@@ -7,12 +7,15 @@ from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from pydantic_core import to_json
+
 from schemas.coach import CoachOrder
 from schemas.command import Command
 from schemas.errors import TouchlineError
 from schemas.game import ActionReply, EventKind, GameEvent, Phase, RefereeAction
-from schemas.host import AppliedInput, Placement, Setup, TeamSetup
+from schemas.host import AppliedInput, Placement, Setup, TeamSetup, chained
 from schemas.match_config import MatchConfig
+from schemas.message import VERSION
 from schemas.parameters import ParameterDeed, ParametersReply, ParametersRequest, Setting
 from schemas.profile import STANDARD, Profile
 from schemas.rule_book import RuleBook, load_rule_book
@@ -23,20 +26,17 @@ from sim_host.due import Due
 from sim_host.radio import RadioAir
 from sim_host.referee.core import Referee, Ruling
 from sim_host.referee.evidence import NOTHING
-from sim_host.referee.state import RefereeState
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.streams import Streams
 from sim_host.sights import Send, Sights
-from sim_host.snapshot import ObstacleState, Roster, Snapshot
+from sim_host.snapshot import Roster, Snapshot
 from sim_host.staging.deeds import Scenes, do
 from sim_host.staging.stage import BALL, Rig, Stage, Staged, check, opened
 from sim_host.start import start_poses, start_scene
+from sim_host.truth import Fields, world_fields
 from sim_host.tuning import Tuning
 from sim_host.world.engine import fingerprint
 from sim_host.world.world import World
-
-Fields = dict[str, Any]
-"""A message as plain fields, laid out as its model has them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +51,8 @@ class Tick:
     """Robot → `schemas.sight.Sight`, encoded."""
     applied: Fields
     """`schemas.host.Applied`."""
+    applied_encoded: bytes
+    """The same as it goes over the bus, and as the hash chain has taken it in."""
     beliefs: Sequence[tuple[Side, str, Fields]] = ()
     """Side, robot, `schemas.host.Belief` of each word said."""
     events: tuple[GameEvent, ...] = ()
@@ -150,9 +152,9 @@ class Simulation:
         self.now = Tick(
             tick=snapshot.tick,
             time=snapshot.time,
-            world=_world_fields(snapshot, advance.stuck, self.state, self.episode),
+            world=world_fields(snapshot, advance.stuck, self.state, self.episode),
             sights=sights,
-            applied=self._applied(snapshot, inputs, done),
+            **self._applied(snapshot, inputs, done),
             beliefs=beliefs,
             events=(*self._told(done, snapshot), *ruling.events),
             replies=ruling.replies,
@@ -218,9 +220,9 @@ class Simulation:
         return Tick(
             tick=snapshot.tick,
             time=snapshot.time,
-            world=_world_fields(snapshot, stuck, self.state, self.episode),
+            world=world_fields(snapshot, stuck, self.state, self.episode),
             sights=self._sights.at(snapshot, self.state, self.episode, stuck, self.orders, {}, {}, _keep),
-            applied=self._applied(snapshot, {}, done),
+            **self._applied(snapshot, {}, done),
         )
 
     def _change_world(self) -> Due:
@@ -342,56 +344,20 @@ class Simulation:
             beliefs.append((self.roster.side_of(name), name, fields))
         return beliefs
 
-    def _applied(self, snapshot: Snapshot, inputs: Mapping[str, AppliedInput], done: Due) -> Fields:
+    def _applied(self, snapshot: Snapshot, inputs: Mapping[str, AppliedInput], done: Due) -> dict[str, Any]:
+        """The fields of a tick that tell what was applied."""
         fields: Fields = {"tick": snapshot.tick, "time": snapshot.time, "inputs": inputs, **done.noted()}
         if done.recast:
             fields["robots"] = self._stage.robots
         if done.rebuilt:
             fields["obstacles"] = self._stage.obstacles
-        return {**fields, "episode": self.episode, "chain": self.world.chain()}
+        fields["episode"] = self.episode
+        noted = to_json({"version": VERSION, **fields}, inf_nan_mode="constants").removesuffix(b"}")
+        chain = self.world.chain(noted)
+        return {"applied": {**fields, "chain": chain}, "applied_encoded": chained(noted, chain)}
 
 
 def _in_words(value: Setting) -> str:
     if value is None:
         return "the standard robot's"
     return f"{value:g}" if isinstance(value, float) else str(value)
-
-
-def _obstacle_fields(obstacle: ObstacleState) -> Fields:
-    fields = obstacle._asdict()
-    del fields["name"]
-    return fields
-
-
-def _world_fields(snapshot: Snapshot, stuck: list[bool], state: RefereeState, episode: int) -> Fields:
-    ball, away = snapshot.ball, state.people.away
-    fields = {
-        "tick": snapshot.tick,
-        "time": snapshot.time,
-        "robots": {
-            name: {
-                "x": robot.x,
-                "y": robot.y,
-                "z": robot.z,
-                "heading": robot.heading,
-                "vx": robot.vx,
-                "vy": robot.vy,
-                "omega": robot.omega,
-                "holding": robot.holding,
-                "stuck": is_stuck,
-                "off_field": away[name].why if name in away else None,
-            }
-            for name, robot, is_stuck in zip(snapshot.roster.names, snapshot.robots, stuck, strict=True)
-        },
-        "ball": ball._asdict(),
-        "possession": snapshot.possession,
-        "clock": state.clock,
-        "episode": episode,
-    }
-    if snapshot.touches:
-        fields["touches"] = snapshot.touches
-    if snapshot.kicked is not None:
-        fields["kicked"] = snapshot.kicked
-    if snapshot.obstacles:
-        fields["obstacles"] = {obstacle.name: _obstacle_fields(obstacle) for obstacle in snapshot.obstacles}
-    return fields

@@ -93,7 +93,16 @@ class Tuning:
         Raises:
             TouchlineError: the profile or a type of robots cannot be read.
         """
-        profile = load_profile(config.profile).with_types(config.types, f'match "{config.name}"')
+        return cls.begun(config, load_profile(config.profile))
+
+    @classmethod
+    def begun(cls, config: MatchConfig, profile: Profile) -> "Tuning":
+        """What a match begins with whose profile was read already.
+
+        Raises:
+            TouchlineError: a type of robots cannot be read.
+        """
+        profile = profile.with_types(config.types, f'match "{config.name}"')
         given = {key: value for key, value in config.radio.model_dump().items() if value is not None}
         origins = {**profile.origins, **{f"radio.{key}": _MATCH_FILE for key in given}}
         profile = dataclasses.replace(profile, radio=dataclasses.replace(profile.radio, **given), origins=origins)

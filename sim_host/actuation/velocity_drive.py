@@ -32,6 +32,7 @@ class VelocityDrive:
         """Remember nothing: the robots' velocities are what is measured."""
         self._set_in_body = np.zeros_like(self._set_in_body)
         self._set_in_field = np.full_like(self._set_in_field, np.inf)
+        self._set_turn = np.full_like(self._set_turn, np.inf)
 
     def plan(self, state: Floats, told: Floats) -> list[list[FieldDrive]]:
         """The drives of one tick: per physics step, per robot.

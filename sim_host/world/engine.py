@@ -238,16 +238,18 @@ class Engine:
         pybullet.resetBaseVelocity(body, state.velocity, state.spin, physicsClientId=self.client)
 
     def place(self, placement: Placement) -> None:
-        """Set a robot or the ball down, at rest or with a velocity."""
+        """Set a robot or the ball down, at rest or with a velocity, and take in its state."""
         if placement.body == "ball":
             height = self._profile.ball.radius if placement.z is None else placement.z
             velocity = (placement.vx, placement.vy, placement.vz)
             self._put(self.ball, BodyState((placement.x, placement.y, height), _NO_TURN, velocity, _NOTHING))
+            self._states[-1] = self._state(self.ball)
             return
         place = self.names.index(placement.body)
         position = (placement.x, placement.y, self._heights[place])
         velocity, spin = (placement.vx, placement.vy, 0.0), (0.0, 0.0, placement.omega)
         self._put(self.robots[place], BodyState(position, _upright(placement.heading), velocity, spin))
+        self._states[place] = self._state(self.robots[place])
 
     def read(self) -> None:
         """Take in the state of all bodies; a robot that was lifted or tipped is put upright first."""

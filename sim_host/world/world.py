@@ -1,6 +1,6 @@
 """The world over one control tick: inputs become motion, step by step, and a snapshot of what came of it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import blake2b
 
@@ -9,7 +9,7 @@ from schemas.obstacle import StaticObstacle
 from schemas.profile import Profile
 from sim_host.actuation.ball_handling import BallHandling, BallReport
 from sim_host.actuation.chassis import Chassis
-from sim_host.snapshot import ObstacleState, Roster, Snapshot
+from sim_host.snapshot import BallState, ObstacleState, RobotState, Roster, Snapshot
 from sim_host.world.engine import Engine
 from sim_host.world.impact import Impacts
 
@@ -53,8 +53,7 @@ class World:
         self._ball.hold(None)
         for placement in placements:
             self._engine.place(placement)
-        self._engine.read()
-        self._look()
+        self._look_at({placement.body for placement in placements})
         if any(placement.body != "ball" for placement in placements):
             self._chassis.forget()
 
@@ -107,6 +106,13 @@ class World:
         self._chassis.forget()
         self._look()
 
+    def begin_at(self, tick: int, robots: Sequence[RobotState], ball: BallState, chain: bytes) -> None:
+        """Take up a history at a tick: robots in the order of the roster, and the chain so far.
+
+        A checkpoint has to be made before the next tick; what it is made of is given here, bit for bit.
+        """
+        self.tick, self._robots, self._ball_state, self._chain = tick, tuple(robots), ball, chain
+
     def advance(self, inputs: Mapping[str, AppliedInput]) -> Advance:
         """One control tick."""
         engine, ball = self._engine, self._ball
@@ -158,7 +164,26 @@ class World:
         self._robots = self._engine.robot_states(self._ball.holding)
         self._ball_state = self._engine.ball_state()
 
-    def chain(self) -> str:
-        """Lengthen the hash chain by the state of this tick and return it, hex: equal chains, equal histories."""
-        self._chain = blake2b(self._engine.packed(), key=self._chain, digest_size=32).digest()
+    def _look_at(self, placed: Container[str]) -> None:
+        """Take the states of the bodies that were placed; the others are where they were, and nobody holds the ball.
+
+        They are not read again: what a checkpoint is made of is then the same whether they got there by themselves or
+        `begin_at` says so.
+        """
+        states = self._engine.robot_states(None)
+        self._robots = tuple(
+            [
+                state if name in placed else before._replace(holding=False)
+                for name, state, before in zip(self._roster.names, states, self._robots, strict=True)
+            ]
+        )
+        if "ball" in placed:
+            self._ball_state = self._engine.ball_state()
+
+    def chain(self, noted: bytes = b"") -> str:
+        """Lengthen the hash chain by this tick and return it, hex: equal chains, equal histories.
+
+        It takes in the state of all bodies, and what is noted of the inputs that led to it.
+        """
+        self._chain = blake2b(self._engine.packed() + noted, key=self._chain, digest_size=32).digest()
         return self._chain.hex()
