@@ -7,11 +7,10 @@ import pytest
 from schemas.bus.endpoint import with_port
 from schemas.bus.zenoh_bus import open_host
 from schemas.clock import WallClock
-from schemas.host import Applied
+from schemas.host import Applied, noted
 from schemas.match_config import MatchConfig
-from sim_host.snapshot import Roster
+from sim_host.resimulation import InForce, Resimulation
 from sim_host.tuning import Tuning
-from sim_host.world.world import World
 
 
 def pytest_configure() -> None:
@@ -20,27 +19,13 @@ def pytest_configure() -> None:
 
 
 @pytest.fixture(scope="session")
-def simulated_again() -> Callable[[MatchConfig, Sequence[Applied]], list[str]]:
+def simulated_again() -> Callable[[MatchConfig, Sequence[bytes]], list[str]]:
     """Gives the hash chain of every tick of a match, from what a recording keeps of it alone."""
 
-    def simulate(config: MatchConfig, recorded: Sequence[Applied]) -> list[str]:
-        tuning, robots, obstacles = Tuning.of(config), recorded[0].robots or [], recorded[0].obstacles or []
-        world, chains = World(tuning.profile, Roster.cast(robots, tuning.types)), []
-        for obstacle in obstacles:
-            world.put_obstacle(obstacle)
-        for tick in recorded:
-            tuning = tuning.laid_over(tick.parameters)
-            robots = robots if tick.robots is None else tick.robots
-            obstacles = obstacles if tick.obstacles is None else tick.obstacles
-            if tick.remade:
-                world.remake(tuning.profile, Roster.cast(robots, tuning.types), obstacles)
-            world.place(tick.placements)
-            if tick.tick > 0:
-                if tick.checkpoint:
-                    world.rebuild()
-                world.advance(tick.inputs)
-            chains.append(world.chain())
-        world.close()
+    def simulate(config: MatchConfig, recorded: Sequence[bytes]) -> list[str]:
+        again = Resimulation(InForce(Tuning.of(config)))
+        chains = [again.step(Applied.decode(payload), noted(payload)).chain for payload in recorded]
+        again.close()
         return chains
 
     return simulate

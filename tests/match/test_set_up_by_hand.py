@@ -47,6 +47,7 @@ def test_what_was_done_by_hand_is_told_and_recorded(recording):
 
 
 def test_the_match_is_simulated_again_from_what_was_recorded(recording, simulated_again):
-    applied = [applied for _, applied in recording.decoded("host/applied")]
-    assert [tick.tick for tick in applied] == list(range(len(applied)))
-    assert simulated_again(recording.manifest.config, applied) == [tick.chain for tick in applied]
+    noted = list(recording.decoded("host/applied"))
+    assert [applied.tick for _, applied in noted] == list(range(len(noted)))
+    payloads = [recorded.payload for recorded, _ in noted]
+    assert simulated_again(recording.manifest.config, payloads) == [applied.chain for _, applied in noted]

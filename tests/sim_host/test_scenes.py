@@ -375,6 +375,6 @@ def test_a_match_with_scenes_and_parameters_is_simulated_again_from_what_is_reco
         recorded += busy(simulation, 25)
         assert deed().accepted
     recorded += busy(simulation, 25)
-    notes = [applied(tick) for tick in recorded]
-    assert simulated_again(simulation.config, notes) == [note.chain for note in notes]
-    assert json.loads(notes[-1].model_dump_json())["episode"] == 4
+    payloads = [tick.applied_encoded for tick in recorded]
+    assert simulated_again(simulation.config, payloads) == [tick.applied["chain"] for tick in recorded]
+    assert json.loads(payloads[-1])["episode"] == 4
