@@ -30,6 +30,7 @@ from schemas.topics import APPLIED, COMMAND, EVENT, INTAKE, ORDER, SETUP, STATE,
 from schemas.world import BallTruth, RobotTruth, World
 from sim_host.outbox import Outbox
 from sim_host.relay import Relay
+from sim_host.simulation import Simulation
 
 ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
 TICK = 0.02
@@ -209,8 +210,13 @@ def hand_made_host() -> Callable[[Bus, Bus], HandMadeHost]:
     return lambda bus, robots: HandMadeHost(bus, robots, make_setup())
 
 
-def record_match(path: Path, config: MatchConfig, until: float) -> None:
-    """Play a real match with the teams that ship, in this process and without a network, and record it."""
+def record_match(
+    path: Path, config: MatchConfig, until: float, between: Callable[[Simulation], None] = lambda _: None
+) -> None:
+    """Play a real match with the teams that ship, in this process and without a network, and record it.
+
+    `between` is called before each tick, for what operators do.
+    """
     medium = Medium()
     host_bus, bus = medium.seat(config.name, SteppedClock()), medium.seat(config.name, SteppedClock())
     table, server = Table(config), host_bus.serve(SETUP)
@@ -235,13 +241,22 @@ def record_match(path: Path, config: MatchConfig, until: float) -> None:
             recorder.pump()
         if simulation.over or tick.time >= until:
             break
-        said = {name: brain.act(Sight.decode(tick.sights[name])) for name, brain in table.brains.items()}
+        between(simulation)
+        outbox.follow(simulation.roster)
+        playing = {name: brain for name, brain in table.brains.items() if name in tick.sights}
+        said = {name: brain.act(Sight.decode(tick.sights[name])) for name, brain in playing.items()}
         for name, command in said.items():
             commands[name].put(command)
         tick = simulation.step(said)
     simulation.close()
     host_bus.close()
     recorder.run(lambda: False)
+
+
+@pytest.fixture(scope="session")
+def match_recorder() -> Callable[..., None]:
+    """Records any match in this process, as `record_match` says."""
+    return record_match
 
 
 @pytest.fixture(scope="session")

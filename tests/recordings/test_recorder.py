@@ -350,7 +350,13 @@ def test_the_manifest_names_config_versions_and_mathematics(recorded):
 
 
 def test_match_file_profile_rules_and_whole_schemas_are_attached(recorded):
-    assert sorted(recorded.attachments) == ["match.json", "message_schemas.json", "profile.toml", "rules.toml"]
+    assert sorted(recorded.attachments) == [
+        "match.json",
+        "message_schemas.json",
+        "profile.json",
+        "profile.toml",
+        "rules.toml",
+    ]
     assert b'"$defs"' in recorded.attachments["message_schemas.json"]
     assert b'"seed":7' in recorded.attachments["match.json"]
 

@@ -1,0 +1,211 @@
+"""`touchline verify`: identical, or the first tick that differs, whoever changed what."""
+
+import math
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from arena import verification
+from arena.__main__ import app
+from arena.verification import verify
+from recordings.course import Why, course_of
+from recordings.reader import open_recording
+from schemas.errors import TouchlineError
+
+
+def run(*words: str | Path) -> Result:
+    return CliRunner().invoke(app, ["verify", *map(str, words)], prog_name="touchline")
+
+
+def test_a_real_match_is_identical(played: Path) -> None:
+    result = run(played, "--jobs", "1")
+    assert result.exit_code == 0
+    assert result.stdout.splitlines()[0] == "identical, 1201 ticks"
+    assert "2 kick-offs" in result.stdout
+
+
+def test_a_match_on_wheels_with_scenes_and_parameters_is_identical_from_each_of_its_starts(operated: Path) -> None:
+    recording = open_recording(operated)
+    course = course_of(recording)
+    assert len(course.starts) == 1 + len(course.kick_offs) + 3
+    for stretch in course.stretches(0, 0):
+        came = verification.retrace(operated, stretch)
+        assert came.difference is None
+        assert came.ticks == len(stretch.ticks) > 0
+    whole = verify(operated)
+    assert whole.identical and whole.ticks == len(course.times)
+
+
+def test_several_processes_say_what_one_says(operated: Path, edited, at_tick, monkeypatch) -> None:
+    monkeypatch.setattr(verification, "_WORTH_A_PROCESS", 50)
+    one, two = verify(operated, processes=1), verify(operated, processes=2)
+    assert two.processes == 2
+    assert (one.identical, one.ticks, one.left_out) == (two.identical, two.ticks, two.left_out)
+    assert one.seconds == pytest.approx(two.seconds, abs=0.2)
+    wrong = edited(operated, "host/applied", at_tick(350, faster))
+    assert verify(wrong, processes=1).difference == verify(wrong, processes=2).difference
+
+
+def test_from_a_kick_off_on(operated: Path) -> None:
+    first = course_of(open_recording(operated)).kick_offs[0].tick
+    verdict = verify(operated, from_kick_off=1)
+    assert verdict.identical and verdict.ticks == verify(operated).ticks - first
+    result = run(operated, "--from-kickoff", "9")
+    assert isinstance(result.exception, TouchlineError) or result.exit_code == 2
+
+
+def ulp(value: float) -> float:
+    return math.nextafter(value, math.inf)
+
+
+def faster(fields):
+    """One bit of one input."""
+    drive = fields["inputs"]["cyan2"]["drive"]
+    drive["vx"] = ulp(drive["vx"])
+    return fields
+
+
+@pytest.mark.parametrize("tick", [1, 200, 261, 512])
+def test_one_bit_of_one_input_is_caught_at_its_tick(operated: Path, edited, at_tick, tick: int) -> None:
+    result = run(edited(operated, "host/applied", at_tick(tick, faster)), "--jobs", "1")
+    assert result.exit_code == 1
+    said = result.stdout.splitlines()
+    assert said[0].startswith(f"tick {tick} ({tick * 0.02:.2f} s) is the first that differs: what cyan2 was told")
+    assert said[1].startswith("  input of cyan2: drive.vx is ") and "its command says" in said[1]
+    assert f"identical before that: {tick} ticks" in said
+
+
+def test_one_bit_of_one_command_is_caught_at_the_tick_it_was_applied_in(operated: Path, edited) -> None:
+    def edit(fields):
+        if fields["answers_tick"] == 199:
+            fields["drive"]["omega"] = ulp(fields["drive"]["omega"])
+        return fields
+
+    verdict = verify(edited(operated, "robot/magenta2/command", edit))
+    assert verdict.difference is not None and verdict.difference.tick == 200
+    (detail,) = verdict.difference.details
+    assert (detail.of, detail.field) == ("input of magenta2", "drive.omega")
+    assert detail.by == pytest.approx(0.0, abs=1e-12) and detail.by > 0
+
+
+def test_a_command_that_was_taken_out_is_missed(operated: Path, edited) -> None:
+    verdict = verify(
+        edited(operated, "robot/cyan1/command", lambda fields: None if fields["answers_tick"] == 300 else fields)
+    )
+    assert verdict.difference is not None and verdict.difference.tick == 301
+    assert verdict.difference.details[0].field == "command"
+
+
+def test_an_input_that_had_no_effect_is_caught_too(operated: Path, edited, at_tick) -> None:
+    def edit(fields):
+        fields["inputs"]["cyan2"]["answers_tick"] -= 1
+        return fields
+
+    assert verify(edited(operated, "host/applied", at_tick(77, edit))).difference.tick == 77
+
+
+def test_another_world_is_told_by_body_field_and_amount(operated: Path, edited, at_tick) -> None:
+    def edit(fields):
+        fields["ball"]["x"] += 0.25
+        return fields
+
+    result = run(edited(operated, "world", at_tick(150, edit)), "--jobs", "1")
+    assert result.exit_code == 1
+    said = result.stdout.splitlines()
+    assert said[0].endswith("the hash chain is the same, the recorded world is another")
+    assert said[1].startswith("  ball: x is ") and said[1].endswith("simulated again, 0.25 m apart")
+
+
+def test_a_body_that_was_set_down_elsewhere_shows_where_it_is(operated: Path, edited, at_tick) -> None:
+    def edit(fields):
+        (ball,) = fields["placements"]
+        ball["y"] -= 0.5
+        return fields
+
+    difference = verify(edited(operated, "host/applied", at_tick(261, edit))).difference
+    assert difference.tick == 261
+    y = next(detail for detail in difference.details if (detail.of, detail.field) == ("ball", "y"))
+    assert y.by == pytest.approx(0.5, abs=0.01)
+
+
+def test_ticks_that_are_missing_are_said_and_the_rest_is_compared(operated: Path, edited) -> None:
+    kick_off = course_of(open_recording(operated)).kick_offs[1].tick
+    path = edited(operated, "host/applied", lambda fields: None if 300 <= fields["tick"] < 310 else fields)
+    verdict = verify(path)
+    assert not verdict.identical and verdict.difference is None
+    assert (verdict.left_out[0].first, verdict.left_out[0].last, verdict.left_out[0].why) == (300, 309, Why.MISSING)
+    assert verdict.ticks >= 300 + verify(operated).ticks - kick_off
+    result = run(path, "--jobs", "1")
+    assert result.exit_code == 1
+    assert "ticks 300 to 309 are missing in the recording: nothing can be said of them" in result.stdout
+
+
+def test_a_recording_that_sets_in_late_is_compared_from_its_first_kick_off(operated: Path, edited, tmp_path) -> None:
+    """Who takes part, with what numbers, and what stands there: from the setup and the world."""
+    course = course_of(open_recording(operated))
+    kick_off = course.kick_offs[0].tick
+    late = edited(operated, "host/applied", lambda fields: None if fields["tick"] < kick_off - 5 else fields)
+    verdict = verify(late)
+    assert verdict.identical and verdict.ticks == len(course.times) - kick_off
+    assert [one.why for one in verdict.left_out] == [Why.BEFORE, Why.NO_START]
+    result = run(late, "--jobs", "1")
+    assert result.exit_code == 0
+    assert f"ticks {kick_off - 5} to {kick_off - 1} stand before the first tick" in result.stdout
+
+
+def test_without_the_match_file_the_hosts_setup_is_enough(operated: Path, edited) -> None:
+    def without(name, fields):
+        return {key: value for key, value in fields.items() if (name, key) != ("manifest", "config")}
+
+    assert verify(edited(operated, "", lambda it: it, without)).identical
+
+
+def test_worlds_that_are_missing_are_counted_and_the_chain_is_compared(operated: Path, edited) -> None:
+    verdict = verify(edited(operated, "world", lambda fields: None if fields["tick"] % 2 else fields))
+    assert verdict.identical and verdict.without_world == verify(operated).ticks // 2
+
+
+def test_another_machine_is_said_first(operated: Path, edited, json_of) -> None:
+    from pydantic_core import to_json
+
+    def other(name, fields):
+        if name != "manifest":
+            return fields
+        setup = json_of(fields["setup"])
+        setup["engine"]["libm"] = "0" * 96
+        return {**fields, "setup": to_json(setup).decode()}
+
+    said = run(edited(operated, "", lambda it: it, other), "--jobs", "1").stdout.splitlines()
+    assert said[0].startswith("libm differs from that of the recording: 0000")
+    assert said[1].startswith("identical, ")
+
+
+def test_the_verdict_as_json(operated: Path, edited, at_tick, json_of) -> None:
+    result = run(edited(operated, "host/applied", at_tick(200, faster)), "--json", "--jobs", "1")
+    verdict = json_of(result.stdout)
+    assert (verdict["identical"], verdict["ticks"], verdict["difference"]["tick"]) == (False, 200, 200)
+    assert verdict["difference"]["details"][0]["of"] == "input of cyan2"
+    assert json_of(run(operated, "--json", "--jobs", "1").stdout)["identical"] is True
+
+
+def test_a_note_that_is_no_message_is_a_difference_and_no_traceback(operated: Path, edited, at_tick) -> None:
+    def edit(fields):
+        fields["inputs"]["cyan1"]["drive"]["vx"] = "fast"
+        return fields
+
+    difference = verify(edited(operated, "host/applied", at_tick(90, edit))).difference
+    assert difference.tick == 90 and difference.why.startswith("cannot have been: Applied: ")
+
+
+def test_a_recording_of_no_notes_cannot_be_verified(operated: Path, edited) -> None:
+    with pytest.raises(TouchlineError, match="nothing in it can be simulated again"):
+        verify(edited(operated, "host/applied", lambda _: None))
+
+
+def test_a_cut_off_recording_is_compared_up_to_the_cut(played: Path, tmp_path: Path) -> None:
+    content = played.read_bytes()
+    cut = tmp_path / "cut.mcap"
+    cut.write_bytes(content[: len(content) * 2 // 3])
+    verdict = verify(cut)
+    assert verdict.identical and 100 < verdict.ticks < 1201
