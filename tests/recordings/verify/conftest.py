@@ -9,6 +9,7 @@ from mcap.reader import make_reader
 from mcap.writer import Writer
 from pydantic_core import from_json, to_json
 
+from recordings.manifest import sealed
 from schemas.host import Placement
 from schemas.match_config import load_match
 from schemas.parameters import ParameterDeed, ParametersRequest
@@ -59,7 +60,7 @@ def edited(tmp_path: Path) -> Editor:
             reader, writer = make_reader(file), Writer(out)
             writer.start(profile="", library="touchline/test")
             for record in reader.iter_metadata():
-                writer.add_metadata(record.name, metadata(record.name, record.metadata))
+                writer.add_metadata(record.name, sealed(metadata(record.name, record.metadata)))
             for attachment in reader.iter_attachments():
                 writer.add_attachment(0, 0, attachment.name, attachment.media_type, attachment.data)
             schemas: dict[int, int] = {}
