@@ -39,6 +39,8 @@ _BROUGHT_TO = 0.001
 """m by which bodies overlap that are brought together: enough for the engine to find the contact."""
 _STIRS = 0.03
 """m that a robot may move in a step."""
+_APPROACHES = 6
+"""Rounds in which a ball comes to touch a hull that it meets off its axis."""
 _TOP_SPEED = 60.0
 """m/s; no two bodies close in faster: twice the most that a drive may have, and the turn of their frames."""
 _STATE = struct.Struct("<13d")
@@ -372,28 +374,40 @@ class Engine:
         high = [at + max(0.0, by) + room for at, by in zip(position, way, strict=True)]
         near = pybullet.getOverlappingObjects(low, high, physicsClientId=self.client) or ()
         passes = {self.ball, self._ground, None if self._through is None else self.robots[self._through]}
-        times = [self._ball_time_to(body, velocity) for body in sorted({body for body, _ in near} - passes)]
-        time = min((time for time in times if time is not None), default=0.0)
-        if time > 0.0:
-            x, y, z = (at + speed * time for at, speed in zip(position, velocity, strict=True))
+        bodies = sorted({body for body, _ in near} - passes)
+        left = self._profile.time.physics_step
+        for _ in range(_APPROACHES):
+            times = [self._ball_time_to(body, velocity, left) for body in bodies]
+            ahead = min((time for time in times if time is not None), default=None)
+            if ahead is None:  # it passes by
+                if left < self._profile.time.physics_step:
+                    self._put(self.ball, BodyState(position, _NO_TURN, velocity, spin))
+                return
+            if ahead == 0.0:
+                return
+            left -= ahead
+            spent = self._profile.time.physics_step - left
+            x, y, z = (at + speed * spent for at, speed in zip(position, velocity, strict=True))
             self._put(self.ball, BodyState((x, y, z), _NO_TURN, velocity, spin))
 
-    def _ball_time_to(self, body: int, velocity: Vector) -> float | None:
-        """s after which the ball touches a body, 0 if it does already; nothing if it does not in the next step."""
-        client, step = self.client, self._profile.time.physics_step
-        near = pybullet.getClosestPoints(self.ball, body, step * _TOP_SPEED, physicsClientId=client)
+    def _ball_time_to(self, body: int, velocity: Vector, left: float) -> float | None:
+        """s after which the ball may touch a body, 0 if it does already; nothing if not in the `left` s of a step.
+
+        Between round bodies it touches later, never earlier.
+        """
+        near = pybullet.getClosestPoints(self.ball, body, left * _TOP_SPEED, physicsClientId=self.client)
         if not near:
             return None
         point = min(near, key=_distance_of)
         (nx, ny, nz), gap = point[7], point[8]
-        (x, y, _), _ = pybullet.getBasePositionAndOrientation(body, physicsClientId=client)
-        (vx, vy, vz), (_, _, omega) = pybullet.getBaseVelocity(body, physicsClientId=client)
+        (x, y, _), _ = pybullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
+        (vx, vy, vz), (_, _, omega) = pybullet.getBaseVelocity(body, physicsClientId=self.client)
         at_x, at_y, _ = point[6]
         vx, vy = vx - omega * (at_y - y), vy + omega * (at_x - x)
         closing = nx * (vx - velocity[0]) + ny * (vy - velocity[1]) + nz * (vz - velocity[2])
-        if closing * step <= gap + _BROUGHT_TO:
+        if closing * left <= gap + _BROUGHT_TO:
             return None
-        return max(0.0, (gap + _BROUGHT_TO) / closing) if gap > 0.0 else 0.0
+        return 0.0 if gap <= 0.0 else (gap + _BROUGHT_TO) / closing
 
     def move_ball(self, velocity: Vector, spin: Vector) -> None:
         """Set the ball's velocity and spin."""

@@ -1,16 +1,19 @@
 """A ball that flies against what stands: rebounds as the coefficients say, wherever in a step it arrives."""
 
 import math
+from dataclasses import replace
 
 import pytest
 from pytest import approx
 
-from schemas.host import Placement
+from schemas.command import Drive
+from schemas.host import AppliedInput, Placement
 from schemas.profile import load_profile
 from schemas.robot_model import RobotModel
 from schemas.side import Side
 from sim_host.snapshot import Roster
 from sim_host.world.engine import Engine
+from sim_host.world.world import World
 
 PROFILE = load_profile("msl")
 ROSTER = Roster(("cyan1",), (Side.CYAN,), {Side.CYAN: "cyan1"}, (RobotModel.standard(PROFILE),))
@@ -57,3 +60,48 @@ def test_the_rebound_is_the_restitution_in_whatever_phase_of_a_step_it_comes(
     assert math.isclose(vy, 0.0, abs_tol=0.01 * speed)
     assert deepest < 0.005
     engine.close()
+
+
+@pytest.mark.parametrize("speed", [10.0, 30.0])
+@pytest.mark.parametrize("aside", [0.1, 0.2, 0.3])
+def test_a_fast_ball_that_meets_a_hull_off_its_axis_is_stopped_at_the_hull(aside: float, speed: float) -> None:
+    """Least case of a random play: at 30 m/s a ball was 11 cm in the hull before the engine noticed; 1 cm may be."""
+    engine = Engine(PROFILE, ROSTER)
+    engine.place(Placement(body="cyan1", x=5.0, y=0.0))
+    engine.set_ball((4.45, aside, ROBOT.height / 2 - 0.1), (speed, 0.0, 0.0), (0.0, 0.0, 0.0))
+    nearest = math.inf
+    for _ in range(8):
+        engine.drive([(0.0, 0.0, 0.0)])
+        engine.bring_ball()
+        engine.step()
+        (bx, by, _), *_ = engine.ball_now()
+        robot = engine.robot_now(0)
+        nearest = min(nearest, math.hypot(bx - robot.x, by - robot.y))
+    assert ROBOT.radius + BALL.radius - 0.01 < nearest < ROBOT.radius + BALL.radius + 0.1
+    engine.close()
+
+
+@pytest.mark.parametrize("method", ["pose", "velocity"])
+def test_a_held_ball_is_not_pushed_into_its_holder(method: str) -> None:
+    """Least case of a random play: the holder's hull let the ball through, and a rival pushed it 12 cm deep."""
+    standard = RobotModel.standard(PROFILE)
+    model = replace(standard, dribble=replace(standard.dribble, method=method))
+    roster = Roster(("cyan1", "magenta1"), tuple(Side), {Side.CYAN: "cyan1", Side.MAGENTA: "magenta1"}, (model,) * 2)
+    world, gap = World(PROFILE, roster), model.dribble.gap
+    world.place(
+        [
+            Placement(body="cyan1", x=0.0, y=0.0),
+            Placement(body="ball", x=gap, y=0.0),
+            Placement(body="magenta1", x=gap + 0.5, y=0.08, heading=math.pi),
+        ]
+    )
+    told = {
+        "cyan1": AppliedInput(Drive(), dribble=True),
+        "magenta1": AppliedInput(Drive(vx=3.0), dribble=False),
+    }
+    for _ in range(60):
+        snapshot = world.advance(told).snapshot
+        robot, ball = snapshot.robots[0], snapshot.ball
+        assert math.hypot(ball.x - robot.x, ball.y - robot.y) > gap - 0.03
+    assert "magenta1" in snapshot.touches or math.hypot(robot.x, robot.y) > 0.02
+    world.close()
