@@ -8,6 +8,7 @@ from recordings.exchange import csv_files, ros2
 from recordings.exchange.msl import export as msl_log
 from recordings.exchange.msl.importing import Imported, import_log
 from recordings.exchange.outlet import Exported
+from recordings.exchange.protobuf import export as protobuf
 from recordings.reader import Recording
 
 
@@ -23,6 +24,7 @@ class Exporter(NamedTuple):
 EXPORTERS: dict[str, Exporter] = {
     "csv": Exporter(csv_files.export, "-csv", "a folder of tables: robots, ball, events, states, commands"),
     "msl-log": Exporter(msl_log.export, ".msl.zip", "the log of the league's referee box, in its own axes"),
+    "protobuf": Exporter(protobuf.export, "-protobuf.mcap", "MCAP with typed messages"),
     "ros2": Exporter(ros2.export, "-ros2", "a ROS 2 bag: clock, transforms, odometry and twists"),
 }
 """Format → its exporter."""

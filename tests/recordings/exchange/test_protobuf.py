@@ -1,0 +1,170 @@
+"""The file is read with the stock readers alone: mcap, and protobuf by the descriptors that stand in the file."""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
+from google.protobuf.unknown_fields import UnknownFieldSet
+from mcap.reader import make_reader
+from mcap_protobuf.decoder import DecoderFactory
+from pydantic_core import to_jsonable_python
+
+from recordings.exchange.protobuf.descriptor import descriptor_set, proto_text
+from recordings.exchange.protobuf.encode import encode
+from recordings.exchange.protobuf.export import export
+from recordings.exchange.protobuf.shape import shape_of
+from recordings.json_schema import whole_schema
+from recordings.reader import Recording
+from schemas.message import Message
+from schemas.protocol.examples import examples
+from schemas.topics import TOPICS, WORLD
+
+MODELS = list(dict.fromkeys(topic.message for topic in TOPICS.values() if topic.message is not None))
+
+
+@pytest.fixture(scope="module")
+def file(real: Recording, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return export(real, tmp_path_factory.mktemp("typed") / "short.mcap").out
+
+
+def plain(value: Any) -> Any:
+    """A value of protobuf's as JSON has it; fields that are not set are left out."""
+    if not hasattr(value, "DESCRIPTOR"):
+        return value
+    if value.DESCRIPTOR.name == "Value":
+        said = value.WhichOneof("kind")
+        return [plain(one) for one in value.list.values] if said == "list" else getattr(value, said)
+    fields: dict[str, Any] = {}
+    for field in value.DESCRIPTOR.fields:
+        content = getattr(value, field.name)
+        if field.has_presence and not value.HasField(field.name):
+            fields[field.name] = None
+        elif hasattr(content, "items"):
+            fields[field.name] = {key: plain(one) for key, one in content.items()}
+        elif hasattr(content, "append"):
+            fields[field.name] = [plain(one) for one in content]
+        else:
+            fields[field.name] = plain(content)
+    return fields
+
+
+def whole(value: Any, schema: dict[str, Any], definitions: dict[str, Any]) -> Any:
+    """A value of JSON's with nothing for what may be nothing, and is an empty list or mapping in protobuf."""
+    choices = [choice for choice in schema.get("anyOf", [schema]) if choice.get("type") != "null"]
+    one = definitions[choices[0]["$ref"].removeprefix("#/$defs/")] if "$ref" in choices[0] else choices[0]
+    if len(choices) > 1:
+        return value
+    if one.get("type") == "array":
+        return [whole(item, one["items"], definitions) for item in value or []]
+    if "properties" in one:
+        return (
+            None
+            if value is None
+            else {name: whole(value.get(name), below, definitions) for name, below in one["properties"].items()}
+        )
+    if one.get("type") == "object":
+        below = next(iter(one.get("patternProperties", {}).values()), one.get("additionalProperties"))
+        return {key: whole(item, below, definitions) for key, item in (value or {}).items()}
+    return value
+
+
+def as_json(message: Message) -> Any:
+    schema = whole_schema(type(message))
+    return whole(to_jsonable_python(message, by_alias=True), schema, schema.get("$defs", {}))
+
+
+def stock_class(model: type[Message]) -> Any:
+    files = descriptor_pb2.FileDescriptorSet.FromString(descriptor_set(shape_of(model)))
+    pool = descriptor_pool.DescriptorPool()
+    for one in files.file:
+        pool.Add(one)
+    return message_factory.GetMessageClass(pool.FindMessageTypeByName(f"touchline.{model.__name__}"))
+
+
+def test_every_message_of_a_match_is_decoded_to_the_last_bit_by_the_stock_reader(real: Recording, file: Path) -> None:
+    def stock() -> Iterator[tuple[str, int, int, int, Any]]:
+        with file.open("rb") as opened:
+            reader = make_reader(opened, decoder_factories=[DecoderFactory()], validate_crcs=True)
+            for _, channel, message, decoded in reader.iter_decoded_messages(log_time_order=False):
+                head = (channel.topic, message.log_time, message.publish_time, message.sequence)
+                yield (*head, plain(decoded))
+
+    count = 0
+    for (recorded, message), read in zip(real.decoded(), stock(), strict=True):
+        head = (recorded.key, recorded.log_ns, recorded.sent_ns, recorded.sequence)
+        assert read == (*head, as_json(message))
+        count += 1
+    assert count > 1000
+
+
+def test_the_channels_are_typed_and_the_types_attached(file: Path) -> None:
+    with file.open("rb") as opened:
+        reader = make_reader(opened)
+        summary = reader.get_summary()
+        assert summary is not None
+        texts = {attachment.name: attachment.data.decode() for attachment in reader.iter_attachments()}
+        origin = {record.name: record.metadata for record in reader.iter_metadata()}["exported_from"]
+    assert {(schema.name, schema.encoding) for schema in summary.schemas.values()} == {
+        (f"touchline.{name}", "protobuf") for name in ("World", "Applied", "GameState", "GameEvent", "Command")
+    }
+    assert {channel.message_encoding for channel in summary.channels.values()} == {"protobuf"}
+    assert "map<string, RobotTruth> robots = 4;" in texts["World.proto"]
+    assert origin["match"] == "short"
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
+def test_every_message_of_the_contract_has_a_shape_that_keeps_its_example(model: type[Message]) -> None:
+    example = examples()[model]
+    payload = encode(shape_of(model), to_jsonable_python(example, by_alias=True))
+    decoded = stock_class(model).FromString(payload)
+    assert plain(decoded) == as_json(example)
+    assert len(UnknownFieldSet(decoded)) == 0
+
+
+@pytest.mark.parametrize("number", [0, 1, -1, 127, 128, 2**31, -(2**31), 2**63 - 1, -(2**63)])
+def test_whole_numbers_of_every_size_come_back(number: int) -> None:
+    model = next(model for model in MODELS if model.__name__ == "RecorderProgress")
+    payload = encode(shape_of(model), {"version": "1.0", "tick": number, "messages": 1, "lost": 0})
+    assert stock_class(model).FromString(payload).tick == number
+
+
+def test_nothing_is_told_from_nought() -> None:
+    model = next(model for model in MODELS if model.__name__ == "GameEvent")
+    shape, stock = shape_of(model), stock_class(model)
+    nought = stock.FromString(encode(shape, {"measured": 0.0}))
+    nothing = stock.FromString(encode(shape, {"measured": None}))
+    assert (nought.HasField("measured"), nothing.HasField("measured")) == (True, False)
+
+
+def test_reading_needs_none_of_this_project(real: Recording, file: Path) -> None:
+    """The few lines of docs/recordings.md, in a Python that cannot import the project."""
+    program = (
+        "import sys; from mcap.reader import make_reader; from mcap_protobuf.decoder import DecoderFactory\n"
+        "reader = make_reader(open(sys.argv[1], 'rb'), decoder_factories=[DecoderFactory()])\n"
+        "for _, _, _, world in reader.iter_decoded_messages(topics=['world']): pass\n"
+        "print(world.robots['cyan1'].x, 'schemas' in sys.modules)\n"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", program, str(file)],
+        cwd=file.parent,
+        env={"PATH": ""},
+        check=True,
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    x, imported = run.stdout.split()
+    last = [world for _, world in real.decoded(WORLD.key)][-1]
+    assert (float(x), imported) == (last.robots["cyan1"].x, "False")
+
+
+def test_the_proto_text_is_written_for_people() -> None:
+    model = next(model for model in MODELS if model.__name__ == "Command")
+    text = proto_text(shape_of(model))
+    assert text.startswith('syntax = "proto3";\npackage touchline;\n')
+    assert "  optional int64 acknowledges_order = " in text
+    assert text.count("{") == text.count("}")
