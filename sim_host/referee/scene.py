@@ -44,12 +44,23 @@ def look(match: Match, state: RefereeState, snapshot: Snapshot, dt: float) -> Sc
     now = ball[:3]
     in_play = state.phase is Phase.PLAY
     slow = in_play and _is_still(ball, match.book.stall.still_speed)
-    moved_on = dataclasses.replace(
-        state,
+    moved_on = RefereeState(  # `dataclasses.replace` takes half as long again, in every tick
+        phase=state.phase,
         timing=state.timing.after(dt, in_play),
+        kick_off=state.kick_off,
+        side=state.side,
+        spot=state.spot,
+        running=state.running,
+        half=state.half,
+        stage=state.stage,
+        score=state.score,
+        cyan_attacks=state.cyan_attacks,
+        pending=state.pending,
         set_piece=followed(state.set_piece, snapshot, in_play, dt),
         people=state.people.after(snapshot.silent, dt, state.timing.runs),
+        shoot_out=state.shoot_out,
         proposal=None if state.proposal is None else state.proposal.after(dt),
+        before=state.before,
         still=state.still + dt if slow else 0.0,
         ball=now,
         evidence=observe(match, state.evidence, state.cyan_attacks, snapshot, dt) if state.running else NOTHING,

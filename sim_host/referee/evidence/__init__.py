@@ -44,7 +44,7 @@ NOTHING = Evidence()
 
 def observe(match: Match, before: Evidence, cyan_attacks: int, snapshot: Snapshot, dt: float) -> Evidence:
     """The evidence after one more tick of `dt` in s; `cyan_attacks` is the sign of the x direction cyan attacks."""
-    around = look_around(match, snapshot)
+    around = look_around(match, cyan_attacks, snapshot)
     play = play_after(match, before.play, cyan_attacks, snapshot) if snapshot.touches else before.play
     contest = before.contest
     if contest is not None or len(around.near) > 1:

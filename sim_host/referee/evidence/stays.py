@@ -50,9 +50,6 @@ def stays_after(match: Match, before: Stays, cyan_attacks: int, around: Around, 
         end = 1 if x > 0 else -1
         if not in_penalty_area(pitch, end, x, y):
             continue
-        defends = sides[index].attack(cyan_attacks) != end
-        if defends and match.is_keeper[index]:
-            continue
         crowds.setdefault((sides[index], end), []).append(index)
         if in_goal_area(pitch, end, x, y):
             lasted = next((stay.lasted for stay in before.robots if stay.robot == index and stay.end == end), 0.0)

@@ -1,10 +1,11 @@
 """The rules, in order: the first that decides in a tick is the only one to decide; a new rule is a file and a row."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from schemas.game import Stage
 from sim_host.referee.decision import Decision
+from sim_host.referee.evidence.stays import NOWHERE
 from sim_host.referee.rules import (
     backward,
     double_touch,
@@ -43,21 +44,40 @@ class Rule:
     """What it looks up in the rule book, as `section.field`."""
     while_running: bool = True
     """After START alone."""
+    occasion: str = "always"
+    """What must be there for it to have anything to judge, by its name in `_occasions`: a quiet tick asks few rules."""
 
 
 RESTART_FOUL = ("restarts.restart_fouls", "restarts.in_play_distance")
 RULES: tuple[Rule, ...] = (
-    Rule("early_touch", early_touch.judge, RESTART_FOUL),
-    Rule("double_touch", double_touch.judge, RESTART_FOUL),
-    Rule("dragged", dragged.judge, (*RESTART_FOUL, "restarts.drag_distance")),
-    Rule("own_goal_kick", own_goal_kick.judge, ("scoring.robots_touched", "restarts.corner_inset")),
-    Rule("own_half_goal", own_half_goal.judge, ("fouls.own_half_goal", "scoring.pass_roll")),
-    Rule("goal", goal.judge, ("scoring.robots_touched", "restarts.drop_robots_to_score", "fouls.direct_goal")),
-    Rule("touch_line", touch_line.judge, ("restarts.touch_line_inset",)),
-    Rule("goal_line", goal_line.judge, ("restarts.corner_inset", "fouls.own_half_goal")),
+    Rule("early_touch", early_touch.judge, RESTART_FOUL, occasion="set piece"),
+    Rule("double_touch", double_touch.judge, RESTART_FOUL, occasion="set piece"),
+    Rule("dragged", dragged.judge, (*RESTART_FOUL, "restarts.drag_distance"), occasion="set piece"),
+    Rule(
+        "own_goal_kick", own_goal_kick.judge, ("scoring.robots_touched", "restarts.corner_inset"), occasion="crossing"
+    ),
+    Rule("own_half_goal", own_half_goal.judge, ("fouls.own_half_goal", "scoring.pass_roll"), occasion="crossing"),
+    Rule(
+        "goal",
+        goal.judge,
+        ("scoring.robots_touched", "restarts.drop_robots_to_score", "fouls.direct_goal"),
+        occasion="crossing",
+    ),
+    Rule("touch_line", touch_line.judge, ("restarts.touch_line_inset",), occasion="crossing"),
+    Rule("goal_line", goal_line.judge, ("restarts.corner_inset", "fouls.own_half_goal"), occasion="crossing"),
     Rule("lost_ball", lost_ball.judge, ("restarts.field_inset",)),
-    Rule("lob", lob.judge, ("fouls.lob", "scoring.lob_height", "scoring.lob_teammate", "scoring.lob_robots")),
-    Rule("dribble_circle", dribble_circle.judge, ("fouls.dribble_circle", "handling.circle", "handling.release_gap")),
+    Rule(
+        "lob",
+        lob.judge,
+        ("fouls.lob", "scoring.lob_height", "scoring.lob_teammate", "scoring.lob_robots"),
+        occasion="kick",
+    ),
+    Rule(
+        "dribble_circle",
+        dribble_circle.judge,
+        ("fouls.dribble_circle", "handling.circle", "handling.release_gap"),
+        occasion="dribble",
+    ),
     Rule(
         "backward",
         backward.judge,
@@ -68,24 +88,27 @@ RULES: tuple[Rule, ...] = (
             "handling.backward_again",
             "handling.struggle_duration",
         ),
+        occasion="dribble",
     ),
     Rule(
         "not_rolling",
         not_rolling.judge,
         ("fouls.not_rolling", "handling.roll_distance", "handling.roll_duration", "handling.roll_pause"),
+        occasion="dribble",
     ),
-    Rule("long_hold", long_hold.judge, ("fouls.long_hold", "handling.hold_duration")),
-    Rule("pushing", pushing.judge, ("fouls.pushing", "contact.push_distance")),
-    Rule("goal_area", goal_area.judge, ("fouls.goal_area", "areas.goal_area_duration")),
+    Rule("long_hold", long_hold.judge, ("fouls.long_hold", "handling.hold_duration"), occasion="dribble"),
+    Rule("pushing", pushing.judge, ("fouls.pushing", "contact.push_distance"), occasion="pushes"),
+    Rule("goal_area", goal_area.judge, ("fouls.goal_area", "areas.goal_area_duration"), occasion="stays"),
     Rule(
         "penalty_area",
         penalty_area.judge,
         ("fouls.penalty_area", "areas.penalty_area_robots", "areas.penalty_area_duration"),
+        occasion="stays",
     ),
-    Rule("leaving_field", leaving_field.judge, ("fouls.leaving_field", "contact.outside_duration")),
-    Rule("stand_off", stand_off.judge, ("contact.stand_off_duration",)),
-    Rule("scrum", scrum.judge, ("scrum.reach", "scrum.progress", "scrum.duration")),
-    Rule("stall", stall.judge, ("stall.still_speed", "stall.still_duration")),
+    Rule("leaving_field", leaving_field.judge, ("fouls.leaving_field", "contact.outside_duration"), occasion="outside"),
+    Rule("stand_off", stand_off.judge, ("contact.stand_off_duration",), occasion="pushes"),
+    Rule("scrum", scrum.judge, ("scrum.reach", "scrum.progress", "scrum.duration"), occasion="contest"),
+    Rule("stall", stall.judge, ("stall.still_speed", "stall.still_duration"), occasion="still ball"),
     Rule("half_end", half_end.judge, ("periods.halves", "periods.half_duration"), while_running=False),
 )
 
@@ -99,11 +122,30 @@ SHOOT_OUT: tuple[Rule, ...] = (Rule("shoot_out", shoot_out.judge, ("periods.shoo
 
 def first_decision(scene: Scene, *, clocks_alone: bool = False) -> tuple[Rule, Decision] | None:
     """The first rule that decides in this tick, with what it decides."""
+    occasions = _occasions(scene)
     for rule in _rules(scene, clocks_alone):
-        decision = rule.judge(scene)
-        if decision is not None:
-            return rule, decision
+        if occasions[rule.occasion]:
+            decision = rule.judge(scene)
+            if decision is not None:
+                return rule, decision
     return None
+
+
+def _occasions(scene: Scene) -> Mapping[str, object]:
+    """What is there in this tick."""
+    evidence = scene.state.evidence
+    return {
+        "always": True,
+        "set piece": scene.state.set_piece,
+        "crossing": scene.crossing,
+        "kick": evidence.flight,
+        "dribble": evidence.dribble,
+        "pushes": evidence.pushes,
+        "stays": evidence.stays is not NOWHERE,
+        "outside": evidence.outside,
+        "contest": evidence.contest,
+        "still ball": scene.state.still,
+    }
 
 
 def _rules(scene: Scene, clocks_alone: bool) -> tuple[Rule, ...]:
