@@ -57,7 +57,7 @@ def observe(match: Match, before: Evidence, cyan_attacks: int, snapshot: Snapsho
         flight = flight_after(match, flight, snapshot)
     stays = before.stays
     if around.deep or stays.robots or stays.crowds:
-        stays = stays_after(match, stays, cyan_attacks, around, snapshot, dt)
+        stays = stays_after(match, stays, around, snapshot, dt)
     pushes = before.pushes
     if pushes or snapshot.contacts:
         pushes = pushes_after(match, pushes, snapshot, dt)

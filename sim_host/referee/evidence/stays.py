@@ -40,7 +40,7 @@ NOWHERE = Stays()
 """Nobody is anywhere that he may not stay."""
 
 
-def stays_after(match: Match, before: Stays, cyan_attacks: int, around: Around, snapshot: Snapshot, dt: float) -> Stays:
+def stays_after(match: Match, before: Stays, around: Around, snapshot: Snapshot, dt: float) -> Stays:
     """The stays after one more tick of `dt` in s."""
     pitch, robots, sides = match.pitch, snapshot.robots, match.roster.sides
     stays: list[Stay] = []

@@ -10,7 +10,7 @@ Not judged: driving sideways, and turning with the ball.
 """
 
 from sim_host.referee.decision import Decision
-from sim_host.referee.rules.foul import foul, is_called
+from sim_host.referee.rules.foul import exceeds, foul, is_called
 from sim_host.referee.scene import Scene
 
 
@@ -21,7 +21,7 @@ def judge(scene: Scene) -> Decision | None:
         return None
     handling, way = scene.match.book.handling, dribble.backward
     limit = handling.backward_again if dribble.spent else handling.backward_distance
-    if way <= limit or not is_called(scene, "backward"):
+    if not exceeds(way, limit) or not is_called(scene, "backward"):
         return None
     again = " again without having released the ball" if dribble.spent else ""
     text = f"{dribble.robot} dribbled {way:.2f} m backward{again}, limit {limit:.2f}"

@@ -8,9 +8,15 @@ from schemas.side import Side
 from sim_host.referee.decision import Decision
 from sim_host.referee.scene import Scene
 from sim_host.referee.spots import restart_at
+from sim_host.referee.timing import ROUNDING
 
 CARDS = {"on": None, "yellow": Card.YELLOW}
 """The rule book's word → the card that goes with the restart."""
+
+
+def exceeds(measured: float, limit: float) -> bool:
+    """Whether a measure is beyond its limit, and not by the rounding of a sum of ticks alone."""
+    return measured > limit + ROUNDING
 
 
 def is_called(scene: Scene, name: str) -> bool:

@@ -8,7 +8,7 @@ Not judged: who pushed it there; a hull that reaches over the line.
 """
 
 from sim_host.referee.decision import Decision
-from sim_host.referee.rules.foul import foul, is_called
+from sim_host.referee.rules.foul import exceeds, foul, is_called
 from sim_host.referee.scene import Scene
 
 
@@ -16,7 +16,7 @@ def judge(scene: Scene) -> Decision | None:
     """A free kick for the other side, out of the area at the nearest restart spot, or nothing."""
     stays, limit = scene.state.evidence.stays.robots, scene.match.book.areas.goal_area_duration
     for stay in stays:
-        if stay.lasted > limit and is_called(scene, "goal_area"):
+        if exceeds(stay.lasted, limit) and is_called(scene, "goal_area"):
             roster, robot = scene.match.roster, scene.snapshot.robots[stay.robot]
             defends = scene.state.attack(roster.sides[stay.robot]) != stay.end
             name, area = roster.names[stay.robot], "its own" if defends else "the other"

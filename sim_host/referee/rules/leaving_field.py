@@ -6,7 +6,7 @@ Not judged: why it left, and who pushed it out; robots that the referee has off 
 """
 
 from sim_host.referee.decision import Decision
-from sim_host.referee.rules.foul import foul, is_called
+from sim_host.referee.rules.foul import exceeds, foul, is_called
 from sim_host.referee.scene import Scene
 
 
@@ -15,7 +15,7 @@ def judge(scene: Scene) -> Decision | None:
     limit = scene.match.book.contact.outside_duration
     for index, lasted in scene.state.evidence.outside:
         name = scene.match.roster.names[index]
-        if lasted > limit and name not in scene.state.people.away and is_called(scene, "leaving_field"):
+        if exceeds(lasted, limit) and name not in scene.state.people.away and is_called(scene, "leaving_field"):
             robot = scene.snapshot.robots[index]
             text = f"{name} is outside the field for {lasted:.1f} s, limit {limit:.1f}"
             return foul(

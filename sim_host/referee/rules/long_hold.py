@@ -6,7 +6,7 @@ Not judged: whether the robot could have played it.
 """
 
 from sim_host.referee.decision import Decision
-from sim_host.referee.rules.foul import foul, is_called
+from sim_host.referee.rules.foul import exceeds, foul, is_called
 from sim_host.referee.scene import Scene
 
 
@@ -17,7 +17,7 @@ def judge(scene: Scene) -> Decision | None:
         return None
     ball, limit = scene.snapshot.ball, scene.match.book.handling.hold_duration
     kept = scene.snapshot.time - dribble.since
-    if kept <= limit or not is_called(scene, "long_hold"):
+    if not exceeds(kept, limit) or not is_called(scene, "long_hold"):
         return None
     text = f"{dribble.robot} kept the ball for {kept:.1f} s, limit {limit:.1f}"
     return foul(

@@ -10,7 +10,7 @@ that an opponent is at, too, which he may keep from turning.
 """
 
 from sim_host.referee.decision import Decision
-from sim_host.referee.rules.foul import foul, is_called
+from sim_host.referee.rules.foul import exceeds, foul, is_called
 from sim_host.referee.scene import Scene
 
 
@@ -25,7 +25,7 @@ def judge(scene: Scene) -> Decision | None:
         (dribble.slid_way, handling.roll_distance, "m"),
         (dribble.slid, handling.roll_duration, "s"),
     ):
-        if measured > limit and is_called(scene, "not_rolling"):
+        if exceeds(measured, limit) and is_called(scene, "not_rolling"):
             text = f"{dribble.robot} moved the ball {measured:.2f} {unit} without letting it roll, limit {limit:.2f}"
             return foul(
                 scene, "not_rolling", (dribble.robot,), text, measured=measured, limit=limit, unit=unit, place=place

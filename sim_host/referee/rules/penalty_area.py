@@ -11,7 +11,7 @@ Not judged: who came last, and who was pushed there.
 import math
 
 from sim_host.referee.decision import Decision
-from sim_host.referee.rules.foul import foul, is_called
+from sim_host.referee.rules.foul import exceeds, foul, is_called
 from sim_host.referee.scene import Scene
 
 
@@ -20,7 +20,7 @@ def judge(scene: Scene) -> Decision | None:
     crowds, areas = scene.state.evidence.stays.crowds, scene.match.book.areas
     limit = areas.penalty_area_duration
     for crowd in crowds:
-        if crowd.lasted > limit and is_called(scene, "penalty_area"):
+        if exceeds(crowd.lasted, limit) and is_called(scene, "penalty_area"):
             roster, robots, ball = scene.match.roster, scene.snapshot.robots, scene.snapshot.ball
             away = {index: math.hypot(robots[index].x - ball.x, robots[index].y - ball.y) for index in crowd.robots}
             farthest = max(crowd.robots, key=lambda index: away[index])

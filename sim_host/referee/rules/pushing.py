@@ -11,7 +11,7 @@ Not judged: intent, and who had the right to the ball: who moves the other is th
 from schemas.game import Phase
 from sim_host.referee.areas import in_penalty_area
 from sim_host.referee.decision import Decision
-from sim_host.referee.rules.foul import foul, is_called
+from sim_host.referee.rules.foul import exceeds, foul, is_called
 from sim_host.referee.scene import Scene
 
 
@@ -19,7 +19,7 @@ def judge(scene: Scene) -> Decision | None:
     """A free kick or a penalty for the other side, or nothing."""
     limit = scene.match.book.contact.push_distance
     for push in scene.state.evidence.pushes:
-        if abs(push.way) <= limit or not is_called(scene, "pushing"):
+        if not exceeds(abs(push.way), limit) or not is_called(scene, "pushing"):
             continue
         roster, way = scene.match.roster, abs(push.way)
         offender, victim = (push.first, push.second) if push.way > 0 else (push.second, push.first)

@@ -8,6 +8,8 @@ import pytest
 from schemas.game import Card, EventKind, Phase
 from schemas.rule_book import SHIPPED
 from schemas.side import Side
+from sim_host.referee.rules import RULES, _occasions
+from sim_host.referee.scene import Scene
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
 NOT_AT_ALL = (0.0, 1e-9)
@@ -426,3 +428,21 @@ def test_nothing_is_called_while_everybody_stands_where_he_may(new_bench, rules)
     bench = new_bench("msl", rules).playing()
     bench.run(20.0)
     assert EventKind.FOUL not in bench.kinds()
+
+
+def test_a_robot_that_the_referee_has_off_the_field_has_not_left_it(new_bench):
+    bench = new_bench().playing()
+    bench.ask("repair", robot="cyan3")
+    bench.until(lambda state: "cyan3" in state.people.away)
+    bench.until(lambda state: state.phase is Phase.PLAY or state.running)
+    stay_outside(bench, 15.0)
+    assert not [event for event in bench.events if event.rule == "leaving_field"]
+
+
+def test_a_quiet_tick_asks_few_rules(new_bench):
+    """Every rule's occasion is one that ticks have; in a quiet one, only lost balls and the clock are looked at."""
+    bench = new_bench().playing()
+    ruling = bench.tick((1.2, 0.0))
+    there = _occasions(Scene(bench.referee._match, ruling.state, bench.snapshot(), None))
+    assert {rule.occasion for rule in RULES} == set(there)
+    assert [rule.name for rule in RULES if there[rule.occasion]] == ["lost_ball", "half_end"]
