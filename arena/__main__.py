@@ -5,14 +5,19 @@ import typer
 from arena.commands import (
     agent,
     coach,
+    diff,
     drive,
     export,
+    filter,
     host,
     import_log,
     info,
     match,
+    merge,
     parameters,
     record,
+    recorder,
+    recover,
     scene,
     scenes,
     schema,
@@ -40,7 +45,12 @@ app.add_typer(scene.app, name="scene")
 app.command("scenes")(scenes.scenes)
 app.command("drive")(drive.drive)
 app.command("record")(record.record)
+app.add_typer(recorder.app, name="recorder")
 app.command("info")(info.info)
+app.command("recover")(recover.recover)
+app.command("diff")(diff.diff)
+app.command("filter")(filter.filter)
+app.command("merge")(merge.merge)
 app.command("stats")(stats.stats)
 app.command("export")(export.export)
 app.command("import")(import_log.import_log)

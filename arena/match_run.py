@@ -146,7 +146,9 @@ class MatchRun:
 
     def _result(self, view: MatchView) -> MatchResult:
         recording = self._plan.recording
-        if recording is not None and (self._supervisor.ended.get("recorder") != 0 or not recording.exists()):
+        snapshots = self._plan.config.record.snapshot is not None  # a match without a goal leaves none
+        missing = not snapshots and not self._plan.recording_files
+        if recording is not None and (self._supervisor.ended.get("recorder") != 0 or missing):
             log = self._supervisor.last_lines("recorder")
             raise MatchFailedError(
                 f"the match was played but its recording was lost: {log[-1] if log else 'the recorder says nothing'}; "

@@ -4,7 +4,7 @@ import importlib.util
 import re
 import socket
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -16,6 +16,9 @@ from schemas.match_config import MatchConfig, load_match
 from schemas.profile import load_profile
 from schemas.robot_model import models_of
 from schemas.rule_book import load_rule_book
+
+if TYPE_CHECKING:
+    from recordings.selection import Selection
 
 DEFAULT_ENDPOINT = endpoints.DEFAULT_ENDPOINT
 DEFAULT_MATCH = "friendly"
@@ -38,6 +41,20 @@ MatchName = Annotated[str | None, typer.Option("--match", "--name", help="Name o
 Listen = Annotated[str, typer.Option(help="Endpoint of the host; port 0 picks a free one.")]
 Insecure = Annotated[bool, typer.Option("--insecure", help="Let other machines in, without any password.")]
 Sights = Annotated[bool, typer.Option("--sights", help="Record what every robot perceives, too.")]
+Include = Annotated[
+    list[str] | None,
+    typer.Option(help="Take these keys alone, as robot/*/command or team/**; may be given several times."),
+]
+Exclude = Annotated[list[str] | None, typer.Option(help="Leave these keys out; may be given several times.")]
+SplitSize = Annotated[float | None, typer.Option(min=0.01, help="MB after which the recording goes on in a next file.")]
+SplitDuration = Annotated[
+    float | None, typer.Option(min=0.1, help="Simulated s after which the recording goes on in a next file.")
+]
+Keep = Annotated[int | None, typer.Option(min=1, help="Keep so many files of the recording, the newest.")]
+Snapshot = Annotated[
+    float | None,
+    typer.Option(min=0.1, help="Write the last so many simulated s at each goal and on request, and nothing else."),
+]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")]
 
 NO_PYBULLET = "the simulation needs PyBullet, which is not installed; pip install 'touchline[sim]'"
@@ -84,6 +101,17 @@ def need_pybullet() -> None:
     """
     if importlib.util.find_spec("pybullet") is None:
         raise TouchlineError(NO_PYBULLET)
+
+
+def selection(include: list[str] | None, exclude: list[str] | None) -> "Selection":
+    """The keys that are meant.
+
+    Raises:
+        TouchlineError: an expression that is none.
+    """
+    from recordings.selection import Selection
+
+    return Selection(tuple(include or ()), tuple(exclude or ()))
 
 
 def listening(listen: str, *, insecure: bool) -> str:

@@ -6,7 +6,7 @@ from enum import StrEnum
 from pathlib import Path
 
 from schemas.bus.endpoint import is_loopback, parse_endpoint
-from schemas.match_config import MatchConfig
+from schemas.match_config import MatchConfig, Recording
 from schemas.side import Side
 
 
@@ -90,6 +90,13 @@ class Plan:
         return f"{protocol}/{near}:{port}"
 
     @property
+    def recording_files(self) -> list[Path]:
+        """The finished files of the recording: one, or numbered ones."""
+        from recordings.output import files_at
+
+        return files_at(self.recording) if self.recording is not None else []
+
+    @property
     def config_file(self) -> Path:
         """The match as its processes read it."""
         return self.folder / "config.json"
@@ -107,14 +114,30 @@ def processes_of(plan: Plan) -> list[Process]:
     open_to_others = () if is_loopback(plan.listen) else ("--insecure",)  # whoever made the plan was told so
     processes = [_process("host", Kind.HOST, words, more=open_to_others)]
     if plan.recording is not None:
-        sights = ("--sights",) if plan.config.record.sights else ()
-        processes.append(_process("recorder", Kind.RECORDER, {**words, "recording": str(plan.recording)}, more=sights))
+        wanted = _recorder_words(plan.config.record)
+        processes.append(_process("recorder", Kind.RECORDER, {**words, "recording": str(plan.recording)}, more=wanted))
     for side in Side:
         team = plan.config.team(side)
         for robot in plan.config.robots(side):
             own = {**words, "robot": robot, "side": side.value, "brain": team.brain or ""}
             processes.append(_process(robot, Kind.AGENT, own, instead=tuple(team.command or ())))
     return processes
+
+
+def _recorder_words(wanted: Recording) -> tuple[str, ...]:
+    """What a recorder is told, as the match file wants it."""
+    limits = {
+        "split-size": wanted.split_size,
+        "split-duration": wanted.split_duration,
+        "keep": wanted.keep,
+        "snapshot": wanted.snapshot,
+    }
+    return (
+        *(("--sights",) if wanted.sights else ()),
+        *(f"--include={expression}" for expression in wanted.include),
+        *(f"--exclude={expression}" for expression in wanted.exclude),
+        *(f"--{word}={value}" for word, value in limits.items() if value is not None),
+    )
 
 
 def _process(

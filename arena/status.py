@@ -1,5 +1,7 @@
 """How a running match stands, in one line."""
 
+from collections import Counter
+
 from coach_gateway.lines import state_line
 from coach_gateway.view import MatchView
 from schemas.host import Health
@@ -17,6 +19,9 @@ def status_line(view: MatchView, total: int) -> str:
         if view.health.tick > 0:
             parts.append(f"×{view.health.real_time_factor:.1f}")
         parts.append(robots_words(view.health, total))
+    losses = losses_words(view)
+    if losses:
+        parts.append(losses)
     return "  ".join(parts)
 
 
@@ -28,6 +33,17 @@ def robots_words(health: Health, total: int) -> str:
     if not silent:
         return words
     return f"{words} ({'silent' if playing else 'missing'}: {', '.join(_few(silent))})"
+
+
+def losses_words(view: MatchView) -> str:
+    """`lost 12 (world 10, robot/cyan1/command 2)`: what the recorders miss, by key; empty where nothing is."""
+    losses: Counter[str] = Counter()
+    for progress in view.recorders.values():
+        losses.update(progress.losses)
+    if not losses:
+        return ""
+    keys = [f"{key} {count}" for key, count in losses.most_common()]
+    return f"lost {losses.total()} ({', '.join(_few(keys))})"
 
 
 def _few(names: list[str]) -> list[str]:

@@ -4,9 +4,9 @@ from dataclasses import dataclass, field
 
 from schemas.bus.contract import Bus, Received, Subscription
 from schemas.game import GameEvent, GameState, Phase
-from schemas.host import Health
+from schemas.host import Health, RecorderProgress
 from schemas.message import BadMessageError
-from schemas.topics import EVENT, HEALTH, STATE
+from schemas.topics import EVENT, HEALTH, PROGRESS, STATE
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +26,8 @@ class MatchView:
     state: GameState | None = None
     health: Health | None = None
     events: list[GameEvent] = field(default_factory=list)
+    recorders: dict[str, RecorderProgress] = field(default_factory=dict)
+    """What each recorder said last."""
     unreadable: int = 0
     """Messages that could not be read; each was left out."""
     first: Moment | None = None
@@ -37,6 +39,7 @@ class MatchView:
         self._subscriptions: tuple[Subscription, ...] = tuple(
             self.bus.subscribe(topic) for topic in (EVENT, STATE, HEALTH)
         )
+        self._progress = self.bus.subscribe(PROGRESS)
 
     def update(self) -> list[GameEvent | GameState | Health]:
         """Take in what has come since the last call, without waiting; returns it, events first."""
@@ -46,6 +49,8 @@ class MatchView:
                 message = self._read(received)
                 if message is not None:
                     fresh.append(message)
+        while (received := self._progress.receive()) is not None:
+            self._note_progress(received)
         return fresh
 
     def wait_for_state(self, patience: float) -> GameState | None:
@@ -72,6 +77,12 @@ class MatchView:
         if self.first is None or self.last is None or self.wall_s <= 0.0:
             return 0.0
         return (self.last.time - self.first.time) / self.wall_s
+
+    def _note_progress(self, received: Received) -> None:
+        try:
+            self.recorders[received.chunks["name"]] = received.message()
+        except BadMessageError:
+            self.unreadable += 1
 
     def _read(self, received: Received) -> GameEvent | GameState | Health | None:
         try:

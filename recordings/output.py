@@ -38,11 +38,7 @@ class Limits:
     """Simulated s that are held in memory and written when there is a goal, or on request; nothing else is."""
 
     def __post_init__(self) -> None:
-        """Check.
-
-        Raises:
-            TouchlineError: the limits do not go together.
-        """
+        """Check that the limits go together."""
         if self.keep is not None and not self.in_many:
             raise TouchlineError(
                 f"--keep {self.keep} is for many files; add --split-size, --split-duration or --snapshot"

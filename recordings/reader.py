@@ -67,7 +67,7 @@ class Recording:
     """A recording that was opened; holds no file open between two calls."""
 
     def __init__(self, container: Container, manifest: Manifest, result: Result | None) -> None:
-        self._container = container
+        self.container = container
         self.path = container.path
         self.complete = container.complete
         """Not cut off."""
@@ -100,7 +100,7 @@ class Recording:
                 start=channel.first_ns / 1e9,
                 end=channel.last_ns / 1e9,
             )
-            for channel in self._container.channels.values()
+            for channel in self.container.channels.values()
         ]
         return sorted(facts)
 
@@ -114,7 +114,7 @@ class Recording:
             TouchlineError: the file is damaged inside.
         """
         wanted = {key for key, topic in self._topics.items() if topic is not None and _wanted(key, keys)}
-        for key, message in self._container.messages(wanted, _ns(start), _ns(end)):
+        for key, message in self.container.messages(wanted, _ns(start), _ns(end)):
             topic = self._topics[key]
             if topic is not None:
                 yield Recorded(key, topic, message.data, message.log_time, message.publish_time, message.sequence)

@@ -32,6 +32,8 @@ FLUSH_S = 0.5
 """Wall time after which what was handed over is in the file."""
 _BACKLOG = 64
 """Batches that may wait for the thread; whoever hands over the next one waits."""
+MEDIA_TYPES = {".json": "application/json", ".toml": "application/toml"}
+"""Suffix of an attachment → what it is."""
 _SEQUENCES = 0xFFFF_FFFF
 """MCAP counts in 32 bits."""
 
@@ -161,7 +163,7 @@ class RecordingWriter:
         self._mcap.add_metadata(MANIFEST, manifest)
         now = self._clock.unix_ns()
         for name, data in attachments.items():
-            media = _MEDIA_TYPES[Path(name).suffix]
+            media = MEDIA_TYPES[Path(name).suffix]
             self._mcap.add_attachment(now, 0, name, media, data)
         self._mcap.flush()  # type: ignore[no-untyped-call]
 
@@ -211,9 +213,6 @@ class RecordingWriter:
         self._mcap.finish()  # type: ignore[no-untyped-call]
         self._file.flush()
         os.fsync(self._file.fileno())
-
-
-_MEDIA_TYPES = {".json": "application/json", ".toml": "application/toml"}
 
 
 def _nothing() -> None:

@@ -121,6 +121,18 @@ class Recording(Part):
     sights: bool = False
     wait: bool = False
     """The first tick waits for a recorder to be there, so that nothing is missed."""
+    include: list[str] = []
+    """Key expressions that are recorded, `robot/*/command`; all where there is none."""
+    exclude: list[str] = []
+    """Key expressions that are not."""
+    split_size: Annotated[float, Field(gt=0)] | None = None
+    """MB after which the recording goes on in a next file."""
+    split_duration: Annotated[float, Field(gt=0)] | None = None
+    """Simulated s after which it does."""
+    keep: Annotated[int, Field(ge=1)] | None = None
+    """So many of its files are kept, the newest."""
+    snapshot: Annotated[float, Field(gt=0)] | None = None
+    """Simulated s before a goal that are written, each to a file of its own; nothing else is."""
 
 
 class Patience(Part):

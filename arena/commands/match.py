@@ -1,6 +1,7 @@
 """`touchline match`: a whole match on this machine, from its file to its result."""
 
 import sys
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -31,6 +32,12 @@ def match(
     ] = None,
     no_record: Annotated[bool, typer.Option("--no-record", help="Leave no recording.")] = False,
     sights: options.Sights = False,
+    include: options.Include = None,
+    exclude: options.Exclude = None,
+    split_size: options.SplitSize = None,
+    split_duration: options.SplitDuration = None,
+    keep: options.Keep = None,
+    snapshot: options.Snapshot = None,
     json: options.Json = False,
 ) -> None:
     """Play a match: launch host, recorder and robots, show it, and leave a recording and a result.
@@ -54,6 +61,12 @@ def match(
         referee__mode=referee,
         name=name,
         record__sights=sights or None,
+        record__include=include or None,
+        record__exclude=exclude or None,
+        record__split_size=split_size,
+        record__split_duration=split_duration,
+        record__keep=keep,
+        record__snapshot=snapshot,
         record__wait=not no_record,
     )
     check_teams(config)
@@ -92,4 +105,7 @@ def _losses(plan: "Plan") -> dict[str, int]:
     from recordings.info import facts_of
     from recordings.reader import open_recording
 
-    return {key.key: key.lost for key in facts_of(open_recording(plan.recording)).keys if key.lost}
+    losses: Counter[str] = Counter()
+    for file in plan.recording_files:
+        losses.update({key.key: key.lost for key in facts_of(open_recording(file)).keys if key.lost})
+    return dict(losses)
