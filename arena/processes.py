@@ -81,6 +81,8 @@ class Plan:
     """Holds `config.json` and the logs."""
     recording: Path | None
     """Where the recording goes, or nothing when none was wanted."""
+    warning: str = ""
+    """What people should know before the match begins."""
 
     @property
     def connect(self) -> str:

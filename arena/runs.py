@@ -17,21 +17,43 @@ def prepare(config: MatchConfig, listen: str, recording: Path | None, clock: Clo
 
     `recording` is where the recording goes, by default into the folder; `recorded` false leaves it out.
 
+    A recording that cannot be written there goes into the folder, and the plan says so: a match that many machines
+    wait for is played all the same.
+
     Raises:
-        TouchlineError: a folder cannot be made or written.
+        TouchlineError: the folder cannot be made or written.
     """
     moment = datetime.fromtimestamp(clock.unix_ns() / 1e9, UTC)
     stem = f"{config.name}-{moment:%Y%m%dT%H%M%SZ}-seed{config.seed}"
     try:
         folder = _new_folder(stem)
         out = (recording or folder / RECORDING) if recorded else None
-        if out is not None:
-            out.parent.mkdir(parents=True, exist_ok=True)
-        plan = Plan(config, listen, folder, out)
+        refusal = _refusal(out) if out is not None else ""
+        if refusal:
+            refusal = f"--record {out}: {refusal}; the match is played, its recording goes to {folder / RECORDING}"
+            out = folder / RECORDING
+        plan = Plan(config, listen, folder, out, refusal)
         plan.config_file.write_text(config.model_dump_json(indent=2), "utf-8")
     except OSError as error:
         raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its logs under ./{RUNS}") from None
     return plan
+
+
+def _refusal(out: Path) -> str:
+    """Why no file can be written there; empty where one can."""
+    if out.is_dir():
+        return "is a folder"
+    part = out.with_name(out.name + ".part")
+    was_there = part.exists()
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        with part.open("ab"):
+            pass
+        if not was_there:
+            part.unlink()
+    except OSError as error:
+        return error.strerror or "cannot be written"
+    return ""
 
 
 def _new_folder(stem: str) -> Path:

@@ -58,6 +58,20 @@ class RecordingFacts:
     messages: int
     lost: int
     missed_before_start: int
+    left_out: int
+    """Messages that came while the recorder was paused."""
+    part: int
+    """Which file of a recording that was split, from 1."""
+    standing: int
+    """So many messages at the beginning of the file repeat what stood when it began."""
+    made: str
+    """`recorded`, or how it was made of other recordings."""
+    include: list[str]
+    """Key expressions that were recorded; all where there is none."""
+    exclude: list[str]
+    """Key expressions that were not."""
+    damaged: list[str]
+    """Attachments that are missing, or whose bytes have changed."""
     size: int
     """Bytes of the file."""
     keys: list[KeyFacts]
@@ -92,6 +106,13 @@ def facts_of(recording: Recording) -> RecordingFacts:
         messages=sum(count.messages for count in ending.keys.values()),
         lost=sum(count.lost for count in ending.keys.values()),
         missed_before_start=sum(count.missed_before_start for count in ending.keys.values()),
+        left_out=sum(count.left_out for count in ending.keys.values()),
+        part=manifest.part,
+        standing=manifest.standing,
+        made=manifest.made,
+        include=manifest.include,
+        exclude=manifest.exclude,
+        damaged=recording.damaged,
         size=recording.path.stat().st_size,
         keys=list(_key_facts(recording, ending.keys)),
     )
@@ -113,8 +134,11 @@ def _ending(recording: Recording) -> _Ending:
         return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, result.keys)
     notes = MatchNotes()
     ledgers: dict[str, KeyLedger] = {}
-    for recorded in recording.messages():
+    for number, recorded in enumerate(recording.messages()):
         received = recorded.received()
+        if number < recording.manifest.standing:
+            notes.take(received)
+            continue
         ledgers.setdefault(recorded.key, KeyLedger()).enter(received.stamp, len(received.payload))
         notes.take(received)
     notes.catch_up()
@@ -171,6 +195,12 @@ def lines(facts: RecordingFacts) -> list[tuple[str, str]]:
         "started": facts.started,
         "duration": f"{facts.duration:.2f} s simulated, {facts.tick + 1} ticks",
         "messages": f"{facts.messages}, {facts.lost} lost, {facts.missed_before_start} sent before it began",
+        "paused": f"{facts.left_out} messages left out meanwhile" if facts.left_out else None,
+        "lost on": ", ".join(f"{key.key} {key.lost}" for key in facts.keys if key.lost) or None,
+        "keys": " ".join([*facts.include, *(f"not {key}" for key in facts.exclude)]) or None,
+        "made": facts.made if facts.made != "recorded" else None,
+        "part": f"{facts.part}, begins with {facts.standing} messages that stood" if facts.standing else None,
+        "damaged": ", ".join(facts.damaged) or None,
         "events": str(facts.events),
         "size": f"{facts.size} bytes" + ("" if facts.complete else ", cut off"),
     }

@@ -155,8 +155,8 @@ def digest(content: bytes) -> str:
 
 
 def is_sealed(metadata: dict[str, str]) -> bool:
-    """Whether metadata is as it was written, as far as can be told: older recordings have no seal."""
-    return metadata.get(_DIGEST, "") in ("", sealed(metadata)[_DIGEST])
+    """Whether metadata is as it was written, and all of it is there."""
+    return metadata.get(_DIGEST) == sealed(metadata)[_DIGEST]
 
 
 P = TypeVar("P", Manifest, Result)

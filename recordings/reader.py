@@ -143,8 +143,10 @@ def open_recording(path: Path, *, whole: bool = False) -> Recording:
         if not container.complete:
             raise TouchlineError(f"{path}: truncated file, cut off before its manifest; nothing in it can be read")
         raise TouchlineError(f"{path}: an MCAP file without a manifest, not a recording of a match; record one")
+    if not container.complete and not is_sealed(container.metadata.get(RESULT, {})):
+        container.metadata.pop(RESULT, None)  # it was being written when the file was cut off
     for name in (MANIFEST, RESULT):
-        if not is_sealed(container.metadata.get(name, {})):
+        if name in container.metadata and not is_sealed(container.metadata[name]):
             raise TouchlineError(f"{path}: its {name} is damaged, bytes of it have changed; take another copy of it")
     try:
         manifest = from_metadata(Manifest, container.metadata[MANIFEST])

@@ -30,7 +30,7 @@ from recordings.frames import (
     index_counts,
     unpacked,
 )
-from recordings.manifest import RESULT
+from recordings.manifest import MANIFEST, RESULT, is_sealed
 from recordings.summary import SummaryBuilder
 from recordings.writer import CHUNK_BYTES
 from schemas.errors import TouchlineError
@@ -241,6 +241,8 @@ class _Repair:
                 record = Attachment.read(stream_of(body))
             else:
                 record = Metadata.read(stream_of(body))
+                if record.name in (MANIFEST, RESULT) and not is_sealed(record.metadata):
+                    raise ValueError("seal")
         except BROKEN:
             self._leave_out(found, frame)
             return

@@ -73,6 +73,8 @@ def match(
     endpoint = options.listening(listen, insecure=insecure)
     clock = WallClock()
     plan = prepare(config, endpoint, record, clock, recorded=not no_record)
+    if plan.warning:
+        typer.echo(f"touchline: {plan.warning}", err=True)
     result = _play(plan, clock, quiet=json)
     if json:
         typer.echo(result.json())

@@ -1,5 +1,6 @@
 """The real thing: a recorder process at a real Zenoh host on loopback."""
 
+import resource
 import signal
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import pytest
 from recordings.manifest import Ended
 from recordings.reader import open_recording
 from recordings.record import read_config
+from recordings.recovery import recover
 from schemas.bus.contract import Bus
 from schemas.bus.endpoint import with_port
 from schemas.bus.zenoh_bus import open_client, open_host
@@ -187,6 +189,70 @@ def test_what_a_killed_recorder_has_written_can_be_read(hand_made_host, start_re
     assert not recording.complete
     assert recording.manifest.setup == host.setup
     assert len(ticks) >= 100
+    assert ticks == list(range(len(ticks)))
+
+
+@pytest.mark.processes
+def test_a_recorder_that_stood_still_for_three_seconds_at_full_rate_has_lost_nothing(
+    hand_made_host, start_recorder, endpoint, tmp_path
+):
+    """Its link breaks after 2 s; the host goes on meanwhile, and robots too, whose commands come only once."""
+    recorder = start_recorder()
+    with (
+        open_host("friendly", WallClock(), endpoint) as bus,
+        open_client("friendly", WallClock(), endpoint) as robots,
+    ):
+        host = hand_made_host(bus, robots)
+        progress = bus.subscribe(PROGRESS)
+        wait_for_recorder(bus, host)
+        tick = 0
+        for phase, length in ((None, 0.5), (signal.SIGSTOP, 3.0), (signal.SIGCONT, 0.5)):
+            if phase is not None:
+                recorder.send_signal(phase)
+            end = time.monotonic() + length
+            while time.monotonic() < end:
+                host.play(tick)
+                tick += 1
+                time.sleep(0.003)
+        while progress.receive(LIMIT).message().tick < tick - 1:
+            pass
+    recorder.communicate(timeout=LIMIT)
+    recording = open_recording(tmp_path / "match.mcap", whole=True)
+    assert tick > 300
+    assert (recording.result.lost, recording.result.ended) == (0, Ended.HOST_GONE)
+    assert {key: count.messages for key, count in recording.result.keys.items()} == dict.fromkeys(
+        recording.result.keys, tick
+    )
+    assert len(recording.result.keys) == 6
+    times = [message.log_ns for message in recording.messages("world")]
+    assert times == [number * 20_000_000 for number in range(tick)]
+
+
+@pytest.mark.processes
+def test_a_full_disk_ends_the_recorder_with_one_sentence_and_nobody_else(
+    hand_made_host, start_recorder, endpoint, tmp_path
+):
+    recorder = start_recorder()
+    resource.prlimit(recorder.pid, resource.RLIMIT_FSIZE, (150_000, 150_000))  # what a full disk does, by size
+    with (
+        open_host("friendly", WallClock(), endpoint) as bus,
+        open_client("friendly", WallClock(), endpoint) as robots,
+    ):
+        host = hand_made_host(bus, robots)
+        wait_for_recorder(bus, host)
+        tick, deadline = 0, time.monotonic() + LIMIT
+        while recorder.poll() is None and time.monotonic() < deadline:
+            host.play(tick)
+            tick += 1
+        for more in range(tick, tick + 50):
+            host.play(more)
+    _, error = recorder.communicate(timeout=LIMIT)
+    assert recorder.returncode == 2
+    assert error.count("\n") == 1
+    assert "match.mcap.part: File too large; what was written before is readable" in error
+    done = recover(tmp_path / "match.mcap.part")
+    assert done.messages > 0
+    ticks = [world.tick for _, world in open_recording(done.path).decoded("world")]
     assert ticks == list(range(len(ticks)))
 
 
