@@ -15,9 +15,11 @@ from arena.commands import (
     match,
     merge,
     parameters,
+    player,
     record,
     recorder,
     recover,
+    replay,
     scene,
     scenes,
     schema,
@@ -46,6 +48,8 @@ app.command("scenes")(scenes.scenes)
 app.command("drive")(drive.drive)
 app.command("record")(record.record)
 app.add_typer(recorder.app, name="recorder")
+app.command("replay")(replay.replay)
+app.command("player")(player.player)
 app.command("info")(info.info)
 app.command("recover")(recover.recover)
 app.command("diff")(diff.diff)

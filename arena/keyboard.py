@@ -3,19 +3,15 @@
 The keys are those of the paper's teleoperation node, and so are the speeds that the command line begins with.
 """
 
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
+from arena.terminal import DOWN, LEFT, RIGHT, UP, typed
 from schemas.command import Drive, Kick, KickMode
 from schemas.hand import HandDrive
 
 HOLDS_S = 0.5
 """s that a key of motion counts for: a terminal tells of no release, and repeats a held key sooner than that."""
-
-UP, DOWN, RIGHT, LEFT = "up", "down", "right", "left"
-_ARROWS = {"A": UP, "B": DOWN, "C": RIGHT, "D": LEFT}
-_KEY = re.compile(r"\x1b[\[O]([A-D])|\x1b[\[O][\d;]*.?|(.)", re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,8 +71,7 @@ KEYS: Mapping[str, tuple[str, Press]] = {
 
 def keys_in(text: str) -> list[str]:
     """The keys that a terminal sent, arrows by name; what is no key of ours is left out."""
-    found = [_ARROWS[arrow] if arrow else plain for arrow, plain in _KEY.findall(text)]
-    return [key for key in found if key in KEYS]
+    return [key for key in typed(text) if key in KEYS]
 
 
 def pressed(hand: Hand, text: str, now: float) -> Hand:

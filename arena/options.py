@@ -65,7 +65,12 @@ def _endpoint(connect: str) -> str:
     return connect
 
 
-def _match_name(name: str) -> str:
+def match_name(name: str) -> str:
+    """The name itself.
+
+    Raises:
+        TouchlineError: it is no key chunk.
+    """
     if re.fullmatch(r"[a-z][a-z0-9_]{0,31}", name) is None:
         raise TouchlineError(f'--match is "{name}"; a match name is a key chunk: small letters, digits and _')
     return name
@@ -73,7 +78,7 @@ def _match_name(name: str) -> str:
 
 Connect = Annotated[str, typer.Option(envvar="TOUCHLINE_CONNECT", callback=_endpoint, help="Endpoint of the host.")]
 Match = Annotated[
-    str, typer.Option("--match", envvar="TOUCHLINE_MATCH", callback=_match_name, help="Name of the match.")
+    str, typer.Option("--match", envvar="TOUCHLINE_MATCH", callback=match_name, help="Name of the match.")
 ]
 
 

@@ -19,6 +19,7 @@ from schemas.host import Applied, Belief, Health, Invalid, RecorderProgress, Set
 from schemas.intake import Intake
 from schemas.message import Message
 from schemas.parameters import ParametersReply, ParametersRequest
+from schemas.replay import ReplayReply, ReplayRequest
 from schemas.scene import SceneReply, SceneRequest
 from schemas.sight import Sight
 from schemas.world import BallFrame, RobotFrame, World
@@ -306,6 +307,17 @@ CONTROL = Topic(
     "pause, resume, split, snapshot, status of a recorder; refused with the reason",
     reply=RecorderReply,
 )
+REPLAY = Topic(
+    "replay/control",
+    ReplayRequest,
+    Party.OPERATOR,
+    (Party.HOST,),
+    "at will",
+    Delivery.QUERY,
+    False,
+    "pause, step, seek, rate of a replay, which stands in for a host; refused with the reason",
+    reply=ReplayReply,
+)
 ALIVE = Topic(
     "alive/{kind}/{name}",
     None,
@@ -338,6 +350,7 @@ TOPICS: dict[str, Topic] = {
     "intake": INTAKE,
     "progress": PROGRESS,
     "control": CONTROL,
+    "replay": REPLAY,
     "alive": ALIVE,
 }
 """Topic name → its row."""

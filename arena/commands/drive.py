@@ -1,10 +1,6 @@
 """`touchline drive`: one robot driven by keys, in place of its brain."""
 
-import os
-import select
-import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,6 +9,7 @@ import typer
 from arena import options
 from arena.keyboard import KEYS, Hand, Speeds, pressed, said, status
 from arena.seat import seat as _seat
+from arena.terminal import Keys, terminal
 from schemas.errors import MatchFailedError, TouchlineError, did_you_mean
 from schemas.hand import HandDrive
 from schemas.topics import HAND
@@ -24,9 +21,6 @@ _PERIOD = 0.05
 """s of wall time between two words to the host."""
 
 _USUAL = Speeds()
-
-Keys = Callable[[float], str]
-"""What was typed, waiting up to so many s for it."""
 
 
 def drive(
@@ -43,7 +37,7 @@ def drive(
 
     Example: touchline drive cyan2 --speed 2
     """
-    with _terminal() as keys, _seat(connect, match) as bus:
+    with terminal("drive") as keys, _seat(connect, match) as bus:
         typer.echo(", ".join(f"{'space' if key == ' ' else key}: {words}" for key, (words, _) in KEYS.items()))
         drive_by_keys(bus, robot, keys, Speeds(speed, turn, kick), lambda line: typer.echo(line))
 
@@ -75,29 +69,3 @@ def drive_by_keys(bus: "Bus", robot: str, keys: Keys, speeds: Speeds, say: Calla
     finally:
         words.put(HandDrive(release=True))
     raise MatchFailedError("the host is gone")
-
-
-@contextmanager
-def _terminal() -> Iterator[Keys]:
-    """The keys of the terminal, each as soon as it is pressed.
-
-    Raises:
-        TouchlineError: stdin is no terminal.
-    """
-    if not sys.stdin.isatty():
-        raise TouchlineError("drive reads keys from a terminal, and stdin is none; run it in a terminal of its own")
-    import termios
-    import tty
-
-    descriptor = sys.stdin.fileno()
-    before = termios.tcgetattr(descriptor)
-
-    def keys(timeout: float) -> str:
-        ready, _, _ = select.select([descriptor], [], [], timeout)
-        return os.read(descriptor, 256).decode(errors="ignore") if ready else ""
-
-    try:
-        tty.setcbreak(descriptor)
-        yield keys
-    finally:
-        termios.tcsetattr(descriptor, termios.TCSADRAIN, before)

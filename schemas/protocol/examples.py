@@ -34,6 +34,7 @@ from schemas.match_config import MatchConfig
 from schemas.message import Message
 from schemas.parameters import Parameter, ParameterDeed, ParametersReply, ParametersRequest
 from schemas.profile import load_profile
+from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
 from schemas.rule_book import load_rule_book
 from schemas.scene import SceneDeed, SceneReply, SceneRequest
 from schemas.side import Side
@@ -187,6 +188,8 @@ def _host() -> tuple[Message, ...]:
         RecorderReply(
             accepted=True, recorder="recorder", paused=False, file="final.0003.mcap", messages=6045, lost=0, tick=403
         ),
+        ReplayRequest(deed=ReplayDeed.SEEK, to="goal:1-5"),
+        ReplayReply(accepted=True, time=3.24, end=28.02, rate=1.0, messages=2290),
     )
 
 

@@ -1,0 +1,140 @@
+"""`touchline replay`: a recording back onto the bus."""
+
+import json as json_text
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from arena import options
+
+if TYPE_CHECKING:
+    from recordings.replay.player import Player
+    from recordings.replay.programme import Replay
+    from schemas.bus.contract import Bus
+    from schemas.clock import Clock
+
+
+def replay(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
+    rate: Annotated[float, typer.Option(min=0.001, help="Simulated seconds per second.")] = 1.0,
+    fast: Annotated[bool, typer.Option("--fast", help="As fast as possible; recorders are waited for.")] = False,
+    start: Annotated[
+        str | None, typer.Option("--from", help="Where to begin: seconds, or an event as in goal:2 or goal:2-5.")
+    ] = None,
+    end: Annotated[str | None, typer.Option("--to", help="Where to end, likewise; that moment is played.")] = None,
+    loop: Annotated[bool, typer.Option("--loop", help="Begin again at the end.")] = False,
+    paused: Annotated[bool, typer.Option("--paused", help="Stand still at the beginning.")] = False,
+    stay: Annotated[bool, typer.Option("--stay", help="Stand still at the end instead of leaving.")] = False,
+    only: Annotated[
+        list[str] | None, typer.Option(help="Topic, key or pattern of keys to play; may be given again.")
+    ] = None,
+    without: Annotated[list[str] | None, typer.Option(help="Topic, key or pattern of keys to leave out.")] = None,
+    follow: Annotated[
+        bool, typer.Option("--follow", help="The file is still being written: go on with what is added.")
+    ] = False,
+    behind: Annotated[
+        float, typer.Option(min=0.0, help="With --follow: s of simulated time behind to begin at.")
+    ] = 5.0,
+    listen: options.Listen = options.DEFAULT_ENDPOINT,
+    insecure: options.Insecure = False,
+    connect: Annotated[
+        str | None, typer.Option(help="Endpoint of a running host to replay beside it, in place of --listen.")
+    ] = None,
+    match: options.MatchName = None,
+    prefix: Annotated[str, typer.Option(help="Put before the name of the match: replay_.")] = "",
+    json: options.Json = False,
+) -> None:
+    """Replay a recording on the bus, with the keys, order and spacing of the match.
+
+    Space pauses, "." steps, arrows wind and change the rate, n and b go from event to event, q leaves; from elsewhere,
+    `touchline player` does the same.
+
+    Example: touchline replay runs/friendly-20260101T120000Z-seed1/match.mcap --from goal:1-5 --rate 2
+    """
+    from recordings.replay.programme import Programme, Replay
+    from schemas.clock import WallClock
+
+    programme = Programme(
+        file,
+        start=start,
+        end=end,
+        rate=None if fast else rate,
+        loop=loop,
+        paused=paused,
+        stay=stay,
+        only=tuple(only or ()),
+        without=tuple(without or ()),
+        follow=follow,
+        behind=behind,
+    )
+    opened = Replay(programme)
+    clock = WallClock()
+    name = options.match_name(prefix + (match or opened.recording.manifest.match))
+    with _seat(name, clock, listen, connect, insecure=insecure) as bus:
+        began = clock.now()
+        player = _play(opened, bus, clock, quiet=json)
+        wall = clock.now() - began
+    status = player.status()
+    if json:
+        fields = {**status.model_dump(include={"time", "start", "end", "messages"}), "wall_s": round(wall, 3)}
+        typer.echo(json_text.dumps(fields))
+
+
+@contextmanager
+def _seat(match: str, clock: "Clock", listen: str, connect: str | None, *, insecure: bool) -> "Iterator[Bus]":
+    """A host's seat, or a client's beside a running host."""
+    from schemas.bus.endpoint import parse_endpoint
+    from schemas.bus.zenoh_bus import open_client, open_host
+
+    if connect is not None:
+        parse_endpoint(connect)
+        with open_client(match, clock, connect) as bus:
+            typer.echo(f'match "{match}" at {connect}', err=True)
+            yield bus
+        return
+    endpoint = options.listening(listen, insecure=insecure)
+    with open_host(match, clock, endpoint) as bus:
+        typer.echo(f'match "{match}" on {endpoint}', err=True)
+        yield bus
+
+
+def _play(opened: "Replay", bus: "Bus", clock: "Clock", *, quiet: bool) -> "Player":
+    """Play it on the screen that suits, by keys where there is a terminal; Ctrl-C and SIGTERM end it."""
+    from arena.match_run import StopSignals
+    from arena.replay_keys import asks, legend
+    from arena.replay_screen import screen_on
+    from arena.terminal import terminal
+    from recordings.replay.host import ReplayHost
+    from recordings.replay.moments import moments_of
+    from schemas.replay import ReplayDeed, ReplayRequest
+
+    by_keys = sys.stdin.isatty() and not quiet
+    moments = moments_of(opened.recording) if by_keys else []
+    keyboard = terminal("replay") if by_keys else nullcontext(_no_keys)
+    stream = sys.stderr if quiet else sys.stdout
+    host = ReplayHost(bus, opened.recording.manifest.setup, lambda **more: opened.player(clock, **more))
+    with StopSignals() as stop, keyboard as keys, screen_on(stream, clock) as show:
+        if by_keys:
+            typer.echo(legend())
+
+        def meanwhile(player: "Player") -> None:
+            for ask in asks(keys(0.0)):
+                player.control(ask(player.status(), moments))
+            if stop.received is not None:
+                player.control(ReplayRequest(deed=ReplayDeed.LEAVE))
+            show(player.status())
+
+        host.run(meanwhile)
+    if stop.received is not None:
+        raise typer.Exit(128 + stop.received)
+    return host.player
+
+
+def _no_keys(timeout: float) -> str:
+    """Nobody types."""
+    del timeout
+    return ""

@@ -1,0 +1,85 @@
+"""Who listens to a replay: recorders, which it does not run away from, and others, whom it tells how things stand."""
+
+from recordings.reader import Recorded
+from schemas.bus.contract import Bus
+from schemas.message import BadMessageError
+from schemas.topics import APPLIED, PROGRESS
+
+WINDOW = 250
+"""Ticks that a recorder may be behind: well within what a writer keeps for recovery."""
+_PATIENCE_S = 1.0
+"""Wall time that a recorder is waited for without word of it; then it is left behind."""
+
+
+class _Recorder:
+    """One recorder: how far it has come, and what it was told."""
+
+    def __init__(self, now: float) -> None:
+        self.tick = -1
+        self.heard_at = now
+        self.given_up = False
+        self.told: list[int] = []
+        """Ticks that it was told and has not confirmed."""
+
+
+class Listeners:
+    """Everybody who came to listen, by token."""
+
+    def __init__(self, bus: Bus, tick_s: float) -> None:
+        """`tick_s` is the control tick in s."""
+        self._clock = bus.clock
+        self._tick_ns = tick_s * 1e9
+        self._watch = bus.watch_alive()
+        self._progress = bus.subscribe(PROGRESS)
+        self.recorders: dict[str, _Recorder] = {}
+
+    def update(self) -> bool:
+        """Take in who came and went, and how far recorders are; whether anybody came."""
+        came = False
+        while (presence := self._watch.receive()) is not None:
+            came = came or (presence.alive and presence.kind not in ("host", "replay"))
+            if presence.kind == "recorder" and presence.alive:
+                self.recorders[presence.name] = _Recorder(self._clock.now())
+            elif presence.kind == "recorder":
+                self.recorders.pop(presence.name, None)
+        while (received := self._progress.receive()) is not None:
+            recorder = self.recorders.get(received.chunks["name"])
+            if recorder is not None:
+                try:
+                    self._confirm(recorder, received.message().tick)
+                except BadMessageError:
+                    continue  # it counts as silence
+        return came
+
+    def said(self, recorded: Recorded) -> None:
+        """A message was said; the inputs of a tick are what recorders confirm."""
+        if recorded.topic is APPLIED and self.recorders:
+            tick = round(recorded.log_ns / self._tick_ns)
+            for recorder in [one for one in self.recorders.values() if not one.given_up]:
+                if not recorder.told:
+                    recorder.heard_at = self._clock.now()
+                recorder.told.append(tick)
+
+    def have_room(self) -> bool:
+        """Whether another moment may be said, without running away from a recorder that is still heard of."""
+        late = [recorder for recorder in self.recorders.values() if len(recorder.told) > WINDOW]
+        if not late:
+            return True
+        self.update()
+        return not any(len(recorder.told) > WINDOW and self._is_waited_for(recorder) for recorder in late)
+
+    def behind(self) -> bool:
+        """Whether a recorder that is still heard of has not confirmed everything."""
+        return any(recorder.told and self._is_waited_for(recorder) for recorder in self.recorders.values())
+
+    def _confirm(self, recorder: _Recorder, tick: int) -> None:
+        if tick in recorder.told:
+            del recorder.told[: recorder.told.index(tick) + 1]
+        if tick != recorder.tick:
+            recorder.tick, recorder.heard_at, recorder.given_up = tick, self._clock.now(), False
+
+    def _is_waited_for(self, recorder: _Recorder) -> bool:
+        if self._clock.now() - recorder.heard_at > _PATIENCE_S and not recorder.given_up:
+            recorder.given_up = True
+            recorder.told.clear()
+        return not recorder.given_up

@@ -1,0 +1,72 @@
+"""Moments of a recording in words: seconds of simulated time, or an event, `goal:2`, `kick_off:1-5`."""
+
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from recordings.reader import Recording
+from schemas.errors import TouchlineError, did_you_mean
+from schemas.game import EventKind, Phase
+from schemas.topics import EVENT, STATE
+
+_EVENT = re.compile(r"([a-z][a-z_]*)(?::(-?\d+))?([+-]\d+(?:\.\d+)?)?")
+
+
+class Moment(NamedTuple):
+    """Something that can be gone to."""
+
+    time: float
+    """s of simulated time."""
+    name: str
+    """The kind of the event, or the phase that begins."""
+
+
+def moments_of(recording: Recording) -> list[Moment]:
+    """Every event, and every phase that begins and is no event itself, in order.
+
+    Raises:
+        TouchlineError: the file is damaged inside.
+    """
+    return sorted([*_events(recording), *_phases(recording)])
+
+
+def _events(recording: Recording) -> Iterator[Moment]:
+    for recorded, event in recording.decoded(EVENT.key):
+        yield Moment(recorded.time, event.kind.value)
+
+
+def _phases(recording: Recording) -> Iterator[Moment]:
+    phase: Phase | None = None
+    kinds = {kind.value for kind in EventKind}
+    for recorded, state in recording.decoded(STATE.key):
+        if state.phase is not phase and state.phase.value not in kinds:
+            yield Moment(recorded.time, state.phase.value)
+        phase = state.phase
+
+
+def time_of(words: str, moments: list[Moment]) -> float:
+    """The simulated time in s that words name: a number, or `NAME:COUNT±SECONDS`, of which the name is enough.
+
+    `goal:2` is the second goal, `goal:-1` the last, `goal:2-5` five seconds before the second.
+
+    Raises:
+        TouchlineError: no number and no event, or an event that did not happen, or not so often.
+    """
+    try:
+        return float(words)
+    except ValueError:
+        found = _EVENT.fullmatch(words.strip())
+    names = [*EventKind, *Phase]
+    if found is None:
+        raise TouchlineError(f'"{words}" is no moment; give seconds, or an event as in goal:2 or kick_off:1-5')
+    name, number, shift = found[1], int(found[2] or 1), float(found[3] or 0.0)
+    if name not in names:
+        raise TouchlineError(f'"{words}" names no event; {did_you_mean(name, names)}')
+    times = [moment.time for moment in moments if moment.name == name]
+    if number == 0 or abs(number) > len(times):
+        happened = {moment.name: None for moment in moments}
+        count = f"{name} happened {len(times)} times" if times else f"there is no {name}"
+        raise TouchlineError(
+            f'"{words}" is not in this recording: {count}; it has {", ".join(happened) or "no events"}'
+        )
+    return times[number - 1 if number > 0 else number] + shift

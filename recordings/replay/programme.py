@@ -1,0 +1,146 @@
+"""What is to be replayed, and how: a file or one that is still written, from where to where, which keys."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+from recordings.reader import Recording, open_recording
+from recordings.replay.moments import moments_of, time_of
+from recordings.replay.player import Player, Span
+from recordings.replay.transport import AS_FAST_AS_POSSIBLE
+from recordings.tape import Tape
+from schemas.clock import Clock
+from schemas.errors import TouchlineError, did_you_mean
+from schemas.topics import TOPICS, Topic
+
+
+@dataclass(frozen=True, slots=True)
+class Programme:
+    """What somebody asked for."""
+
+    file: Path
+    start: str | None = None
+    """Seconds or an event; from the beginning when not given."""
+    end: str | None = None
+    rate: float | None = 1.0
+    """Simulated seconds per wall second; as fast as possible when nothing."""
+    loop: bool = False
+    paused: bool = False
+    stay: bool = False
+    """Stand still at the end instead of ending."""
+    only: tuple[str, ...] = ()
+    """Keys, patterns of keys, or names of topics; all when there are none."""
+    without: tuple[str, ...] = ()
+    follow: bool = False
+    """The file is still being written."""
+    behind: float = 5.0
+    """Following: where to begin, s of simulated time before the newest."""
+
+
+class Replay:
+    """A recording that is open for replay."""
+
+    def __init__(self, programme: Programme) -> None:
+        """Open it.
+
+        Raises:
+            TouchlineError: no such file, not a recording, damaged, a moment or a key that it does not have.
+        """
+        path = _growing(programme.file) if programme.follow else programme.file
+        if programme.follow and programme.loop:
+            raise TouchlineError(
+                "--follow and --loop are both given; a match that goes on has no end to begin again at"
+            )
+        self.programme = programme
+        self.recording: Recording = open_recording(path)
+        keep = _filter(programme.only, programme.without, [channel.key for channel in self.recording.channels])
+        self.tape = Tape(path, keep)
+        if self.recording.complete and not self.tape.finished:
+            raise TouchlineError(f"{path}: damaged inside (its records cannot be followed); take another copy of it")
+        self.span = self._span()
+
+    def time_of(self, words: str) -> float:
+        """The simulated time in s that words name, `12.5` or `goal:2`.
+
+        Raises:
+            TouchlineError: it is no moment of this recording.
+        """
+        return time_of(words, moments_of(self.recording) if not _is_number(words) else [])
+
+    def player(self, clock: Clock, **more: Callable[..., object]) -> Player:
+        """A player for it; `more` is `say` and `has_room`."""
+        wanted = self.programme
+        rate = AS_FAST_AS_POSSIBLE if wanted.rate is None else wanted.rate
+        return Player(
+            self.tape,
+            clock,
+            span=self.span,
+            rate=rate,
+            paused=wanted.paused,
+            loop=wanted.loop,
+            stay=wanted.stay,
+            follow=wanted.follow,
+            time_of=self.time_of,
+            **more,  # type: ignore[arg-type]
+        )
+
+    def _span(self) -> Span:
+        wanted, tape = self.programme, self.tape
+        start_ns = tape.start_ns
+        if wanted.start is not None:
+            start_ns = max(start_ns, round(self.time_of(wanted.start) * 1e9))
+        elif wanted.follow:
+            start_ns = max(start_ns, tape.end_ns - round(wanted.behind * 1e9))
+        end_ns = round(self.time_of(wanted.end) * 1e9) if wanted.end is not None else None
+        if not wanted.follow and start_ns > tape.end_ns:
+            raise TouchlineError(
+                f"--from {wanted.start} is behind the end of {tape_s(tape.start_ns, tape.end_ns)}; begin earlier"
+            )
+        if end_ns is not None and end_ns < start_ns:
+            raise TouchlineError(f"--to {wanted.end} is before the beginning at {start_ns / 1e9:.2f} s; end later")
+        return Span(start_ns, end_ns)
+
+
+def tape_s(start_ns: int, end_ns: int) -> str:
+    """An extent in words."""
+    return f"the recording, {start_ns / 1e9:.2f} to {end_ns / 1e9:.2f} s"
+
+
+def _is_number(words: str) -> bool:
+    try:
+        float(words)
+    except ValueError:
+        return False
+    return True
+
+
+def _growing(path: Path) -> Path:
+    """The file itself, or the part of it that its recorder still writes."""
+    part = path.with_name(path.name + ".part")
+    return part if not path.exists() and part.exists() else path
+
+
+def _filter(only: Sequence[str], without: Sequence[str], keys: Sequence[str]) -> Callable[[str, Topic], bool]:
+    """Which keys are replayed.
+
+    Raises:
+        TouchlineError: a pattern that no key of the recording fits.
+    """
+    rows = {topic: name for name, topic in TOPICS.items()}
+
+    def fits(pattern: str, key: str, name: str) -> bool:
+        return name == pattern or fnmatchcase(key, pattern)
+
+    for option, patterns in (("--only", only), ("--without", without)):
+        for pattern in patterns:
+            if pattern not in TOPICS and not any(fnmatchcase(key, pattern) for key in keys):
+                known = did_you_mean(pattern, [*TOPICS, *keys])
+                raise TouchlineError(f'{option} "{pattern}" fits no key of the recording; {known}')
+
+    def keep(key: str, topic: Topic) -> bool:
+        name = rows[topic]
+        wanted = not only or any(fits(pattern, key, name) for pattern in only)
+        return wanted and not any(fits(pattern, key, name) for pattern in without)
+
+    return keep

@@ -1,0 +1,239 @@
+"""The host of a replay, on the in-process bus: what is heard, who is answered, and what a recorder makes of it."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from recordings.reader import open_recording
+from recordings.recorder import Recorder
+from recordings.replay.host import ReplayHost
+from recordings.replay.programme import Programme, Replay
+from recordings.writer import RecordingWriter
+from schemas.bus.contract import NoAnswerError
+from schemas.bus.in_process import InProcessBus, Medium
+from schemas.clock import SteppedClock
+from schemas.errors import TouchlineError
+from schemas.game import ActionName, RefereeAction
+from schemas.host import SetupRequest
+from schemas.replay import ReplayDeed, ReplayRequest
+from schemas.topics import ACTION, COMMAND, EVENT, REPLAY, SETUP, WORLD
+
+
+class Room:
+    """A replay and those who listen to it, in one process, on one clock."""
+
+    def __init__(self, match: str = "friendly") -> None:
+        self.medium, self.clock, self.match = Medium(), SteppedClock(), match
+
+    def seat(self) -> InProcessBus:
+        return self.medium.seat(self.match, SteppedClock())
+
+    def host(self, path: Path, **wanted) -> ReplayHost:
+        opened = Replay(Programme(path, **wanted))
+        bus = self.medium.seat(self.match, self.clock)
+        return ReplayHost(bus, opened.recording.manifest.setup, lambda **more: opened.player(self.clock, **more))
+
+    def run(self, host: ReplayHost, seconds: float, step: float = 0.01) -> None:
+        end = self.clock.now() + seconds
+        while self.clock.now() < end:
+            host.pump()
+            self.clock.sleep_until(self.clock.now() + step)
+
+
+@pytest.fixture
+def room() -> Iterator[Room]:
+    yield Room()
+
+
+def test_what_is_recorded_is_heard_on_its_keys_in_its_order(recorded, room):
+    listener = room.seat()
+    worlds, commands = listener.subscribe(WORLD), listener.subscribe(COMMAND)
+    room.host(recorded.path, rate=None).run()
+    for subscription, keys in ((worlds, "world"), (commands, "robot/*/command")):
+        for expected in recorded.messages(keys):
+            received = subscription.receive()
+            assert (received.key, received.payload) == (expected.key, expected.payload)
+            assert received.stamp.sim_ns == expected.log_ns
+        assert subscription.receive() is None
+
+
+def test_a_recording_of_a_replay_has_equal_payloads_in_equal_order(recorded, room, tmp_path):
+    """Record, replay, record: keys, payloads and simulated times are the same, and nothing is lost."""
+    path = tmp_path / "again.mcap"
+    bus = room.seat()
+    writer = RecordingWriter(path, bus.clock, room.match)
+    recorder = Recorder(bus, writer)
+    host = room.host(recorded.path, rate=None)
+    recorder.pump()
+    host.pump()
+    host.run(lambda _: recorder.pump())
+    host._bus.close()
+    recorder.run(lambda: False)
+    writer.abandon()
+    again = open_recording(path, whole=True)
+    assert again.manifest.setup == recorded.manifest.setup
+    assert again.result.lost == again.result.missed_before_start == 0
+    facts = [(one.key, one.payload, one.log_ns) for one in recorded.messages()]
+    assert [(one.key, one.payload, one.log_ns) for one in again.messages()] == facts
+
+
+def test_as_fast_as_possible_does_not_run_away_from_a_recorder(recorded, room, monkeypatch):
+    monkeypatch.setattr("recordings.replay.listeners.WINDOW", 20)
+    bus = room.seat()
+    writer = RecordingWriter(recorded.path.with_name("late.mcap"), bus.clock, room.match)
+    recorder = Recorder(bus, writer)
+    host = room.host(recorded.path, rate=None, paused=True)
+    worlds = room.seat().subscribe(WORLD)
+    for _ in range(3):
+        recorder.pump()
+        host.pump()
+    host.player.control(ReplayRequest(deed=ReplayDeed.PLAY))
+    for _ in range(5):
+        host.pump()
+    heard = 0
+    while worlds.receive() is not None:
+        heard += 1
+    assert 20 <= heard <= 23
+    for _ in range(200):
+        recorder.pump()
+        host.pump()
+    while worlds.receive() is not None:
+        heard += 1
+    assert heard == 200
+    writer.abandon()
+
+
+def test_a_recorder_that_is_silent_is_left_behind(recorded, room, monkeypatch):
+    monkeypatch.setattr("recordings.replay.listeners.WINDOW", 20)
+    seat = room.seat()
+    seat.declare_alive("recorder", "stuck")
+    host = room.host(recorded.path, rate=None)
+    host.run()
+    assert host.player.status().messages == len(list(recorded.messages()))
+
+
+def test_it_tells_how_the_match_was_set_up_under_the_name_it_is_replayed_by(recorded):
+    room = Room("replay_friendly")
+    host = room.host(recorded.path, paused=True)
+    answer = room.seat().ask(SETUP, SetupRequest())
+    host.pump()
+    setup = answer.result(0.0)
+    assert setup.match == "replay_friendly"
+    assert setup == recorded.manifest.setup.model_copy(update={"match": "replay_friendly"})
+
+
+def test_it_runs_beside_a_live_match_that_hears_none_of_it(recorded):
+    room = Room("replay_friendly")
+    live = room.medium.seat("friendly", SteppedClock()).subscribe(WORLD)
+    replayed = room.seat().subscribe(WORLD)
+    room.host(recorded.path, rate=None).run()
+    assert live.receive() is None
+    assert replayed.receive() is not None
+
+
+def test_who_asks_it_winds_it(recorded, room):
+    host, asker = room.host(recorded.path), room.seat()
+    room.run(host, 0.5)
+    answer = asker.ask(REPLAY, ReplayRequest(deed=ReplayDeed.SEEK, to="goal:1-0.5"))
+    host.pump()
+    assert answer.result(0.0).time == pytest.approx(1.48)
+    answer = asker.ask(REPLAY, ReplayRequest(deed=ReplayDeed.SEEK, to="goal:2"))
+    host.pump()
+    reply = answer.result(0.0)
+    assert not reply.accepted and "goal happened 1 times" in reply.reason
+
+
+def test_who_asks_for_what_is_no_request_is_told_so(recorded, room):
+    host = room.host(recorded.path)
+    answer = room.seat().ask(REPLAY, SetupRequest(version="9.0"))
+    host.pump()
+    with pytest.raises(NoAnswerError, match="9"):
+        answer.result(0.0)
+
+
+def test_who_wants_to_change_it_is_refused(recorded, room):
+    host = room.host(recorded.path)
+    answer = room.seat().ask(ACTION, RefereeAction(action=ActionName.STOP))
+    host.pump()
+    reply = answer.result(0.0)
+    assert not reply.accepted and "replay" in reply.reason
+
+
+def test_who_comes_while_it_stands_still_is_told_how_things_stand(recorded, room):
+    host = room.host(recorded.path, start="1.0", paused=True)
+    room.run(host, 3.0)
+    late = room.seat()
+    worlds, events = late.subscribe(WORLD), late.subscribe(EVENT)
+    room.run(host, 1.1)
+    assert worlds.receive().message().tick == 50
+    assert events.receive() is None
+
+
+def test_to_a_recorder_nothing_is_said_twice_while_it_stands_still(recorded, room):
+    host = room.host(recorded.path, start="1.0", paused=True)
+    recorder = room.seat()
+    recorder.declare_alive("recorder", "recorder")
+    room.run(host, 1.0)
+    worlds = recorder.subscribe(WORLD)
+    room.run(host, 5.0, 0.1)
+    assert worlds.receive() is None
+
+
+def test_it_follows_a_match_that_is_still_recorded(stage, room):
+    """Time-shift: seconds behind, paused while the match goes on, and to the end when it is over."""
+    stage.play(range(100))
+    stage.writer.sync()
+    while stage.writer._jobs.qsize():
+        stage.writer._thread.join(0.01)
+    stage.writer._thread.join(0.1)
+    host = room.host(stage.path, follow=True, behind=1.0)
+    worlds = room.seat().subscribe(WORLD)
+    newest = host.player.end_ns / 1e9
+    room.run(host, 0.5)
+    assert worlds.receive().message().time == pytest.approx(newest - 1.0, abs=0.03)
+    host.player.control(ReplayRequest(deed=ReplayDeed.PAUSE))
+    stage.play(range(100, 200))
+    stage.leave()
+    room.run(host, 2.0)
+    host.player.control(ReplayRequest(deed=ReplayDeed.PLAY))
+    room.run(host, 6.0)
+    assert host.player.ended
+    heard = []
+    while (received := worlds.receive()) is not None:
+        heard.append(received.message().tick)
+    assert list(dict.fromkeys(heard)) == list(range(heard[0], 200))  # while it stood still, it said where again
+
+
+@pytest.mark.parametrize(
+    ("wanted", "word"),
+    [
+        ({"start": "99"}, "--from 99 is behind the end"),
+        ({"start": "2", "end": "1"}, "--to 1 is before the beginning"),
+        ({"only": ("wrld",)}, 'did you mean "world"'),
+        ({"without": ("robot/blue1/command",)}, "fits no key"),
+        ({"follow": True, "loop": True}, "--follow and --loop"),
+        ({"start": "goal:7"}, "goal happened 1 times"),
+    ],
+)
+def test_what_cannot_be_replayed_is_said_in_one_line(recorded, wanted, word):
+    with pytest.raises(TouchlineError) as error:
+        Replay(Programme(recorded.path, **wanted))
+    assert word in str(error.value) and "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("wanted", "keys"),
+    [
+        ({"only": ("world", "event")}, {"world", "game/event"}),
+        ({"only": ("robot/cyan*",)}, {"robot/cyan1/command", "robot/cyan2/command"}),
+        ({"only": ("game/*",), "without": ("state",)}, {"game/event"}),
+    ],
+)
+def test_topics_and_keys_are_chosen_by_name_and_pattern(recorded, room, wanted, keys):
+    opened = Replay(Programme(recorded.path, rate=None, **wanted))
+    heard = []
+    player = opened.player(SteppedClock(), say=heard.append)
+    while not player.ended:
+        player.pump()
+    assert {one.key for one in heard} == keys
