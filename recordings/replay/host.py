@@ -76,10 +76,14 @@ class ReplayHost:
         now = self._clock.now()
         if said:
             self._told_at = now
-        elif self.player.paused and not self._listeners.recorders and (newcomers or now - self._told_at > _STILL_S):
+        elif self._may_repeat() and (newcomers or now - self._told_at > _STILL_S):
             self._told_at = now
             self.player.tell_standing()
         return said
+
+    def _may_repeat(self) -> bool:
+        """A recorder would have it twice; and before the first message is played nothing stands yet."""
+        return self.player.paused and self.player.said > 0 and not self._listeners.recorders
 
     def part(self) -> None:
         """Give the recorders time to take in the last message."""

@@ -97,6 +97,11 @@ class Player:
         """It stands still."""
         return self._transport.paused
 
+    @property
+    def said(self) -> int:
+        """Messages said so far."""
+        return self._said
+
     def pump(self) -> int:
         """Say what is due; returns how many messages that were.
 
