@@ -46,7 +46,7 @@ class _Place(NamedTuple):
 class Tape:
     """A recording that stands at one message; `keep` says which keys are on it."""
 
-    def __init__(self, path: Path, keep: Callable[[str, Topic], bool] = lambda *_: True) -> None:
+    def __init__(self, path: Path, keep: Callable[[str], bool] = lambda _: True) -> None:
         """Look through the file.
 
         Raises:
@@ -215,5 +215,5 @@ class Tape:
 
     def _meet(self, channel: Channel) -> None:
         topic = TOPICS.get(channel.metadata.get("topic", ""))
-        is_kept = topic is not None and topic.message is not None and self._keep(channel.topic, topic)
+        is_kept = topic is not None and topic.message is not None and self._keep(channel.topic)
         self._channels[channel.id] = (channel.topic, topic) if topic is not None and is_kept else None

@@ -29,10 +29,10 @@ def replay(
     loop: Annotated[bool, typer.Option("--loop", help="Begin again at the end.")] = False,
     paused: Annotated[bool, typer.Option("--paused", help="Stand still at the beginning.")] = False,
     stay: Annotated[bool, typer.Option("--stay", help="Stand still at the end instead of leaving.")] = False,
-    only: Annotated[
-        list[str] | None, typer.Option(help="Topic, key or pattern of keys to play; may be given again.")
+    include: Annotated[
+        list[str] | None, typer.Option(help="Keys to play, as key expressions: world, robot/*/command, team/**.")
     ] = None,
-    without: Annotated[list[str] | None, typer.Option(help="Topic, key or pattern of keys to leave out.")] = None,
+    exclude: Annotated[list[str] | None, typer.Option(help="Keys to leave out, likewise.")] = None,
     follow: Annotated[
         bool, typer.Option("--follow", help="The file is still being written: go on with what is added.")
     ] = False,
@@ -56,6 +56,7 @@ def replay(
     Example: touchline replay runs/friendly-20260101T120000Z-seed1/match.mcap --from goal:1-5 --rate 2
     """
     from recordings.replay.programme import Programme, Replay
+    from recordings.selection import Selection
     from schemas.clock import WallClock
 
     programme = Programme(
@@ -66,8 +67,7 @@ def replay(
         loop=loop,
         paused=paused,
         stay=stay,
-        only=tuple(only or ()),
-        without=tuple(without or ()),
+        selection=Selection(tuple(include or ()), tuple(exclude or ())),
         follow=follow,
         behind=behind,
     )

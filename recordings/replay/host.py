@@ -7,6 +7,7 @@ from typing import Any
 from recordings.reader import Recorded
 from recordings.replay.listeners import Listeners
 from recordings.replay.player import Player
+from recordings.replay.relay import Relay
 from schemas.bus.contract import Bus, Publisher, Server
 from schemas.game import ActionReply
 from schemas.host import Setup
@@ -14,7 +15,7 @@ from schemas.message import BadMessageError, Message
 from schemas.parameters import ParametersReply
 from schemas.replay import ReplayReply, ReplayRequest
 from schemas.scene import SceneReply
-from schemas.topics import ACTION, PARAMETERS, REPLAY, SCENE, SETUP, Topic
+from schemas.topics import ACTION, PARAMETERS, REPLAY, SCENE, SETUP, Party, Topic
 
 _STILL_S = 1.0
 """Wall time after which a replay that stands still says again how things stand: who has come since must know."""
@@ -46,7 +47,9 @@ class ReplayHost:
         self._refused: list[tuple[Server, Callable[[], Message]]] = [
             (bus.serve(topic), refusal) for topic, refusal in _REFUSALS.items()
         ]
-        self._listeners = Listeners(bus, setup.time.tick if setup is not None else math.inf)
+        self._relay = Relay(bus)
+        self._tick_ns = setup.time.tick * 1e9 if setup is not None else math.inf
+        self._listeners = Listeners(bus, self._tick_ns)
         self.player = make_player(say=self._say, has_room=self._listeners.have_room)
         self.foreign = 0
         """Messages on keys that no topic has; left out."""
@@ -73,6 +76,7 @@ class ReplayHost:
         self._answer()
         newcomers = self._listeners.update()
         said = self.player.pump()
+        self._relay.send(self._tick(), empty=False)
         now = self._clock.now()
         if said:
             self._told_at = now
@@ -94,7 +98,9 @@ class ReplayHost:
             self._listeners.update()
 
     def _say(self, recorded: Recorded) -> None:
-        self._clock.sim_ns = recorded.log_ns
+        if recorded.log_ns != self._clock.sim_ns:
+            self._relay.send(self._tick(), empty=True)
+            self._clock.sim_ns = recorded.log_ns
         try:
             writer = self._writers[recorded.key]
         except KeyError:
@@ -103,7 +109,13 @@ class ReplayHost:
             self.foreign += 1
         else:
             writer.put_payload(recorded.payload)
+            if recorded.topic.writer is not Party.HOST:
+                self._relay.note(recorded)
             self._listeners.said(recorded)
+
+    def _tick(self) -> int:
+        """The tick of the moment that is said."""
+        return round(max(0, self._clock.sim_ns) / self._tick_ns)
 
     def _writer(self, recorded: Recorded) -> Publisher | None:
         chunks = recorded.topic.match(recorded.key)

@@ -25,10 +25,10 @@ class _Recorder:
 class Listeners:
     """Everybody who came to listen, by token."""
 
-    def __init__(self, bus: Bus, tick_s: float) -> None:
-        """`tick_s` is the control tick in s."""
+    def __init__(self, bus: Bus, tick_ns: float) -> None:
+        """`tick_ns` is the control tick in ns."""
         self._clock = bus.clock
-        self._tick_ns = tick_s * 1e9
+        self._tick_ns = tick_ns
         self._watch = bus.watch_alive()
         self._progress = bus.subscribe(PROGRESS)
         self.recorders: dict[str, _Recorder] = {}

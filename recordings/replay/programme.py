@@ -2,17 +2,16 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from fnmatch import fnmatchcase
 from pathlib import Path
 
 from recordings.reader import Recording, open_recording
 from recordings.replay.moments import moments_of, time_of
 from recordings.replay.player import Player, Span
 from recordings.replay.transport import AS_FAST_AS_POSSIBLE
+from recordings.selection import EVERYTHING, Selection, pattern
 from recordings.tape import Tape
 from schemas.clock import Clock
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.topics import TOPICS, Topic
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,9 +28,8 @@ class Programme:
     paused: bool = False
     stay: bool = False
     """Stand still at the end instead of ending."""
-    only: tuple[str, ...] = ()
-    """Keys, patterns of keys, or names of topics; all when there are none."""
-    without: tuple[str, ...] = ()
+    selection: Selection = EVERYTHING
+    """Which keys are played."""
     follow: bool = False
     """The file is still being written."""
     behind: float = 5.0
@@ -54,8 +52,8 @@ class Replay:
             )
         self.programme = programme
         self.recording: Recording = open_recording(path)
-        keep = _filter(programme.only, programme.without, [channel.key for channel in self.recording.channels])
-        self.tape = Tape(path, keep)
+        _check(programme.selection, [channel.key for channel in self.recording.channels])
+        self.tape = Tape(path, programme.selection.wants)
         if self.recording.complete and not self.tape.finished:
             raise TouchlineError(f"{path}: damaged inside (its records cannot be followed); take another copy of it")
         self.span = self._span()
@@ -121,26 +119,14 @@ def _growing(path: Path) -> Path:
     return part if not path.exists() and part.exists() else path
 
 
-def _filter(only: Sequence[str], without: Sequence[str], keys: Sequence[str]) -> Callable[[str, Topic], bool]:
-    """Which keys are replayed.
+def _check(selection: Selection, keys: Sequence[str]) -> None:
+    """Make sure that what is chosen is there.
 
     Raises:
-        TouchlineError: a pattern that no key of the recording fits.
+        TouchlineError: an expression that no key of the recording fits.
     """
-    rows = {topic: name for name, topic in TOPICS.items()}
-
-    def fits(pattern: str, key: str, name: str) -> bool:
-        return name == pattern or fnmatchcase(key, pattern)
-
-    for option, patterns in (("--only", only), ("--without", without)):
-        for pattern in patterns:
-            if pattern not in TOPICS and not any(fnmatchcase(key, pattern) for key in keys):
-                known = did_you_mean(pattern, [*TOPICS, *keys])
-                raise TouchlineError(f'{option} "{pattern}" fits no key of the recording; {known}')
-
-    def keep(key: str, topic: Topic) -> bool:
-        name = rows[topic]
-        wanted = not only or any(fits(pattern, key, name) for pattern in only)
-        return wanted and not any(fits(pattern, key, name) for pattern in without)
-
-    return keep
+    for option, expressions in (("--include", selection.include), ("--exclude", selection.exclude)):
+        for expression in expressions:
+            if not any(pattern(expression).fullmatch(key) for key in keys):
+                known = did_you_mean(expression, keys)
+                raise TouchlineError(f'{option} "{expression}" fits no key of the recording; {known}')

@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from threading import Event
+from typing import Any
 
 import pytest
 
@@ -26,6 +28,19 @@ def recorded(stage) -> Recording:
     stage.host.referee(199, Phase.FULL_TIME, Score(cyan=1))
     stage.leave()
     return stage.read()
+
+
+@pytest.fixture
+def written() -> Callable[[Any], None]:
+    """Waits until what a recorder has handed on is in its file."""
+
+    def wait(stage) -> None:
+        done = Event()
+        stage.output.sync()
+        stage.output._writer._hand_over(done.set)
+        assert done.wait(30.0)
+
+    return wait
 
 
 @dataclass

@@ -5,11 +5,13 @@ from pathlib import Path
 
 import pytest
 
+from recordings.account import Account
 from recordings.reader import open_recording
+from recordings.record import output_at
 from recordings.recorder import Recorder
 from recordings.replay.host import ReplayHost
 from recordings.replay.programme import Programme, Replay
-from recordings.writer import RecordingWriter
+from recordings.selection import Selection
 from schemas.bus.contract import NoAnswerError
 from schemas.bus.in_process import InProcessBus, Medium
 from schemas.clock import SteppedClock
@@ -62,15 +64,14 @@ def test_a_recording_of_a_replay_has_equal_payloads_in_equal_order(recorded, roo
     """Record, replay, record: keys, payloads and simulated times are the same, and nothing is lost."""
     path = tmp_path / "again.mcap"
     bus = room.seat()
-    writer = RecordingWriter(path, bus.clock, room.match)
-    recorder = Recorder(bus, writer)
+    account = Account()
+    recorder = Recorder(bus, output_at(path, bus.clock, room.match, account), account)
     host = room.host(recorded.path, rate=None)
     recorder.pump()
     host.pump()
     host.run(lambda _: recorder.pump())
     host._bus.close()
     recorder.run(lambda: False)
-    writer.abandon()
     again = open_recording(path, whole=True)
     assert again.manifest.setup == recorded.manifest.setup
     assert again.result.lost == again.result.missed_before_start == 0
@@ -81,8 +82,9 @@ def test_a_recording_of_a_replay_has_equal_payloads_in_equal_order(recorded, roo
 def test_as_fast_as_possible_does_not_run_away_from_a_recorder(recorded, room, monkeypatch):
     monkeypatch.setattr("recordings.replay.listeners.WINDOW", 20)
     bus = room.seat()
-    writer = RecordingWriter(recorded.path.with_name("late.mcap"), bus.clock, room.match)
-    recorder = Recorder(bus, writer)
+    account = Account()
+    output = output_at(recorded.path.with_name("late.mcap"), bus.clock, room.match, account)
+    recorder = Recorder(bus, output, account)
     host = room.host(recorded.path, rate=None, paused=True)
     worlds = room.seat().subscribe(WORLD)
     for _ in range(3):
@@ -101,7 +103,7 @@ def test_as_fast_as_possible_does_not_run_away_from_a_recorder(recorded, room, m
     while worlds.receive() is not None:
         heard += 1
     assert heard == 200
-    writer.abandon()
+    output.abandon()
 
 
 def test_a_recorder_that_is_silent_is_left_behind(recorded, room, monkeypatch):
@@ -180,13 +182,10 @@ def test_to_a_recorder_nothing_is_said_twice_while_it_stands_still(recorded, roo
     assert worlds.receive() is None
 
 
-def test_it_follows_a_match_that_is_still_recorded(stage, room):
+def test_it_follows_a_match_that_is_still_recorded(stage, room, written):
     """Time-shift: seconds behind, paused while the match goes on, and to the end when it is over."""
     stage.play(range(100))
-    stage.writer.sync()
-    while stage.writer._jobs.qsize():
-        stage.writer._thread.join(0.01)
-    stage.writer._thread.join(0.1)
+    written(stage)
     host = room.host(stage.path, follow=True, behind=1.0)
     worlds = room.seat().subscribe(WORLD)
     newest = host.player.end_ns / 1e9
@@ -210,8 +209,8 @@ def test_it_follows_a_match_that_is_still_recorded(stage, room):
     [
         ({"start": "99"}, "--from 99 is behind the end"),
         ({"start": "2", "end": "1"}, "--to 1 is before the beginning"),
-        ({"only": ("wrld",)}, 'did you mean "world"'),
-        ({"without": ("robot/blue1/command",)}, "fits no key"),
+        ({"selection": Selection(("wrld",))}, 'did you mean "world"'),
+        ({"selection": Selection((), ("robot/blue1/command",))}, "fits no key"),
         ({"follow": True, "loop": True}, "--follow and --loop"),
         ({"start": "goal:7"}, "goal happened 1 times"),
     ],
@@ -223,16 +222,15 @@ def test_what_cannot_be_replayed_is_said_in_one_line(recorded, wanted, word):
 
 
 @pytest.mark.parametrize(
-    ("wanted", "keys"),
+    ("selection", "keys"),
     [
-        ({"only": ("world", "event")}, {"world", "game/event"}),
-        ({"only": ("robot/cyan*",)}, {"robot/cyan1/command", "robot/cyan2/command"}),
-        ({"only": ("game/*",), "without": ("state",)}, {"game/event"}),
+        (Selection(("world", "game/event")), {"world", "game/event"}),
+        (Selection(("robot/cyan$*/command",)), {"robot/cyan1/command", "robot/cyan2/command"}),
+        (Selection(("game/**",), ("game/state",)), {"game/event"}),
     ],
 )
-def test_topics_and_keys_are_chosen_by_name_and_pattern(recorded, room, wanted, keys):
-    opened = Replay(Programme(recorded.path, rate=None, **wanted))
-    heard = []
+def test_keys_are_chosen_by_expressions(recorded, selection, keys):
+    opened, heard = Replay(Programme(recorded.path, rate=None, selection=selection)), []
     player = opened.player(SteppedClock(), say=heard.append)
     while not player.ended:
         player.pump()
