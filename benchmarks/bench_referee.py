@@ -1,0 +1,103 @@
+"""Twenty whole matches of the shipped teams by the league's rules: is each played to its end, and does play flow?
+
+For each seed: score, how much of the running clock the ball was in play, and the longest time it was not. The rules
+allow as long as STOP to signal, signal to START, and the limit for putting the ball in play take together. Beside it,
+what the referee's step costs, as a share of the whole tick, measured in the same runs.
+"""
+
+import multiprocessing
+import sys
+import time
+from typing import NamedTuple
+
+from arena.in_process import Table
+from schemas.game import Phase
+from schemas.match_config import load_match
+from schemas.rule_book import load_rule_book
+
+RULES = "msl"
+SEEDS = range(1, 21)
+DURATION_S = 120.0
+IN_PLAY_AT_LEAST = 0.6
+REFEREE_AT_MOST = 0.05
+
+
+class Flow(NamedTuple):
+    """How one match went."""
+
+    seed: int
+    cyan: int
+    magenta: int
+    in_play: float
+    """Share of the running clock."""
+    longest_stop: float
+    """s of the running clock in one piece without the ball in play."""
+    referee: float
+    """Share of the host's work."""
+    over: bool
+
+
+def flow_of(seed: int) -> Flow:
+    """Play one match in this process."""
+    table = Table(load_match(None, {"seed": seed, "rules": RULES, "duration": DURATION_S}))
+    simulation = table.simulation
+    judge, judging = simulation.referee.step, 0.0
+
+    def timed_judge(*arguments: object) -> object:
+        nonlocal judging
+        began = time.thread_time()
+        ruling = judge(*arguments)  # type: ignore[arg-type]
+        judging += time.thread_time() - began
+        return ruling
+
+    simulation.referee.step = timed_judge  # type: ignore[assignment, method-assign]
+    step, stepping = simulation.step, 0.0
+
+    def timed_step(*arguments: object) -> object:
+        nonlocal stepping
+        began = time.thread_time()
+        tick = step(*arguments)  # type: ignore[arg-type]
+        stepping += time.thread_time() - began
+        return tick
+
+    simulation.step = timed_step  # type: ignore[assignment, method-assign]
+    stopped = longest = 0.0
+    clock = simulation.state.timing.clock
+    while not simulation.over:
+        table.step()
+        state = simulation.state
+        passed, clock = state.timing.clock - clock, state.timing.clock
+        stopped = 0.0 if state.phase is Phase.PLAY else stopped + passed
+        longest = max(longest, stopped)
+    timing, score = simulation.state.timing, simulation.state.score
+    share = timing.effective / timing.clock
+    return Flow(seed, score.cyan, score.magenta, share, longest, judging / stepping, simulation.over)
+
+
+def main() -> int:
+    """Print a line for each match and one for all; 1 when something was not as it should be."""
+    restarts = load_rule_book(RULES).restarts
+    waiting = max(restarts.signal_to_start, restarts.positions_limit)
+    allowed = restarts.stop_to_signal + waiting + max(restarts.time_limit, restarts.penalty_limit)
+    with multiprocessing.get_context("spawn").Pool() as pool:
+        flows = []
+        for flow in pool.imap(flow_of, SEEDS):
+            flows.append(flow)
+            print(
+                f"seed {flow.seed:2}: {flow.cyan} : {flow.magenta}, ball in play {flow.in_play:4.0%}, "
+                f"longest stop {flow.longest_stop:4.1f} s",
+                flush=True,
+            )
+    in_play = sum(flow.in_play for flow in flows) / len(flows)
+    longest = max(flow.longest_stop for flow in flows)
+    referee = sorted(flow.referee for flow in flows)[len(flows) // 2]
+    print(
+        f"referee: {sum(flow.over for flow in flows)} of {len(flows)} matches by {RULES} to full time, ball in play "
+        f"{in_play:.0%} of the running clock (at least {IN_PLAY_AT_LEAST:.0%}), longest stop {longest:.1f} s (allowed "
+        f"{allowed:g}), a step of the referee {referee:.1%} of the tick (at most {REFEREE_AT_MOST:.0%})"
+    )
+    return 0 if in_play >= IN_PLAY_AT_LEAST and longest <= allowed else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
