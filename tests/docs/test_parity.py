@@ -18,7 +18,8 @@ def parity(root: Path) -> ModuleType:
 
 def test_every_feature_and_every_defect_is_named_by_a_test(parity: ModuleType) -> None:
     asked = [*(("row", row) for row in parity.ROWS), *(("defect", defect) for defect in parity.DEFECTS)]
-    assert [which for which in asked if which not in parity.named()] == []
+    named = parity.named()
+    assert [which for which in asked if which not in named] == []
 
 
 def test_the_page_is_fresh(parity: ModuleType, root: Path) -> None:

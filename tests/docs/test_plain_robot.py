@@ -22,7 +22,8 @@ def test_a_robot_of_zenoh_and_json_alone_answers_every_sight(root: Path, tmp_pat
     assert recording.result is not None
     count = recording.result.keys[COMMAND.fill(robot="cyan1")]
     health = [message for _, message in recording.decoded(HEALTH.key)][-1].robots["cyan1"]
-    assert count.messages == recording.result.tick + 1
+    last = recording.result.tick  # nobody waits for the answer to the last sight
+    assert last <= count.messages <= last + 1
     assert (count.lost, count.unstamped, health.invalid, health.missed) == (0, 0, 0, 0)
 
 
