@@ -38,6 +38,9 @@ def match(
     split_duration: options.SplitDuration = None,
     keep: options.Keep = None,
     snapshot: options.Snapshot = None,
+    ghost: Annotated[
+        list[str] | None, typer.Option(help="A side played by its recorded commands: magenta=RECORDING.mcap.")
+    ] = None,
     json: options.Json = False,
 ) -> None:
     """Play a match: launch host, recorder and robots, show it, and leave a recording and a result.
@@ -47,11 +50,14 @@ def match(
     Example: touchline match --seed 7 --duration 60 --pace realtime
     """
     from arena.brains import check_teams
+    from arena.ghost import check, teams_of
     from arena.runs import prepare
     from schemas.clock import WallClock
 
+    teams = teams_of(ghost) if ghost else {}
     config = options.read_match(
         file,
+        **{f"teams__{side}": team for side, team in teams.items()},
         seed=seed,
         pace=pace,
         duration=duration,
@@ -69,6 +75,7 @@ def match(
         record__snapshot=snapshot,
         record__wait=not no_record,
     )
+    check(config, ghost or ())
     check_teams(config)
     endpoint = options.listening(listen, insecure=insecure)
     clock = WallClock()

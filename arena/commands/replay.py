@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from arena import options
+from schemas.errors import TouchlineError
 
 if TYPE_CHECKING:
     from recordings.replay.player import Player
@@ -46,6 +47,9 @@ def replay(
     ] = None,
     match: options.MatchName = None,
     prefix: Annotated[str, typer.Option(help="Put before the name of the match: replay_.")] = "",
+    agent: Annotated[
+        str | None, typer.Option(help="Show a brain what a robot saw, and compare: cyan2=module:Class; no bus.")
+    ] = None,
     json: options.Json = False,
 ) -> None:
     """Replay a recording on the bus, with the keys, order and spacing of the match.
@@ -55,6 +59,9 @@ def replay(
 
     Example: touchline replay runs/friendly-20260101T120000Z-seed1/match.mcap --from goal:1-5 --rate 2
     """
+    if agent is not None:
+        _compare(file, agent, json=json)
+        return
     from recordings.replay.programme import Programme, Replay
     from recordings.selection import Selection
     from schemas.clock import WallClock
@@ -82,6 +89,20 @@ def replay(
     if json:
         fields = {**status.model_dump(include={"time", "start", "end", "messages"}), "wall_s": round(wall, 3)}
         typer.echo(json_text.dumps(fields))
+
+
+def _compare(file: Path, agent: str, *, json: bool) -> None:
+    """Say where a brain's commands differ from the recorded ones; exit status 1 where they do."""
+    robot, _, brain = agent.partition("=")
+    if not brain:
+        raise TouchlineError(f'--agent is "{agent}"; write it as cyan2=module:Class')
+    from arena.against import play_against
+    from recordings.reader import open_recording
+
+    verdict = play_against(open_recording(file), robot, brain)
+    typer.echo(json_text.dumps(verdict.to_json()) if json else verdict.sentence())
+    if verdict.first is not None:
+        raise typer.Exit(1)
 
 
 @contextmanager

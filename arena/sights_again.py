@@ -1,0 +1,86 @@
+"""The sights of a recorded match that were not recorded: the match is simulated again, with sensors and referee.
+
+Everything that a robot perceives follows from the match file, the commands and the orders. What people asked the
+referee or did to the pitch is not in them: from there on sights are not what they were, and none are given.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from recordings.reader import Recording
+from schemas.coach import CoachOrder
+from schemas.command import Command
+from schemas.errors import TouchlineError
+from schemas.host import Applied
+from schemas.parameters import ParameterDeed, ParametersRequest
+from schemas.side import Side
+from schemas.sight import Sight
+from schemas.topics import APPLIED, ORDER
+from sim_host.simulation import Simulation
+
+
+@dataclass
+class SightsAgain:
+    """Simulates a recorded match again and gives one robot's sights, as long as the world is the recorded one."""
+
+    recording: Recording
+    robot: str
+    said: Mapping[str, Mapping[int, Command]]
+    """Robot → tick of the sight → what it answered."""
+    until: str = field(default="", init=False)
+    """Why there were no more sights before the end of the recording; nothing when there was no such reason."""
+
+    def __iter__(self) -> Iterator[Sight]:
+        """Sight by sight.
+
+        Raises:
+            TouchlineError: the recording does not hold its match file, or does not begin at tick 0.
+        """
+        config = self.recording.manifest.config
+        if config is None:
+            raise TouchlineError(
+                f"{self.recording.path}: it has neither sights nor its match file; record with touchline match --sights"
+            )
+        simulation = Simulation(config)
+        try:
+            yield from self._sights(simulation, config.speed is None)
+        finally:
+            simulation.close()
+
+    def _sights(self, simulation: Simulation, lockstep: bool) -> Iterator[Sight]:
+        orders = [(recorded.time, recorded.key, order) for recorded, order in self.recording.decoded(ORDER.fill())]
+        for _, applied in self.recording.decoded(APPLIED.key):
+            if applied.tick > 0:
+                if applied.tick != simulation.now.tick + 1:
+                    self.until = f"tick {simulation.now.tick + 1} is not in the recording"
+                    return
+                if applied.robots is not None or applied.obstacles is not None:
+                    self.until = f"at tick {applied.tick} people changed who or what is on the pitch"
+                    return
+                self._give_orders(simulation, orders)
+                self._step(simulation, applied, lockstep)
+            if simulation.now.applied["chain"] != applied.chain:
+                self.until = f"at tick {applied.tick} the world is not the recorded one any more"
+                return
+            if self.robot in simulation.now.sights:
+                yield Sight.decode(simulation.now.sights[self.robot])
+
+    def _step(self, simulation: Simulation, applied: Applied, lockstep: bool) -> None:
+        values = {name: value for name, value in applied.parameters.items() if value is not None}
+        if values:
+            simulation.parameters(ParametersRequest(deed=ParameterDeed.SET, values=values))
+        names = [name for name in applied.parameters if name not in values]
+        if names:
+            simulation.parameters(ParametersRequest(deed=ParameterDeed.RESET, names=names))
+        commands = {}
+        for name, told in applied.inputs.items():
+            answered = told.answers_tick if told.answers_tick is not None or not lockstep else applied.tick - 1
+            command = self.said.get(name, {}).get(answered) if answered is not None else None
+            if command is not None:
+                commands[name] = command
+        simulation.step(commands)
+
+    def _give_orders(self, simulation: Simulation, orders: list[tuple[float, str, CoachOrder]]) -> None:
+        while orders and orders[0][0] <= simulation.now.time:
+            _, key, order = orders.pop(0)
+            simulation.orders[Side(key.split("/")[1])] = order
