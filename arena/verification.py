@@ -185,7 +185,7 @@ def retrace(path: Path, stretch: Stretch) -> _Retraced:
                 continue
             try:
                 again = again or Resimulation(*_beginning(recording, stretch, before))
-                applied: Applied = note.recorded.message()
+                applied: Applied = note.applied or note.recorded.message()  # which says what is wrong with it
                 answers.applied(applied)
                 difference = _compared(again, applied, note)
             except (BadMessageError, ImpossibleTickError) as error:
@@ -268,10 +268,10 @@ def _beginning(recording: Recording, stretch: Stretch, before: TickNote | None) 
 
 
 def _known(before: TickNote | None) -> Known:
-    if before is None or before.world is None:
+    if before is None or before.applied is None or before.world is None:
         raise ImpossibleTickError("the world of the tick before, to begin with, was not recorded")
     try:
-        return Known(World.decode(to_json(before.world)), before.recorded.message().chain)
+        return Known(World.decode(to_json(before.world)), before.applied.chain)
     except BadMessageError as error:
         raise ImpossibleTickError(str(error)) from None
 

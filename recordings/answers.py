@@ -26,6 +26,12 @@ class Contradiction(NamedTuple):
     sent: object
 
 
+class _Sent(NamedTuple):
+    payload: bytes
+    fields: dict[str, Any]
+    """As they stand in it, not validated."""
+
+
 class Answers:
     """Follows commands and inputs of a stretch of a match."""
 
@@ -37,7 +43,7 @@ class Answers:
         self._checked = checked
         self._complete = complete
         self._first_tick = first_tick
-        self._sent: dict[str, dict[int, list[bytes]]] = {}
+        self._sent: dict[str, dict[int, list[_Sent]]] = {}
         self._awaited: dict[tuple[str, int], tuple[int, AppliedInput]] = {}
         self._found: list[Contradiction] = []
 
@@ -45,11 +51,12 @@ class Answers:
         """A program sent a command."""
         robot = recorded.key.split("/")[1]
         try:
-            answers = from_json(recorded.payload)["answers_tick"]
+            fields = from_json(recorded.payload)
+            answers = fields["answers_tick"]
         except (ValueError, KeyError, TypeError):
             return  # the host took no notice of it either
         kept = self._sent.setdefault(robot, {})
-        kept.setdefault(answers, []).append(recorded.payload)
+        kept.setdefault(answers, []).append(_Sent(recorded.payload, fields))
         if len(kept) > _KEPT:
             del kept[next(iter(kept))]
 
@@ -80,13 +87,15 @@ def _tick_of(one: Contradiction) -> int:
     return one.tick
 
 
-def _compared(tick: int, robot: str, given: AppliedInput, sent: Iterable[bytes]) -> list[Contradiction]:
+def _compared(tick: int, robot: str, given: AppliedInput, sent: Iterable[_Sent]) -> list[Contradiction]:
     """Where an input is none of the commands that answer the same sight; nothing where it is one of them."""
+    if any(_is_plainly(given, one.fields) for one in sent):
+        return []
     found: list[Contradiction] = []
     applied = _fields(given)
-    for payload in sent:
+    for one in sent:
         try:
-            said = _fields(Command.decode(payload))
+            said = _fields(Command.decode(one.payload))
         except BadMessageError:
             continue
         if said == applied:
@@ -97,6 +106,17 @@ def _compared(tick: int, robot: str, given: AppliedInput, sent: Iterable[bytes])
             if applied[name] != said[name]
         ]
     return found or [Contradiction(tick, robot, "command", "applied", None)]
+
+
+def _is_plainly(given: AppliedInput, fields: dict[str, Any]) -> bool:
+    """Whether a command says just that in the words of this library; one that leaves out what is nothing may, too."""
+    drive, told = given.drive, fields.get("drive")
+    return (
+        given.kick is None
+        and fields.get("kick", 0) is None
+        and fields.get("dribble") is given.dribble
+        and told == {"vx": drive.vx, "vy": drive.vy, "omega": drive.omega}
+    )
 
 
 def _fields(told: AppliedInput | Command) -> dict[str, Any]:

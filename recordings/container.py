@@ -15,7 +15,7 @@ from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
 from mcap.records import Attachment, Channel, Chunk, ChunkIndex, Header, McapRecord, Message, Metadata, Schema
-from mcap.stream_reader import StreamReader, breakup_chunk
+from mcap.stream_reader import StreamReader, breakup_chunk, get_chunk_data_stream
 from mcap.summary import Summary
 from mcap.writer import MCAP0_MAGIC
 
@@ -24,6 +24,12 @@ from schemas.errors import TouchlineError
 BROKEN = (McapError, ValueError, LookupError, OverflowError, MemoryError, struct.error, zstandard.ZstdError)
 """What the library raises on bytes that are cut off or damaged."""
 DAMAGED = "damaged inside ({}); take another copy of it, or have `touchline recover` leave out what is damaged"
+_HEAD = struct.Struct("<BQ")
+"""Opcode and length of a record."""
+_MESSAGE = struct.Struct("<HIQQ")
+"""Channel, sequence, log time and publish time of a message; its payload follows."""
+_END_NS = 1 << 64
+"""Later than any time of a message."""
 _FOOTER = struct.Struct("<BQQQI")
 """Opcode, length, start of the summary, start of its offsets, checksum of the summary."""
 
@@ -71,14 +77,33 @@ class Container:
             if not self.complete:
                 yield from self._streamed(file, keys, start_ns, end_ns)
                 return
-            reader = SeekingReader(file, validate_crcs=True)
             try:
-                for _, channel, message in reader.iter_messages(
-                    keys, log_time_order=False, starting_at=start_ns, ending_before=end_ns
-                ):
-                    yield channel.topic, message
+                yield from self._indexed(file, keys, start_ns or 0, _END_NS if end_ns is None else end_ns)
             except BROKEN as error:
                 raise TouchlineError(f"{self.path}: {DAMAGED.format(error)}") from None
+
+    def _indexed(self, file: IO[bytes], keys: set[str], start_ns: int, end_ns: int) -> Iterator[tuple[str, Message]]:
+        """From the chunks that the summary says can hold some; what is not asked for is passed over unread."""
+        summary = SeekingReader(file).get_summary()
+        wanted = {number: channel.key for number, channel in self.channels.items() if channel.key in keys}
+        for index in summary.chunk_indexes if summary is not None else ():
+            is_in_time = index.message_start_time < end_ns and index.message_end_time >= start_ns
+            if not is_in_time or wanted.keys().isdisjoint(index.message_index_offsets):
+                continue
+            file.seek(index.chunk_start_offset + 9)  # behind opcode and length
+            stream, size = get_chunk_data_stream(Chunk.read(ReadDataStream(file)), validate_crc=True)
+            data, at = stream.read(size), 0
+            while at < size:
+                opcode, length = _HEAD.unpack_from(data, at)
+                at += _HEAD.size
+                if opcode == Opcode.MESSAGE:
+                    channel, sequence, log_ns, sent_ns = _MESSAGE.unpack_from(data, at)
+                    if channel in wanted and start_ns <= log_ns < end_ns:
+                        content = data[at + _MESSAGE.size : at + length]
+                        yield wanted[channel], Message(channel, log_ns, content, sent_ns, sequence)
+                at += length
+            if at != size:
+                raise ValueError("a chunk ends within a record")
 
     def _streamed(
         self, file: IO[bytes], keys: set[str], start_ns: int | None, end_ns: int | None

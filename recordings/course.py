@@ -115,7 +115,8 @@ class TickNote(NamedTuple):
 
     tick: int
     recorded: Recorded
-    """The `schemas.host.Applied`."""
+    applied: Applied | None
+    """What was recorded of it; nothing where that is no valid message."""
     world: dict[str, Any] | None
     """The fields of the `schemas.world.World`; nothing where it is missing."""
 
@@ -214,19 +215,29 @@ def notes(recording: Recording, stretch: Stretch, answers: Answers) -> Iterator[
     for recorded in recording.messages(*keys, start=max(0.0, start), end=end):
         if recorded.topic is COMMAND:
             answers.sent(recorded)
-        else:
+        elif recorded.topic is WORLD:
             fields = _fields(recorded.payload)
             tick = fields.get("tick")
             if isinstance(tick, int) and tick in ticks:
-                if recorded.topic is WORLD:
-                    worlds[tick] = fields
-                else:
-                    held.append(TickNote(tick, recorded, None))
+                worlds[tick] = fields
+        else:
+            note = _note(recorded)
+            if note.tick in ticks:
+                held.append(note)
         while held and recorded.log_ns - held[0].recorded.log_ns > _SETTLED_NS:
             note = held.pop(0)
             yield note._replace(world=worlds.pop(note.tick, None))
     for note in held:
         yield note._replace(world=worlds.pop(note.tick, None))
+
+
+def _note(recorded: Recorded) -> TickNote:
+    try:
+        applied: Applied = recorded.message()
+    except BadMessageError:
+        tick = _fields(recorded.payload).get("tick")
+        return TickNote(tick if isinstance(tick, int) else -1, recorded, None, None)
+    return TickNote(applied.tick, recorded, applied, None)
 
 
 def _fields(payload: bytes) -> dict[str, Any]:

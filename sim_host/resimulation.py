@@ -249,5 +249,7 @@ def _table(value: object) -> Mapping[str, object]:
 
 
 def _of_body(name: str, recorded: Mapping[str, object], simulated: Mapping[str, object]) -> list[Difference]:
+    if simulated.items() <= recorded.items():
+        return []
     pairs = ((key, recorded.get(key, _ABSENT.get(key)), ours) for key, ours in simulated.items())
     return [Difference(name, key, theirs, ours) for key, theirs, ours in pairs if theirs != ours]
