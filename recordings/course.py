@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
+from itertools import islice
 from typing import Any, NamedTuple
 
 from pydantic_core import from_json
@@ -125,33 +126,44 @@ def course_of(recording: Recording) -> Course:
     """The course of a recording, from one pass over what was noted of each tick."""
     course = Course()
     changes: list[Applied] = []
-    began, kick_offs, expected = _kick_offs(recording), 0, -1
-    worlds, before_ns = {recorded.log_ns for recorded in recording.messages(WORLD.key)}, -1
+    began, kick_offs = _kick_offs(recording), 0
+    worlds = {recorded.log_ns for recorded in recording.messages(WORLD.key)}
+    standing = _standing(recording)
+    before: _Head | None = None
     for recorded in recording.messages(APPLIED.key):
         head = _head(recorded)
-        if head is None or (expected >= 0 and head.tick < expected):
+        if head is None or (before is not None and head.tick <= before.tick):
             course.unreadable += 1
             continue
         tick = head.tick
-        if tick == expected:
-            course.runs[-1] = range(course.runs[-1].start, tick + 1)
-        else:
-            course.runs.append(range(tick, tick + 1))
-        if tick == 0 or (head.checkpoint and tick == expected and before_ns in worlds):
+        is_next = before is not None and tick == before.tick + 1
+        if tick not in standing:
+            if is_next and course.runs and course.runs[-1].stop == tick:
+                course.runs[-1] = range(course.runs[-1].start, tick + 1)
+            else:
+                course.runs.append(range(tick - is_next, tick + 1))  # what stood at the last tick counts with it
+        if tick == 0 or (head.checkpoint and is_next and before is not None and before.log_ns in worlds):
             is_kick_off = tick - 1 in began
             kick_offs += is_kick_off
             course.starts.append(Start(tick, kick_offs if is_kick_off else None, tuple(changes)))
-        before_ns = recorded.log_ns
         if head.changes is not None:
             changes.append(head.changes)
         course.times[tick] = head.time
-        expected = tick + 1
+        before = head
     return course
+
+
+def _standing(recording: Recording) -> set[int]:
+    """Ticks whose notes were repeated when the file was begun, because they stood then."""
+    repeated = islice(recording.messages(), recording.manifest.standing)
+    heads = [_head(recorded) for recorded in repeated if recorded.topic is APPLIED]
+    return {head.tick for head in heads if head is not None}
 
 
 class _Head(NamedTuple):
     tick: int
     time: float
+    log_ns: int
     checkpoint: bool
     changes: Applied | None
 
@@ -166,7 +178,7 @@ def _head(recorded: Recorded) -> _Head | None:
         changes = recorded.message() if any(name in fields for name in _CHANGES) else None
     except (BadMessageError, ValueError, KeyError, TypeError):
         return None
-    return _Head(tick, time, bool(fields.get("checkpoint")), changes)
+    return _Head(tick, time, recorded.log_ns, bool(fields.get("checkpoint")), changes)
 
 
 def _kick_offs(recording: Recording) -> set[int]:

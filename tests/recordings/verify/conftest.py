@@ -37,6 +37,12 @@ def operate(simulation: Simulation) -> None:
             assert simulation.scene(deed).accepted
 
 
+@pytest.fixture(name="operate")
+def operate_fixture() -> Callable[[Simulation], None]:
+    """What the operator of `operated` does."""
+    return operate
+
+
 @pytest.fixture(scope="session")
 def operated(tmp_path_factory: pytest.TempPathFactory, match_recorder: Callable[..., None]) -> Path:
     """A match of two a side on wheels: two kick-offs, and three deeds of an operator; 600 ticks or so."""

@@ -10,8 +10,10 @@ from arena import verification
 from arena.__main__ import app
 from arena.verification import verify
 from recordings.course import Why, course_of
+from recordings.output import Limits
 from recordings.reader import open_recording
 from schemas.errors import TouchlineError
+from schemas.match_config import load_match
 
 
 def run(*words: str | Path) -> Result:
@@ -209,3 +211,20 @@ def test_a_cut_off_recording_is_compared_up_to_the_cut(played: Path, tmp_path: P
     cut.write_bytes(content[: len(content) * 2 // 3])
     verdict = verify(cut)
     assert verdict.identical and 100 < verdict.ticks < 1201
+
+
+def test_each_part_of_a_split_recording_is_compared_from_its_first_start(
+    tmp_path: Path, match_recorder, operate
+) -> None:
+    """A later part begins with what stood then: who takes part, numbers that were changed, the world before."""
+    teams = {"teams.cyan.size": 1, "teams.magenta.size": 1}
+    config = load_match(None, {"seed": 3, "duration": 10.0, **teams})
+    match_recorder(tmp_path / "m.mcap", config, until=9.0, between=operate, limits=Limits(duration=6.6))
+    first, second = sorted(tmp_path.glob("*.mcap"))
+    assert verify(first).identical
+    verdict = verify(second)
+    assert verdict.identical and verdict.difference is None
+    start = next(start for start in course_of(open_recording(second)).starts if start.tick > 0)
+    assert [one.tick for one in start.changes] == [0, 321]
+    assert verdict.ticks == 451 - start.tick
+    assert [one.why for one in verdict.left_out] == [Why.BEFORE, Why.NO_START]

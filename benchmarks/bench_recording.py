@@ -1,0 +1,117 @@
+"""Recordings: what recording costs, and how fast they are verified, recovered and sought in.
+
+The recordings are of real matches: five a side in lockstep with the teams that ship, and in real time with robots that
+answer at once. The ten minutes are not played: their size is that of a shorter match, per simulated second. The 100 MB
+are the chunks of that match, one after the other as often as it takes, without an index, as a cut-off file has them.
+"""
+
+import contextlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from processes import HERE, field, launch
+
+from arena.verification import verify
+from recordings.reader import open_recording
+from recordings.recovery import recover
+from schemas.bus.zenoh_bus import open_client
+from schemas.clock import WallClock
+from schemas.topics import HEALTH, WORLD
+
+MATCH_S = 20
+REALTIME_S = 10.0
+MB = 1_000_000
+CHUNK, DATA_END, METADATA, ATTACHMENT = 0x06, 0x0F, 0x0C, 0x09
+"""Opcodes of MCAP records."""
+
+
+def cpu_seconds(process: int) -> float:
+    """User and system time of a process so far."""
+    fields = Path(f"/proc/{process}/stat").read_text().rsplit(") ", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def recorder_share(folder: Path) -> float:
+    """CPU of a recorder of five a side in real time, as a share of one core."""
+    with field("robot_agent.teams.simple:Simple", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, _):
+        out = folder / "realtime.mcap"
+        recorder = launch("recordings", "--connect", endpoint, "--match", config.name, "--out", str(out))
+        try:
+            with open_client(config.name, WallClock(), endpoint) as bus:
+                healths = bus.subscribe(HEALTH)
+                while (received := healths.receive(30.0)) is not None and received.message().tick < 100:
+                    pass
+                busy, began = cpu_seconds(recorder.pid), time.perf_counter()
+                time.sleep(REALTIME_S)
+                return (cpu_seconds(recorder.pid) - busy) / (time.perf_counter() - began)
+        finally:
+            recorder.terminate()
+            recorder.wait()
+
+
+def play(folder: Path, *words: str) -> float:
+    """Simulated seconds per wall second of a lockstep match, launch and farewell left out."""
+    command = [sys.executable, "-m", "arena", "match", "--duration", str(MATCH_S), "--seed", "7", "--json"]
+    command += ["--listen", "tcp/127.0.0.1:0", *words]
+    ended = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True)
+    return float(json.loads(ended.stdout)["real_time_factor"])
+
+
+def cut_off(source: Path, path: Path, size: int) -> int:
+    """A file of about `size` bytes as a killed recorder leaves it: the head, then chunks over and over; its bytes."""
+    content = source.read_bytes()
+    at, head, chunks = 8, [content[:8]], []
+    while content[at] != DATA_END:
+        end = at + 9 + int.from_bytes(content[at + 1 : at + 9], "little")
+        (head if not chunks and content[at] != CHUNK else chunks).append(content[at:end])
+        at = end
+    body = b"".join(record for record in chunks if record[0] not in (METADATA, ATTACHMENT))
+    path.write_bytes(b"".join(head) + body * (1 + size // len(body)))
+    return path.stat().st_size
+
+
+def seek_ms(path: Path) -> float:
+    """The longest of opening a recording and reading the first world from 0, 50 and 99 % of it on."""
+    end = open_recording(path).channels[0].end
+    longest = 0.0
+    for share in (0.0, 0.5, 0.99):
+        began = time.perf_counter()
+        next(open_recording(path).messages(WORLD.key, start=share * end))
+        longest = max(longest, time.perf_counter() - began)
+    return longest * 1e3
+
+
+def main() -> None:
+    """Print each figure beside its aim."""
+    with tempfile.TemporaryDirectory() as name, contextlib.chdir(HERE):
+        folder = Path(name)
+        print(f"recorder: {recorder_share(folder):.1%} of a core in real time, five a side (below 6 %)")
+        path = folder / "match.mcap"
+        pairs = [(play(folder, "--record", str(path)), play(folder, "--no-record")) for _ in range(2)]
+        ratio = max(recorded / bare for recorded, bare in pairs)
+        print(f"lockstep with recording: {ratio:.2f} x as fast as without (at least 0.95), the better of two pairs")
+        busy = time.process_time()
+        verdict = verify(path)
+        busy = time.process_time() - busy
+        assert verdict.identical
+        print(
+            f"verify: {verdict.seconds / busy:.0f} x real time on one core (at least 25), "
+            f"{verdict.ticks} ticks identical; by CPU time"
+        )
+        size = cut_off(path, folder / "large.mcap", 100 * MB)
+        began = time.perf_counter()
+        recovered = recover(folder / "large.mcap")
+        took = time.perf_counter() - began
+        print(f"recover: {size / MB:.0f} MB, {recovered.messages} messages in {took:.2f} s (below 1 s)")
+        print(f"seek: {seek_ms(path):.0f} ms at most in the match, file opened anew (below 50 ms)")
+        ten_minutes = path.stat().st_size / verdict.seconds * 600 / MB
+        print(f"size: {ten_minutes:.0f} MB for ten minutes (below 80), from {verdict.seconds:.0f} s of a match")
+
+
+if __name__ == "__main__":
+    main()
