@@ -64,8 +64,8 @@ def _lines(verdict: "Verdict") -> list[str]:
     rate = verdict.seconds / verdict.took
     how = "one process" if verdict.processes == 1 else f"{verdict.processes} processes"
     lines.append(
-        f"{verdict.seconds:.1f} s of the match, {verdict.kick_offs} kick-offs to begin with, "
-        f"simulated again in {verdict.took:.1f} s by {how}, ×{rate:.0f}"
+        f"{verdict.seconds:.1f} s of the match simulated again in {verdict.took:.1f} s by {how}, ×{rate:.0f}; "
+        f"kick-offs to begin with: {verdict.kick_offs}"
     )
     return lines
 

@@ -24,7 +24,7 @@ def test_a_real_match_is_identical(played: Path) -> None:
     result = run(played, "--jobs", "1")
     assert result.exit_code == 0
     assert result.stdout.splitlines()[0] == "identical, 1201 ticks"
-    assert "2 kick-offs" in result.stdout
+    assert f"kick-offs to begin with: {len(course_of(open_recording(played)).kick_offs)}" in result.stdout
 
 
 def test_a_match_on_wheels_with_scenes_and_parameters_is_identical_from_each_of_its_starts(operated: Path) -> None:
@@ -132,12 +132,12 @@ def test_a_body_that_was_set_down_elsewhere_shows_where_it_is(operated: Path, ed
 
 
 def test_ticks_that_are_missing_are_said_and_the_rest_is_compared(operated: Path, edited) -> None:
-    kick_off = course_of(open_recording(operated)).kick_offs[1].tick
+    after = next(start.tick for start in course_of(open_recording(operated)).starts if start.tick > 310)
     path = edited(operated, "host/applied", lambda fields: None if 300 <= fields["tick"] < 310 else fields)
     verdict = verify(path)
     assert not verdict.identical and verdict.difference is None
     assert (verdict.left_out[0].first, verdict.left_out[0].last, verdict.left_out[0].why) == (300, 309, Why.MISSING)
-    assert verdict.ticks >= 300 + verify(operated).ticks - kick_off
+    assert verdict.ticks == 300 + verify(operated).ticks - after
     result = run(path, "--jobs", "1")
     assert result.exit_code == 1
     assert "ticks 300 to 309 are missing in the recording: nothing can be said of them" in result.stdout

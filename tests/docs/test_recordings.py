@@ -1,0 +1,52 @@
+"""What the page on recordings says of files: its lines of Python are run, on a recording of a match."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from arena.in_process import play
+from recordings.head import attachments, manifest_of
+from recordings.manifest import Ended, Result, to_metadata
+from recordings.writer import RecordingWriter
+from schemas.bus.contract import Received, Stamp
+from schemas.clock import SteppedClock
+from schemas.match_config import load_match
+from schemas.message import VERSION
+from schemas.topics import WORLD
+from sim_host.simulation import Simulation, Tick
+
+
+def test_the_lines_that_read_a_file_with_the_stock_package_alone(
+    root: Path,
+    fenced: Callable[[str, str], list[str]],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    from pydantic_core import to_json
+
+    config, clock = load_match(None, {"duration": 5.0}), SteppedClock()
+    simulation = Simulation(config)
+    writer = RecordingWriter(tmp_path / "match.mcap", clock, config.name)
+    head = manifest_of(config.name, "test", clock, simulation.setup(), config, sights=False)
+    simulation.close()
+    files = attachments(config)
+    writer.begin(head, files)
+    said: list[Tick] = []
+    play(config, watch=said.append, until=0.2)
+    for number, tick in enumerate(said):
+        stamp = Stamp(number, 1, round(tick.time * 1e9))
+        payload = to_json({"version": VERSION, **tick.world})
+        writer.write([(stamp.sim_ns, Received(WORLD, WORLD.key, payload, stamp))])
+    writer.finish(to_metadata(Result(ended=Ended.STOPPED, finished="")))
+    page = (root / "docs" / "recordings.md").read_text("utf-8")
+    code = next(piece for piece in fenced(page, "python") if "make_reader" in piece)
+    assert "recordings" not in code and "schemas" not in code
+    monkeypatch.chdir(tmp_path)
+    exec(compile(code, "docs/recordings.md", "exec"), {})
+    first, *rows = capsys.readouterr().out.splitlines()
+    assert first == "friendly lockstep"
+    assert [float(row.split()[0]) for row in rows] == pytest.approx([tick.time for tick in said])
+    named = page.split("| attachments |")[1].splitlines()[0]
+    assert [name for name in files if f"`{name}`" not in named] == []
