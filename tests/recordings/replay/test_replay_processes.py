@@ -1,0 +1,60 @@
+"""The real thing: a replay process, a recorder process and `touchline player` on a real Zenoh network on loopback."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+
+import pytest
+
+from recordings.reader import open_recording
+from schemas.bus.endpoint import with_port
+from schemas.bus.zenoh_bus import open_client
+from schemas.clock import WallClock
+
+LIMIT = 60.0
+"""Seconds after which something that should have happened will not; nothing depends on how soon it does."""
+
+
+@pytest.fixture
+def start() -> Iterator[Callable[..., subprocess.Popen[str]]]:
+    """Starts Python programs, and ends those that are left."""
+    running: list[subprocess.Popen[str]] = []
+
+    def start(*arguments: str) -> subprocess.Popen[str]:
+        pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+        running.append(subprocess.Popen([sys.executable, "-m", *arguments], text=True, **pipes))
+        return running[-1]
+
+    yield start
+    for process in running:
+        if process.returncode is None:
+            process.kill()
+            process.communicate()
+
+
+@pytest.mark.processes
+def test_record_replay_record_gives_equal_payloads_in_equal_order(recorded, start, tmp_path):
+    endpoint, again = with_port("tcp/127.0.0.1:0"), tmp_path / "again.mcap"
+    at = ("--match", "again", "--connect", endpoint)
+    listen = ("--listen", endpoint, "--match", "again")
+    replay = start("arena", "replay", str(recorded.path), "--fast", "--paused", "--json", *listen)
+    with open_client("again", WallClock(), endpoint, LIMIT) as bus:
+        watch = bus.watch_alive()
+        recorder = start("recordings", *at, "--out", str(again))
+        while (presence := watch.receive(LIMIT)) is not None and presence.kind != "recorder":
+            continue
+        assert presence is not None
+    player = start("arena", "player", "play", "--json", *at)
+    said, error = player.communicate(timeout=LIMIT)
+    assert (player.returncode, error) == (0, "") and json.loads(said)["paused"] is False
+    played, error = replay.communicate(timeout=LIMIT)
+    assert replay.returncode == 0, error
+    every = list(recorded.messages())
+    assert json.loads(played)["messages"] == len(every)
+    _, error = recorder.communicate(timeout=LIMIT)
+    assert (recorder.returncode, error) == (0, "")
+    recording = open_recording(again, whole=True)
+    facts = [(one.key, one.payload, one.log_ns) for one in every]
+    assert [(one.key, one.payload, one.log_ns) for one in recording.messages()] == facts
+    assert recording.result.lost == 0
