@@ -150,6 +150,8 @@ def _play(opened: "Replay", bus: "Bus", clock: "Clock", *, quiet: bool) -> "Play
             show(player.status())
 
         host.run(meanwhile)
+    if host.foreign:
+        typer.echo(f"touchline: {host.foreign} messages on keys that their topics do not have were left out", err=True)
     if stop.received is not None:
         raise typer.Exit(128 + stop.received)
     return host.player
