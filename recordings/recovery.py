@@ -240,8 +240,8 @@ class _Repair:
                     raise ValueError("checksum")
                 record = Attachment.read(stream_of(body))
             else:
-                record = Metadata.read(stream_of(body))
-                if record.name in (MANIFEST, RESULT) and not is_sealed(record.metadata):
+                record = metadata = Metadata.read(stream_of(body))
+                if metadata.name in (MANIFEST, RESULT) and not is_sealed(metadata.metadata):
                     raise ValueError("seal")
         except BROKEN:
             self._leave_out(found, frame)
