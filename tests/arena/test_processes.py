@@ -1,3 +1,4 @@
+import re
 from pathlib import Path
 
 import pytest
@@ -87,6 +88,25 @@ def test_a_recording_elsewhere_gets_its_folder_made(tmp_path: Path, monkeypatch:
     run = prepare(load_match(None), "tcp/127.0.0.1:7447", Path("finals/a.mcap"), SteppedClock())
     assert run.recording == Path("finals/a.mcap")
     assert Path("finals").is_dir()
+
+
+def test_a_recording_that_cannot_be_written_goes_into_the_folder_of_the_run_and_that_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("file").write_text("")
+    for path, why in ((Path("file/a.mcap"), "File exists|Not a directory"), (tmp_path, "is a folder")):
+        run = prepare(load_match(None), "tcp/127.0.0.1:7447", path, SteppedClock())
+        assert run.recording == run.folder / "match.mcap"
+        assert re.search(rf"--record .*: ({why}); the match is played, its recording goes to runs/", run.warning)
+
+
+def test_the_recorder_is_told_what_the_match_file_wants(tmp_path: Path) -> None:
+    wanted = {"record.include": ["world"], "record.split_duration": 60.0, "record.keep": 3, "record.sights": True}
+    plan = Plan(load_match(None, wanted), "tcp/127.0.0.1:7447", tmp_path, tmp_path / "a.mcap")
+    (recorder,) = [process for process in processes_of(plan) if process.name == "recorder"]
+    words = ["--sights", "--include=world", "--split-duration=60.0", "--keep=3"]
+    assert [word for word in recorder.command if word in words] == words
 
 
 def test_a_run_without_recording_has_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

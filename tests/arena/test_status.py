@@ -5,8 +5,9 @@ from coach_gateway.view import MatchView
 from schemas.bus.in_process import Medium
 from schemas.clock import SteppedClock
 from schemas.game import GameState, OffField, Phase, Score, Stage, Standing
-from schemas.host import Health, RobotHealth
+from schemas.host import Health, RecorderProgress, RobotHealth
 from schemas.side import Side
+from schemas.topics import PROGRESS
 
 
 def health(tick: int, **silent_robots: RobotHealth) -> Health:
@@ -35,6 +36,18 @@ def test_while_it_is_played_clock_score_phase_speed_and_robots_stand_in_one_line
     )
     playing.health = health(9)
     assert status_line(playing, 1) == " 1:01.0  half 1  cyan 1 : 2 magenta  corner, cyan  ×6.2  robots 1/1"
+
+
+def test_what_a_recorder_misses_stands_in_the_line_by_key() -> None:
+    playing = view()
+    playing.state = GameState(tick=9, time=61.0, clock=61.0, phase=Phase.PLAY)
+    writer = playing.bus.publisher(PROGRESS, name="recorder")
+    writer.put(RecorderProgress(tick=9, messages=70, lost=0))
+    playing.update()
+    assert "lost" not in status_line(playing, 1)
+    writer.put(RecorderProgress(tick=9, messages=70, lost=5, losses={"world": 2, "robot/cyan1/command": 3}))
+    playing.update()
+    assert status_line(playing, 1).endswith("lost 5 (robot/cyan1/command 3, world 2)")
 
 
 def test_cards_and_robots_off_the_field_stand_in_the_line() -> None:
