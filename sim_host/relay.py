@@ -25,7 +25,7 @@ class Relay:
         self._writer = bus.publisher(INTAKE)
         self._entries: list[dict[str, Any]] = []
         self._count = self._size = 0
-        self._tick = -1
+        self._tick = 0
 
     def note(self, received: Received) -> None:
         """Something came that is to be recorded."""
@@ -46,7 +46,7 @@ class Relay:
         """The tick has ended: send what came, be it nothing, so that a recorder knows how far the host is with this."""
         self._tick = tick
         self._put()
-        self._count = 0
+        self._count, self._tick = 0, tick + 1
 
     def _put(self) -> None:
         self._writer.put_fields({"tick": self._tick, "entries": self._entries})

@@ -9,7 +9,9 @@ from arena import options
 from arena.front import PREFIX
 
 app = typer.Typer(
-    help="Control a recorder while it records: pause, resume, split, snapshot, status.", no_args_is_help=True
+    help="Control a recorder while it records: pause, resume, split, snapshot, status.\n\n"
+    "Example: touchline recorder pause --name recorder",
+    no_args_is_help=True,
 )
 
 Name = Annotated[str, typer.Option(help="What the recorder is called.")]

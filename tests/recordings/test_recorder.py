@@ -367,3 +367,13 @@ def test_a_stamp_counts_modulo_the_32_bits_of_the_file(stage):
     stage.leave()
     (recorded,) = stage.read().messages("world")
     assert recorded.sequence == 5
+
+
+def test_an_intake_that_cannot_be_read_is_counted_and_passed_over(stage):
+    stage.play(range(5))
+    odd = b'{"version":"1.0","tick":5,"entries":[{"key":"robot/cyan1/command","octets":"a"}]}'
+    stage.host.writers["host/intake"].put_payload(odd)
+    stage.play(range(5, 10))
+    summary = stage.leave()
+    assert summary.result.unreadable == {"host/intake": 1}
+    assert summary.result.keys["robot/cyan1/command"].messages == 10
