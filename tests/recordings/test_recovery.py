@@ -104,7 +104,7 @@ def test_a_file_cut_off_anywhere_holds_an_exact_beginning_or_says_that_nothing_i
         assert open_recording(path, whole=True).manifest == open_recording(several_chunks).manifest
         lengths.append(len(rest))
     assert len(lengths) > TIMES / 4
-    assert len({*lengths}) > 8
+    assert len({*lengths}) > 5
 
 
 def test_all_whole_chunks_before_the_cut_are_there(several_chunks, tmp_path):
