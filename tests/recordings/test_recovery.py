@@ -33,6 +33,8 @@ def several_chunks(make_stage) -> Path:
         stage.host.play(tick)
         clock.sleep_until(clock.now() + 0.02)
         stage.recorder.pump()
+        if tick % 25 == 24:
+            stage.output.sync()  # ends a chunk, however busy the machine is
     stage.host.goal(399)
     stage.leave()
     return stage.path
@@ -104,7 +106,7 @@ def test_a_file_cut_off_anywhere_holds_an_exact_beginning_or_says_that_nothing_i
         assert open_recording(path, whole=True).manifest == open_recording(several_chunks).manifest
         lengths.append(len(rest))
     assert len(lengths) > TIMES / 4
-    assert len({*lengths}) > 5
+    assert len({*lengths}) > 12
 
 
 def test_all_whole_chunks_before_the_cut_are_there(several_chunks, tmp_path):
