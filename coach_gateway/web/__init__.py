@@ -1,0 +1,1 @@
+"""The page's server: frames, state and events out to any number of browsers, commands in from those that may."""
