@@ -179,10 +179,12 @@ class Bus(ABC):
         """A writer for one key: every chunk must be given."""
 
     @abstractmethod
-    def subscribe(self, topic: Topic, **chunks: str) -> Subscription:
+    def subscribe(self, topic: Topic, *, newest: bool = False, past: bool = False, **chunks: str) -> Subscription:
         """A reader for a topic; a chunk left out reads every value of it.
 
-        A topic delivered `newest` yields the newest message of each key, any other every message that arrives.
+        A topic delivered `newest` yields the newest message of each key, any other every message that arrives, unless
+        the reader wants the `newest` alone. Where the writer keeps what it sent (`recovered`), a reader of the `past`
+        is given that first.
         """
 
     @abstractmethod

@@ -1,6 +1,7 @@
 """The bus within one process: the same behaviour without a network, for tests and for learning."""
 
 import threading
+from collections import deque
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -25,6 +26,9 @@ from schemas.clock import Clock
 from schemas.message import Message
 from schemas.topics import Delivery, Topic
 
+_KEPT = 1500
+"""Messages that are kept of each key for readers of the past."""
+
 
 @dataclass(eq=False)
 class Medium:
@@ -35,6 +39,8 @@ class Medium:
     servers: dict[str, "_Server"] = field(default_factory=dict)
     alive: dict[tuple[str, str], int] = field(default_factory=dict)
     watches: list["_Watch"] = field(default_factory=list)
+    kept: dict[str, dict[str, deque[Received]]] = field(default_factory=dict)
+    """Topic with its match before it → key → what its writer has sent, where that can be recovered."""
 
     def seat(self, match: str, clock: Clock) -> "InProcessBus":
         """A new seat on the bus of a match."""
@@ -56,14 +62,21 @@ class _Publisher(Publisher):
         super().__init__(topic, key)
         self._bus = bus
         self._sequence = 0
+        self._kept: deque[Received] | None = None
+        if topic.delivery is Delivery.RECOVERED:
+            self._kept = bus.keep(topic, key)
 
     def put_payload(self, payload: bytes) -> None:
         bus = self._bus
         bus.check_open()
         stamp = Stamp(self._sequence, bus.clock.unix_ns(), bus.clock.sim_ns)
         self._sequence += 1
-        for subscription in bus.medium.subscriptions.get(bus.prefix + self.topic.key, ()):
-            subscription.bring(self.key, Received(self.topic, self.key, payload, stamp, stamp.sent_ns))
+        received = Received(self.topic, self.key, payload, stamp, stamp.sent_ns)
+        with bus.medium.lock:
+            if self._kept is not None:
+                self._kept.append(received)
+            for subscription in bus.medium.subscriptions.get(bus.prefix + self.topic.key, ()):
+                subscription.bring(self.key, received)
 
     def wanted(self) -> bool:
         if self.topic.delivery is Delivery.RECOVERED:
@@ -73,11 +86,12 @@ class _Publisher(Publisher):
 
 
 class _Subscription(Subscription):
-    def __init__(self, topic: Topic, chunks: dict[str, str], bus: "InProcessBus") -> None:
+    def __init__(self, topic: Topic, chunks: dict[str, str], bus: "InProcessBus", newest: bool) -> None:
         self._wanted = chunks
         self._topic = topic
         self._bus = bus
-        self._mailbox: Mailbox[Received] = NewestMailbox() if topic.delivery is Delivery.NEWEST else EveryMailbox()
+        one = newest or topic.delivery is Delivery.NEWEST
+        self._mailbox: Mailbox[Received] = NewestMailbox() if one else EveryMailbox()
 
     def wants(self, key: str) -> bool:
         chunks = self._topic.match(key) or {}
@@ -153,6 +167,15 @@ class InProcessBus(Bus):
         self._served: list[str] = []
         self._ends: list[_Subscription] = []
         self._mailboxes: list[EveryMailbox[Any]] = []
+        self._kept: list[tuple[str, str]] = []
+
+    def keep(self, topic: Topic, key: str) -> deque[Received]:
+        """Where a writer of this key keeps what it sends, for as long as its bus is open."""
+        kept: deque[Received] = deque(maxlen=_KEPT)
+        with self.medium.lock:
+            self.medium.kept.setdefault(self.prefix + topic.key, {})[key] = kept
+        self._kept.append((self.prefix + topic.key, key))
+        return kept
 
     def check_open(self) -> None:
         """Raise when this seat was left."""
@@ -164,12 +187,15 @@ class InProcessBus(Bus):
         check_publishable(topic)
         return _Publisher(topic, full_key(topic, chunks), self)
 
-    def subscribe(self, topic: Topic, **chunks: str) -> Subscription:
+    def subscribe(self, topic: Topic, *, newest: bool = False, past: bool = False, **chunks: str) -> Subscription:
         self.check_open()
         check_publishable(topic)
         topic.fill(**chunks)
-        subscription = _Subscription(topic, chunks, self)
+        subscription = _Subscription(topic, chunks, self, newest)
         with self.medium.lock:
+            for kept in self.medium.kept.get(self.prefix + topic.key, {}).values() if past else ():
+                for received in kept:
+                    subscription.bring(received.key, received)
             self.medium.subscriptions.setdefault(self.prefix + topic.key, []).append(subscription)
         self._ends.append(subscription)
         return subscription
@@ -228,3 +254,6 @@ class InProcessBus(Bus):
             self.medium.servers.pop(key, None)
         for mailbox in self._mailboxes:
             mailbox.end()
+        with self.medium.lock:
+            for topic, key in self._kept:
+                self.medium.kept.get(topic, {}).pop(key, None)

@@ -110,11 +110,11 @@ class _Subscription(Subscription):
     alarm puts on this reader's own key, heard by nobody else.
     """
 
-    def __init__(self, topic: Topic, key: str, bus: "ZenohBus") -> None:
+    def __init__(self, topic: Topic, key: str, bus: "ZenohBus", newest: bool, past: bool) -> None:
         self._topic = topic
         self._bus = bus
         self._start = len(bus.prefix)
-        self._newest = topic.delivery is Delivery.NEWEST
+        self._newest = newest or topic.delivery is Delivery.NEWEST
         self._timed = not bus.is_client
         self._waits_until: float | None = None
         self._ended = False
@@ -122,10 +122,11 @@ class _Subscription(Subscription):
         full = bus.prefix + key
         self._poke_key = full.replace("*", _POKE)
         self._reader: Any
-        if topic.delivery is Delivery.RECOVERED:
+        if topic.delivery is Delivery.RECOVERED and not self._newest:
             recovery = ext.RecoveryConfig(heartbeat=True, periodic_queries=None)
+            history = ext.HistoryConfig(detect_late_publishers=True, max_samples=_CACHE) if past else None
             every: Any = zenoh.handlers.FifoChannel(_BACKLOG)
-            self._reader = ext.declare_advanced_subscriber(bus.session, full, every, recovery=recovery)
+            self._reader = ext.declare_advanced_subscriber(bus.session, full, every, history=history, recovery=recovery)
         else:
             # one place beside the newest, so that a poke never pushes it out; a wildcard needs all keys' samples
             ring = self._newest and "*" not in key
@@ -302,9 +303,9 @@ class ZenohBus(Bus):
         check_publishable(topic)
         return _Publisher(topic, full_key(topic, chunks), self._open())
 
-    def subscribe(self, topic: Topic, **chunks: str) -> Subscription:
+    def subscribe(self, topic: Topic, *, newest: bool = False, past: bool = False, **chunks: str) -> Subscription:
         check_publishable(topic)
-        subscription = _Subscription(topic, topic.fill(**chunks), self._open())
+        subscription = _Subscription(topic, topic.fill(**chunks), self._open(), newest, past)
         self._subscriptions.append(subscription)
         return subscription
 

@@ -116,6 +116,38 @@ def test_a_topic_of_the_newest_message_gives_a_late_reader_the_newest_alone(seat
     assert reader.receive() is None
 
 
+def test_a_reader_who_wants_the_newest_alone_gets_it_of_a_topic_that_keeps_all(seats: Seats) -> None:
+    reader = seats.join().subscribe(STATE, newest=True)
+    writer = seats.host.publisher(STATE)
+    put_until_heard(lambda: writer.put(state(0)), reader)
+    for tick in range(1, 6):
+        writer.put(state(tick))
+    time.sleep(MOMENT)
+    assert reader.receive(SOON).message().tick == 5  # type: ignore[union-attr]
+    assert reader.receive() is None
+
+
+def test_a_reader_of_the_past_is_given_what_was_sent_before_it_came(seats: Seats) -> None:
+    writer = seats.host.publisher(STATE)
+    for tick in range(40):
+        writer.put(state(tick))
+    late = seats.join()
+    knows, does_not = late.subscribe(STATE, past=True), late.subscribe(STATE)
+    assert [knows.receive(SOON).message().tick for _ in range(40)] == list(range(40))  # type: ignore[union-attr]
+    writer.put(state(40))
+    assert knows.receive(SOON).message().tick == 40  # type: ignore[union-attr]
+    heard = does_not.receive(MOMENT)
+    assert heard is None or heard.message().tick == 40
+
+
+def test_the_past_of_a_writer_that_comes_later_is_given_too(seats: Seats) -> None:
+    reader = seats.join().subscribe(STATE, past=True)
+    writer = seats.host.publisher(STATE)
+    for tick in range(5):
+        writer.put(state(tick))
+    assert [reader.receive(SOON).message().tick for _ in range(5)] == list(range(5))  # type: ignore[union-attr]
+
+
 def test_the_newest_is_kept_for_each_key_apart(seats: Seats) -> None:
     reader = seats.join().subscribe(SIGHT)
     writers = {name: seats.host.publisher(SIGHT, robot=name) for name in ("cyan1", "cyan2")}
