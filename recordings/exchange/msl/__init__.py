@@ -1,7 +1,8 @@
 """The log of the league's referee box: what both teams said of the world, and what the referee signalled.
 
 Its files: `<time>.A.msl` and `<time>.B.msl`, arrays of the teams' world states, and `<time>.msl`, one line for each
-signal; all in one zip (reference 9.4). Team A is cyan. Nothing outside this folder knows the league's axes.
+signal; all in one zip (reference 9.4). Team A is cyan. What a signal is and
+how its axes lie stands in `schemas.league`.
 """
 
 LOG_PERIOD = 0.04

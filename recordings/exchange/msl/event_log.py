@@ -9,8 +9,8 @@ import re
 from itertools import pairwise
 from typing import NamedTuple
 
-from recordings.exchange.msl.findings import Findings
-from recordings.exchange.msl.signals import BY_CHARACTER, BY_NAME, Signal
+from schemas.league.findings import Findings
+from schemas.league.signals import BY_CHARACTER, BY_NAME, Signal
 from schemas.side import Side
 
 _LINE = re.compile(r"\s*(\d+)\s*,([^,]*),([^,]*),(.*)")

@@ -1,7 +1,6 @@
 """Recording → the league's log, one zip: what each team would have said of the world, were its eyes perfect."""
 
 import math
-from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,6 @@ from zipfile import ZIP_DEFLATED, ZipFile
 from pydantic_core import to_json
 
 from recordings.exchange.msl import LOG_PERIOD
-from recordings.exchange.msl.axes import heading_across, vector_to_log
 from recordings.exchange.msl.game_log import GameLog
 from recordings.exchange.outlet import Exported, outlet
 from recordings.exchange.sides import sides_of
@@ -18,14 +16,14 @@ from recordings.reader import Recording
 from schemas.errors import TouchlineError
 from schemas.game import GameState
 from schemas.host import Setup
+from schemas.league.numbers import numbers_of
+from schemas.league.world_state import BallSeen, ObstacleSeen, RobotSeen, world_state
 from schemas.side import Side
-from schemas.topics import BELIEF, EVENT, STATE, WORLD
-from schemas.world import BallTruth, RobotTruth, World
+from schemas.topics import BELIEF, STATE, WORLD
+from schemas.world import RobotTruth, World
 
 FILES = {Side.CYAN: "A", Side.MAGENTA: "B"}
 """Side → the letter of its file."""
-_DIGITS = 3
-"""After the point, as the format's own description has it: mm and mrad."""
 
 
 def export(recording: Recording, out: Path) -> Exported:
@@ -38,7 +36,7 @@ def export(recording: Recording, out: Path) -> Exported:
     if setup is None:
         raise TouchlineError(f"{recording.path}: its manifest has no setup, so the teams are unknown; record it again")
     log = _Log(recording, setup)
-    for recorded, message in recording.decoded(*(topic.fill() for topic in (WORLD, STATE, EVENT, BELIEF))):
+    for recorded, message in recording.decoded(*(topic.fill() for topic in (WORLD, STATE, BELIEF))):
         log.take(recorded.topic.key, message)
     log.end()
     started = log.started.strftime("%Y%m%d_%H%M%S")
@@ -56,13 +54,13 @@ class _Log:
     def __init__(self, recording: Recording, setup: Setup) -> None:
         self._setup = setup
         self._sides = sides_of(recording)
-        self._numbers = _numbers(self._sides)
+        self._numbers = numbers_of(self._sides)
         self._intentions: dict[str, str] = {}
         self._next = -math.inf
         self._held: World | None = None
         self.started = datetime.fromisoformat(recording.manifest.started)
         self._start_ms = round(self.started.timestamp() * 1e3)
-        self.game = GameLog(self._start_ms)
+        self.game = GameLog(self._start_ms, self._sides)
         self.records: dict[Side, list[bytes]] = {side: [] for side in Side}
 
     def take(self, key: str, message: Any) -> None:
@@ -100,78 +98,22 @@ class _Log:
     def _world_state(self, world: World, side: Side, attack: int) -> dict[str, Any]:
         playing = {name: robot for name, robot in world.robots.items() if robot.off_field is None}
         others = [robot for name, robot in playing.items() if self._sides.get(name) is side.opponent]
-        radius = self._setup.robot.radius
-        obstacles = [_obstacle(other.x, other.y, other.vx, other.vy, radius, attack) for other in others]
-        obstacles += [_obstacle(body.x, body.y, 0.0, 0.0, body.radius, attack) for body in world.obstacles.values()]
-        return {
-            "type": "worldstate",
-            "teamName": self._setup.teams[side].name,
-            "intention": "",
-            "robots": [
-                self._robot(name, robot, attack) for name, robot in playing.items() if self._sides.get(name) is side
+        radius, ball = self._setup.robot.radius, world.ball
+        return world_state(
+            self._setup.teams[side].name,
+            attack,
+            [self._robot(name, robot) for name, robot in playing.items() if self._sides.get(name) is side],
+            [BallSeen(ball.x, ball.y, ball.z, ball.vx, ball.vy, ball.vz)],
+            [
+                *(ObstacleSeen(other.x, other.y, other.vx, other.vy, radius) for other in others),
+                *(ObstacleSeen(body.x, body.y, 0.0, 0.0, body.radius) for body in world.obstacles.values()),
             ],
-            "balls": [_ball(world.ball, attack)],
-            "obstacles": obstacles,
-            "ageMs": 0,
-        }
+        )
 
-    def _robot(self, name: str, robot: RobotTruth, attack: int) -> dict[str, Any]:
-        pose = [*_place(robot.x, robot.y, attack), _short(heading_across(robot.heading, attack))]
-        return {
-            "id": self._numbers[name],
-            "pose": pose,
-            "targetPose": pose,  # the schema wants one, and where a robot is going to is not recorded
-            "velocity": [*_place(robot.vx, robot.vy, attack), _short(robot.omega)],
-            "intention": self._intentions.get(name, ""),
-            "batteryLevel": 100.0,
-            "ballEngaged": int(robot.holding),
-        }
-
-
-def _ball(ball: BallTruth, attack: int) -> dict[str, Any]:
-    return {
-        "position": [*_place(ball.x, ball.y, attack), _short(ball.z)],
-        "velocity": [*_place(ball.vx, ball.vy, attack), _short(ball.vz)],
-        "confidence": 1.0,
-    }
-
-
-def _obstacle(x: float, y: float, vx: float, vy: float, radius: float, attack: int) -> dict[str, Any]:
-    return {
-        "position": _place(x, y, attack),
-        "velocity": _place(vx, vy, attack),
-        "radius": _short(radius),
-        "confidence": 1.0,
-    }
-
-
-def _place(x: float, y: float, attack: int) -> list[float]:
-    return [_short(value) for value in vector_to_log(x, y, attack)]
-
-
-def _short(value: Any) -> float:
-    return round(float(value), _DIGITS) + 0.0  # no -0.0
+    def _robot(self, name: str, robot: RobotTruth) -> RobotSeen:
+        motion = (robot.x, robot.y, robot.heading, robot.vx, robot.vy, robot.omega)
+        return RobotSeen(self._numbers[name], *motion, robot.holding, self._intentions.get(name, ""))
 
 
 def _attack(state: GameState | None, side: Side) -> int:
     return side.attack(state.cyan_attacks if state is not None else 1)
-
-
-def _numbers(sides: dict[str, Side]) -> dict[str, int]:
-    """Robot → its number in the log: that at the end of its name, or else its place in its team."""
-    numbers: dict[str, int] = {}
-    for side in Side:
-        names = [name for name, own in sides.items() if own is side]
-        said = [_number_of(name) for name in names]
-        clear = None not in said and len(set(said)) == len(said)
-        numbers |= {name: (given or 0) if clear else place for place, (name, given) in _counted(names, said)}
-    return numbers
-
-
-def _counted(names: list[str], said: list[int | None]) -> Iterator[tuple[int, tuple[str, int | None]]]:
-    return enumerate(zip(names, said, strict=True), 1)
-
-
-def _number_of(name: str) -> int | None:
-    digits = name[len(name.rstrip("0123456789")) :]
-    return int(digits) if digits else None

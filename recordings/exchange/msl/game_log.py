@@ -1,30 +1,22 @@
 """The referee's lines of a log, from what a recording says of the game."""
 
-from recordings.exchange.msl.signals import (
-    CARD_OF,
-    END_GAME,
-    GOAL,
-    HALF_OF,
-    HALF_TIME,
-    RESTART_OF,
-    START,
-    STOP,
-    SUBGOAL,
-    Signal,
-    line,
-)
-from schemas.game import EventKind, GameEvent, GameState, Phase, Stage
+from collections.abc import Mapping
+
+from schemas.game import GameState, Phase, Stage
+from schemas.league.calls import calls
+from schemas.league.signals import Signal
 from schemas.side import Side
 
-_ENDS = {Phase.STOPPED: STOP, Phase.HALF_TIME: HALF_TIME, Phase.FULL_TIME: END_GAME}
 _PARTS = {1: "1st Half", 2: "2nd Half", 3: "Overtime - 1st Half", 4: "Overtime - 2nd Half"}
 
 
 class GameLog:
-    """Follows the game; each change of its state becomes a signal, and each card."""
+    """Follows the game; each change of its state becomes the signals that lead there."""
 
-    def __init__(self, start_ms: int) -> None:
+    def __init__(self, start_ms: int, sides: Mapping[str, Side]) -> None:
+        """`start_ms` is when the recording began, ms since 1970; `sides` tells whose robots are whose."""
         self._start_ms = start_ms
+        self._sides = sides
         self._half_began = 0.0
         self._effective_began = 0.0
         self.state: GameState | None = None
@@ -35,40 +27,18 @@ class GameLog:
         """The box's clock, which begins anew with each half, from the match's."""
         return max(0.0, clock - self._half_began)
 
-    def take(self, message: GameState | GameEvent) -> None:
-        """The next state or event."""
-        if isinstance(message, GameState):
-            self._state(message)
-        elif message.kind is EventKind.CARD and message.card is not None:
-            self._say(message.time, CARD_OF[message.card], message.side)
-
-    def _state(self, new: GameState) -> None:
+    def take(self, new: GameState) -> None:
+        """The next state."""
         old, self.state = self.state, new
-        for side in Side:
-            change = new.score.of(side) - (old.score.of(side) if old is not None else 0)
-            for _ in range(abs(change)):
-                self._say(new.time, GOAL if change > 0 else SUBGOAL, side)
         if old is None or new.half != old.half:
             self._half_began, self._effective_began = new.clock, new.effective
-            if new.half in HALF_OF:
-                self._say(new.time, HALF_OF[new.half], None)
-        before = (old.phase, old.side) if old is not None else (Phase.PRE_GAME, None)
-        if (new.phase, new.side) != before:
-            if new.phase in RESTART_OF:
-                self._say(new.time, RESTART_OF[new.phase], new.side)
-            elif new.phase in _ENDS:
-                self._say(new.time, _ENDS[new.phase], None)
-        if new.running and (old is None or not old.running):
-            self._say(new.time, START, None)
+        for call in calls(old, new, self._sides):
+            self._say(new, call.signal, call.side)
 
-    def _say(self, time: float, signal: Signal, side: Side | None) -> None:
-        state = self.state
-        clock, effective = (state.clock, state.effective) if state is not None else (0.0, 0.0)
-        part = _part(state) if state is not None else "Pre-Game"
-        moment = self._start_ms + round(time * 1e3)
-        self.lines.append(
-            line(moment, self.game_s(clock), max(0.0, effective - self._effective_began), part, signal, side)
-        )
+    def _say(self, state: GameState, signal: Signal, side: Side | None) -> None:
+        moment = self._start_ms + round(state.time * 1e3)
+        run = max(0.0, state.effective - self._effective_began)
+        self.lines.append(_line(moment, self.game_s(state.clock), run, _part(state), signal, side))
 
 
 def _part(state: GameState) -> str:
@@ -83,3 +53,15 @@ def _part(state: GameState) -> str:
         return "Penalties" if state.running else "Penalties/STOP"
     part = _PARTS.get(state.half, f"Half {state.half}")
     return part if state.running else f"{part} - STOP"
+
+
+def _line(epoch_ms: int, game_s: float, run_s: float, state: str, signal: Signal, side: Side | None) -> str:
+    """A line of the event file, as the referee box wrote it until 2019: five columns."""
+    character = signal.character.lower() if side is Side.MAGENTA else signal.character
+    says = f"{side.value.upper()} {signal.says}" if side is not None and signal.sided else signal.says
+    return f"{epoch_ms},{_minutes(game_s)}({_minutes(run_s)}),{state},{character},{says}"
+
+
+def _minutes(seconds: float) -> str:
+    whole = max(0, int(seconds))
+    return f"{whole // 60:02d}:{whole % 60:02d}"

@@ -9,8 +9,8 @@ import numpy.typing as npt
 
 from recordings.exchange.msl import LOG_PERIOD
 from recordings.exchange.msl.event_log import SignalLine
-from recordings.exchange.msl.signals import START
 from schemas.game import EventKind, GameEvent, GameState, Phase, Score, Stage
+from schemas.league.signals import START
 
 _STATE_S = 1.0
 """The state is said once a second, as a host does."""

@@ -16,7 +16,6 @@ from recordings.environment import libm_fingerprint, versions
 from recordings.exchange.msl import LOG_PERIOD
 from recordings.exchange.msl.event_log import TeamNames, read_events
 from recordings.exchange.msl.files import LogFiles, log_files
-from recordings.exchange.msl.findings import Finding, Findings
 from recordings.exchange.msl.game_story import GameStory
 from recordings.exchange.msl.team_log import TeamLog, read_team
 from recordings.exchange.msl.timeline import Track, ball_track, kicks, one_ball, robot_tracks
@@ -25,6 +24,7 @@ from recordings.manifest import Manifest, Result
 from schemas.errors import TouchlineError
 from schemas.game import GameState
 from schemas.host import Setup, TeamSetup
+from schemas.league.findings import Finding, Findings
 from schemas.match_config import MatchConfig
 from schemas.message import VERSION
 from schemas.profile import TimeSteps, load_profile

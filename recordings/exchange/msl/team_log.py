@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from statistics import median
 from typing import Any
 
-from recordings.exchange.msl.findings import Findings
-from recordings.exchange.msl.lenient import fields_of, items_of, number, vector
+from schemas.league.findings import Findings
+from schemas.league.lenient import fields_of, items_of, number, vector
 
 GAP_S = 1.0
 """A team that says nothing for longer has a gap. Ours: ten times what the league asks for at least."""

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from recordings.exchange.msl.axes import heading_across, vector_to_field
 from recordings.exchange.msl.team_log import GAP_S, TeamLog
+from schemas.league.axes import heading_across, vector_to_field
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]

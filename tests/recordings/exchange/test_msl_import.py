@@ -10,12 +10,12 @@ from zipfile import ZipFile
 
 import pytest
 
-from recordings.exchange.msl.findings import Findings
 from recordings.exchange.msl.importing import Imported, import_log
 from recordings.exchange.msl.team_log import read_team
 from recordings.reader import Recording, open_recording
 from schemas.errors import TouchlineError
 from schemas.game import GameState, Phase, Score
+from schemas.league.findings import Findings
 from schemas.topics import STATE, WORLD
 from schemas.world import World
 

@@ -4,7 +4,7 @@ import math
 from functools import cache
 from typing import Any
 
-from recordings.exchange.msl.findings import Findings
+from schemas.league.findings import Findings
 
 KEYS = (
     *(

@@ -62,7 +62,11 @@ SIGNALS: tuple[Signal, ...] = (
     Signal("RESET", "Z", EventKind.ACTION, "Reset"),
     Signal("TESTMODE_ON", "U", EventKind.ACTION, "Test mode on"),
     Signal("TESTMODE_OFF", "u", EventKind.ACTION, "Test mode off"),
-    Signal("IS_ALIVE", "", EventKind.ACTION, "Is alive"),
+    Signal("IS_ALIVE", "", EventKind.ACTION, "Is alive", True),
+    Signal("HALT", "H", EventKind.STOP, "Halt", phase=Phase.STOPPED),
+    Signal("READY", " ", EventKind.ACTION, "Ready"),
+    Signal("CANCEL", "x", EventKind.ACTION, "Cancel"),
+    Signal("RESTART", "n", EventKind.ACTION, "Restart"),
 )
 
 BY_NAME = {signal.name: signal for signal in SIGNALS} | {
@@ -75,16 +79,3 @@ RESTART_OF = {signal.phase: signal for signal in SIGNALS if signal.kind is Event
 """Phase of a restart → its signal."""
 HALF_OF = {signal.half: signal for signal in SIGNALS if signal.half}
 """Number of a half → the signal that begins it."""
-CARD_OF = {Card.YELLOW: BY_NAME["YELLOW_CARD"], Card.RED: BY_NAME["RED_CARD"]}
-
-
-def line(epoch_ms: int, game_s: float, run_s: float, state: str, signal: Signal, side: Side | None) -> str:
-    """A line of the event file, as the referee box wrote it until 2019: five columns."""
-    character = signal.character.lower() if side is Side.MAGENTA else signal.character
-    says = f"{side.value.upper()} {signal.says}" if side is not None and signal.sided else signal.says
-    return f"{epoch_ms},{_minutes(game_s)}({_minutes(run_s)}),{state},{character},{says}"
-
-
-def _minutes(seconds: float) -> str:
-    whole = max(0, int(seconds))
-    return f"{whole // 60:02d}:{whole % 60:02d}"

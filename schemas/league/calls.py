@@ -1,0 +1,82 @@
+"""What the league's referee box would signal when our game goes from one state to the next."""
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from schemas.game import GameState, OffField, Phase, Stage, Standing
+from schemas.league.signals import BY_NAME, HALF_OF, RESTART_OF, START, STOP, Signal
+from schemas.side import Side
+
+_PHASES: Mapping[Phase, Signal] = {
+    Phase.PARKING: BY_NAME["PARK"],
+    Phase.HALF_TIME: BY_NAME["HALF_TIME"],
+    Phase.FULL_TIME: BY_NAME["END_GAME"],
+} | {phase: signal for phase, signal in RESTART_OF.items() if phase is not None}
+"""Phase → what is signalled when it begins; STOP comes before goals, and these after them."""
+_LEAVES: Mapping[OffField, Signal] = {
+    OffField.REPAIR: BY_NAME["REPAIR"],
+    OffField.SUBSTITUTION: BY_NAME["SUBSTITUTION"],
+    OffField.SILENT: BY_NAME["IS_ALIVE"],
+}
+"""Why a robot left → what is signalled: after one whose program is gone the box asks."""
+_NOBODY = Standing()
+
+
+class Call(NamedTuple):
+    """One signal, for whom it is meant: a side, or nobody or everybody; one robot of it by name."""
+
+    signal: Signal
+    side: Side | None = None
+    robot: str | None = None
+
+
+def calls(old: GameState | None, new: GameState, sides: Mapping[str, Side]) -> list[Call]:
+    """The signals that lead from one state to the next, in their order; from nothing, as from before the match.
+
+    `sides` tells whose robots are whose. Cards that are taken back have no signal in the league.
+    """
+    before = old if old is not None else GameState(tick=0, time=0.0, phase=Phase.PRE_GAME)
+    said = list(_half(old, new))
+    changed = (new.phase, new.side) != (before.phase, before.side)
+    if changed and new.phase is Phase.STOPPED:
+        said.append(Call(STOP))
+    for side in Side:
+        goals = new.score.of(side) - before.score.of(side)
+        said += [Call(BY_NAME["GOAL" if goals > 0 else "SUBGOAL"], side)] * abs(goals)
+    said += _people(before, new, sides)
+    if changed and new.phase in _PHASES:
+        signal = _PHASES[new.phase]
+        said.append(Call(signal, new.side if signal.sided else None))
+    if new.running and not before.running:
+        said.append(Call(START))
+    return said
+
+
+def _half(old: GameState | None, new: GameState) -> Iterator[Call]:
+    """A half begins with its kick-off; the box calls the shoot-out no half."""
+    if new.phase is Phase.PRE_GAME or new.stage is Stage.SHOOT_OUT:
+        return
+    if (old is None or old.phase is Phase.PRE_GAME or new.half != old.half) and new.half in HALF_OF:
+        yield Call(HALF_OF[new.half])
+
+
+def _people(before: GameState, new: GameState, sides: Mapping[str, Side]) -> Iterator[Call]:
+    for name in sorted({*before.robots, *new.robots}):
+        if name in sides:
+            was, now = before.robots.get(name, _NOBODY), new.robots.get(name, _NOBODY)
+            for signal in _person(was, now):
+                yield Call(signal, sides[name], name)
+
+
+def _person(was: Standing, now: Standing) -> Iterator[Signal]:
+    left = now.off_field is not was.off_field
+    if now.red > was.red:
+        yield BY_NAME["RED_CARD"]
+    elif left and now.off_field is OffField.SECOND_YELLOW:
+        yield BY_NAME["DOUBLE_YELLOW"]
+    elif now.yellow > was.yellow:
+        yield BY_NAME["YELLOW_CARD"]
+    if left and now.off_field is not None and now.off_field in _LEAVES:
+        yield _LEAVES[now.off_field]
+    elif left and was.off_field is OffField.REPAIR:
+        yield BY_NAME["REPAIR_END"]
