@@ -2,16 +2,22 @@
 
 from typing import Any
 
+from pydantic import ValidationError
+
+from coach_gateway.orders import OrderWatch, Receipt
 from schemas.bus.contract import Bus, NoAnswerError, Publisher
 from schemas.coach import CoachOrder
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import ActionReply, RefereeAction
 from schemas.host import Setup, SetupRequest
-from schemas.message import BadMessageError, Message
+from schemas.message import BadMessageError, Message, reason_of
 from schemas.parameters import ParametersReply, ParametersRequest
 from schemas.scene import SceneReply, SceneRequest
 from schemas.side import Side
 from schemas.topics import ACTION, ORDER, PARAMETERS, SCENE, SETUP, Topic
+
+_LOOK_S = 0.02
+"""s of wall time between two looks for acknowledgements."""
 
 
 class Gateway:
@@ -23,6 +29,7 @@ class Gateway:
         """How long an answer may take, in s of wall time."""
         self._orders: dict[Side, Publisher] = {}
         self._sequence = 0
+        self._watch: OrderWatch | None = None
 
     def setup(self) -> Setup:
         """How the match is set up.
@@ -60,25 +67,56 @@ class Gateway:
         reply: SceneReply = self._ask(SCENE, request)
         return reply
 
+    @property
+    def orders(self) -> OrderWatch:
+        """Which orders stand and who has acknowledged them, from when this was first asked for."""
+        if self._watch is None:
+            self._watch = OrderWatch(self._bus)
+        return self._watch
+
     def order(self, side: Side, **content: Any) -> CoachOrder:
         """Give a side its new standing order, numbered after every one before it; returns it once the host has it.
 
         Raises:
-            TouchlineError: no host answers for this match, or a robot named in the order is not in it.
+            TouchlineError: no host answers for this match, a robot named in the order is not in it, or a field may not
+                be what it is.
         """
         robots = self.setup().teams[side].robots
         for key in ("robot_a", "robot_b"):
             name = content.get(key)
             if name is not None and name not in robots:
                 raise TouchlineError(f'{key} is "{name}", no robot of {side.value}; {did_you_mean(name, robots)}')
-        # Wall time in ms numbers the orders of successive processes too: a coach cannot read what an earlier one said.
-        self._sequence = max(self._sequence + 1, self._bus.clock.unix_ns() // 1_000_000)
-        order = CoachOrder(sequence=self._sequence, **content)
+        self._sequence = self._next_number(side)
+        try:
+            order = CoachOrder.model_validate({**content, "sequence": self._sequence})
+        except ValidationError as error:
+            raise TouchlineError(f"the order cannot be given: {reason_of(error)}") from None
         if side not in self._orders:
             self._orders[side] = self._bus.publisher(ORDER, side=side.value)
         self._orders[side].put(order)
         self.setup()  # answered after the order on the same link: the host has taken the order in
         return order
+
+    def wait_for_robots(self, side: Side, order: CoachOrder, patience: float) -> Receipt:
+        """Who has acknowledged an order, waiting up to `patience` s of wall time for all of them."""
+        clock = self._bus.clock
+        deadline = clock.now() + patience
+        while True:
+            self.orders.update()
+            receipt = self.orders.book.receipt(side, order.sequence)
+            if receipt.is_final or clock.now() >= deadline:
+                return receipt
+            clock.sleep_until(clock.now() + _LOOK_S)
+
+    def _next_number(self, side: Side) -> int:
+        """Wall time in ms numbers the orders of successive processes; one whose clock is behind goes on from the last.
+
+        Only then: a process that gives one order and leaves does not hear what stands before it has given it.
+        """
+        self.orders.update()
+        standing = self.orders.book.standing(side)
+        after = standing.order.sequence if standing is not None else 0
+        return max(self._sequence + 1, after + 1, self._bus.clock.unix_ns() // 1_000_000)
 
     def _ask(self, topic: Topic, question: Message) -> Any:
         try:

@@ -4,12 +4,12 @@ A file that begins in the middle of a match begins with it, so that it can be re
 """
 
 from schemas.bus.contract import Received
-from schemas.topics import APPLIED, ORDER, STATE, WORLD
+from schemas.topics import APPLIED, ORDER, STANDING_ORDER, STATE, WORLD
 
 Logged = tuple[int, Received]
 """Log time in ns, and message."""
 
-_NEWEST = frozenset({WORLD.key, STATE.key, ORDER.key, APPLIED.key})
+_NEWEST = frozenset({WORLD.key, STATE.key, ORDER.key, STANDING_ORDER.key, APPLIED.key})
 """Rows whose newest message stands until the next one on its key."""
 _CHANGES = (b'"robots":[', b'"parameters":{"', b'"obstacles":[')
 """Of `host/applied`: what changed for good in that tick; all of them stand, one on the other."""

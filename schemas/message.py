@@ -51,6 +51,14 @@ class Message(Part):
         return message  # type: ignore[no-any-return]
 
 
+def reason_of(error: ValidationError) -> str:
+    """What is wrong with the content of a message, in one phrase: a field that is wrong, or two that do not agree."""
+    first = error.errors(include_url=False)[0]
+    reason = first["msg"].removeprefix("Value error, ")
+    where = ".".join(str(step) for step in first["loc"])
+    return f"{where} is {first['input']!r:.60}: {reason[0].lower()}{reason[1:]}" if where else reason
+
+
 _MAJOR = VERSION.split(".")[0]
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
 
-from schemas.coach import CoachOrder
+from schemas.coach import CoachOrder, StandingOrder
 from schemas.command import Command
 from schemas.control import RecorderReply, RecorderRequest
 from schemas.errors import TouchlineError, did_you_mean
@@ -182,6 +182,16 @@ ORDER = Topic(
     True,
     "the coach's standing order",
 )
+STANDING_ORDER = Topic(
+    "team/{side}/standing",
+    StandingOrder,
+    Party.HOST,
+    (Party.COACH, Party.RECORDER),
+    "on change, and once a second, while an order stands",
+    Delivery.RECOVERED,
+    True,
+    "the order that stands, and which robots have acknowledged it",
+)
 STATE = Topic(
     "game/state",
     GameState,
@@ -338,6 +348,7 @@ TOPICS: dict[str, Topic] = {
     "hand": HAND,
     "belief": BELIEF,
     "order": ORDER,
+    "standing_order": STANDING_ORDER,
     "state": STATE,
     "event": EVENT,
     "action": ACTION,

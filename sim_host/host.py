@@ -14,6 +14,7 @@ from sim_host.pace import Lockstep, Pace, Realtime
 from sim_host.pulse import Pulse
 from sim_host.relay import Relay
 from sim_host.simulation import Simulation, Tick
+from sim_host.standing import StandingOrders
 
 _PARTING_S = 5.0
 """Wall time that the host waits at the end for its recorders to take in the last tick."""
@@ -35,6 +36,7 @@ class Host:
         self.pace = _pace(config, bus, self.inbox, self.attendance, self._desk, self.simulation.profile)
         tick_s = self.simulation.profile.time.tick
         self._outbox = Outbox(bus, self.simulation.roster, tick_s, sights_kept=config.record.sights)
+        self._standing = StandingOrders(bus, self.simulation.orders, self.inbox.ledgers, tick_s)
         self._pulse = Pulse(bus.clock, config.pace)
         self._roster = self.simulation.roster
         self._silent = dict.fromkeys(self._roster.names, False)
@@ -86,6 +88,7 @@ class Host:
         silent = {name for name, is_silent in self._silent.items() if is_silent and name not in commands}
         tick = self.simulation.step(commands, self._desk.actions, self._send_sight, silent)
         self._outbox.truth(tick, self.simulation.state)
+        self._standing.tell(tick.tick, tick.time, self.simulation.roster)
         self._relay.send(tick.tick)
         self._desk.reply(tick.replies)
         self._keep_account(tick)

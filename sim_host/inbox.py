@@ -44,6 +44,8 @@ class Ledger:
     """Its robot stands still, whatever it says."""
     newest: int = -1
     """Tick of the newest sight it has answered."""
+    acknowledged: int | None = None
+    """Number of the coach's order that its newest command acknowledges."""
     latencies: deque[float] = field(default_factory=lambda: deque(maxlen=_LATENCIES))
 
     @property
@@ -152,6 +154,7 @@ class Inbox:
             ledger.duplicates += 1
             return None
         ledger.newest = command.answers_tick
+        ledger.acknowledged = command.acknowledges_order
         ledger.answers += 1
         self._note_latency(ledger, command.answers_tick, received.arrived_ns)
         return name, command

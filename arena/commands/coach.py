@@ -11,6 +11,7 @@ from arena.seat import seat as _seat
 from schemas.coach import CoachMode, CoachOrder
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.game import ActionName, Point, RefereeAction
+from schemas.message import reason_of
 from schemas.side import Side
 
 app = typer.Typer(
@@ -213,5 +214,7 @@ def _checked(model: Any, **content: Any) -> Any:
         return model(**content)
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
+        if not first["loc"]:
+            raise TouchlineError(reason_of(error)) from None
         option = "--" + "-".join(str(first["loc"][0]).split("_"))
         raise TouchlineError(f"{option} is {first['input']}: {first['msg'][0].lower()}{first['msg'][1:]}") from None

@@ -13,9 +13,11 @@ from recordings.tape import Tape
 from schemas.clock import Clock
 from schemas.errors import TouchlineError
 from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
-from schemas.topics import APPLIED, BELIEF, COMMAND, HEALTH, ORDER, SIGHT, STATE, WORLD, Topic
+from schemas.topics import APPLIED, BELIEF, COMMAND, HEALTH, ORDER, SIGHT, STANDING_ORDER, STATE, WORLD, Topic
 
-STANDING = frozenset(topic.key for topic in (WORLD, STATE, APPLIED, HEALTH, COMMAND, SIGHT, BELIEF, ORDER))
+STANDING = frozenset(
+    topic.key for topic in (WORLD, STATE, APPLIED, HEALTH, COMMAND, SIGHT, BELIEF, ORDER, STANDING_ORDER)
+)
 """Topics whose newest message says how things stand; events and complaints have happened, and do not stand."""
 _AT_ONCE = 500
 """Messages after which controls are looked at again."""

@@ -1,6 +1,6 @@
 """One example of each message, from one tick of a match; the first that a reader sees of it."""
 
-from schemas.coach import CoachMode, CoachOrder
+from schemas.coach import CoachMode, CoachOrder, StandingOrder
 from schemas.command import BallBelief, Command, Drive, Kick, KickMode, Motion, Radio
 from schemas.control import RecorderDeed, RecorderReply, RecorderRequest
 from schemas.game import (
@@ -107,6 +107,9 @@ def _robot() -> tuple[Message, ...]:
         HandDrive(drive=Drive(vx=1.0, omega=-1.0), dribble=True),
         Belief(tick=_TICK + 1, time=_TIME + 0.02, robot="cyan2", radio=_RADIO),
         _ORDER,
+        StandingOrder(
+            tick=_TICK, time=_TIME, order=_ORDER, acknowledged={"cyan1": True, "cyan2": True, "cyan3": False}
+        ),
     )
 
 

@@ -3,10 +3,11 @@ import threading
 import pytest
 
 from coach_gateway.gateway import Gateway
+from coach_gateway.orders import Fate
 from schemas.bus.contract import Bus
 from schemas.bus.in_process import Medium
 from schemas.clock import SteppedClock
-from schemas.coach import CoachMode, CoachOrder
+from schemas.coach import CoachMode, CoachOrder, StandingOrder
 from schemas.errors import TouchlineError
 from schemas.game import ActionName, ActionReply, RefereeAction
 from schemas.host import Setup
@@ -14,7 +15,7 @@ from schemas.match_config import load_match
 from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
-from schemas.topics import ACTION, ORDER, SETUP
+from schemas.topics import ACTION, ORDER, SETUP, STANDING_ORDER
 
 
 @pytest.fixture
@@ -104,3 +105,50 @@ def test_an_order_about_a_robot_of_the_other_side_is_refused_with_a_hint(
 ) -> None:
     with pytest.raises(TouchlineError, match='robot_a is "cyan7", no robot of cyan; did you mean "cyan'):
         Gateway(seat(medium)).order(Side.CYAN, robot_a="cyan7")
+
+
+def test_an_order_that_contradicts_itself_is_refused_with_the_reason(medium: Medium, host: list[RefereeAction]) -> None:
+    with pytest.raises(TouchlineError, match="the order cannot be given: the test move needs robot_a and point_a"):
+        Gateway(seat(medium)).order(Side.CYAN, mode=CoachMode.TEST, test="move")
+
+
+def test_an_order_is_numbered_after_the_one_that_stands_whatever_the_clock_says(
+    medium: Medium, host: list[RefereeAction]
+) -> None:
+    gateway = Gateway(seat(medium))
+    gateway.orders.update()
+    ahead = CoachOrder(sequence=4_000_000_000_000)
+    standing = StandingOrder(tick=1, time=0.02, order=ahead, acknowledged={"cyan1": True})
+    seat(medium).publisher(STANDING_ORDER, side="cyan").put(standing)
+    assert gateway.order(Side.CYAN).sequence == ahead.sequence + 1
+
+
+class AnsweringClock(SteppedClock):
+    """Has another robot acknowledge whenever somebody waits."""
+
+    __slots__ = ("say",)
+
+    def sleep_until(self, moment: float) -> None:
+        super().sleep_until(moment)
+        self.say()
+
+
+def test_robots_are_waited_for_until_all_have_acknowledged_or_patience_ends(
+    medium: Medium, host: list[RefereeAction]
+) -> None:
+    clock = AnsweringClock()
+    gateway = Gateway(medium.seat("friendly", clock))
+    given = gateway.order(Side.CYAN, mode=CoachMode.HOLD)
+    writer = seat(medium).publisher(STANDING_ORDER, side="cyan")
+    heard = {"cyan1": False, "cyan2": False}
+
+    def say() -> None:
+        writer.put(StandingOrder(tick=1, time=0.02, order=given, acknowledged=heard))
+        heard["cyan1"] = True
+        heard["cyan2"] = clock.now() > 1.0
+
+    clock.say = say
+    assert gateway.wait_for_robots(Side.CYAN, given, patience=0.5).missing == ("cyan2",)
+    receipt = gateway.wait_for_robots(Side.CYAN, given, patience=5.0)
+    assert (receipt.fate, receipt.missing) == (Fate.STANDS, ())
+    assert clock.now() < 2.0

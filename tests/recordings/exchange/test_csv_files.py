@@ -2,6 +2,7 @@ import csv
 from pathlib import Path
 
 import pytest
+from mcap.reader import make_reader
 
 from recordings.exchange.csv_files import KINDS, export
 from recordings.reader import Recording, open_recording
@@ -62,7 +63,11 @@ def test_what_is_there_already_is_not_overwritten(folder: Path, recorded: Record
 def test_a_failed_export_leaves_nothing_behind(recorded: Recording, tmp_path: Path) -> None:
     broken = tmp_path / "broken.mcap"
     content = bytearray(recorded.path.read_bytes())
-    content[len(content) // 2] ^= 1
+    with recorded.path.open("rb") as file:
+        summary = make_reader(file).get_summary()
+    assert summary is not None
+    chunk = summary.chunk_indexes[0]
+    content[chunk.chunk_start_offset + chunk.chunk_length // 2] ^= 1
     broken.write_bytes(content)
     with pytest.raises(TouchlineError, match=r"broken\.mcap: damaged inside"):
         export(open_recording(broken), tmp_path / "half")
