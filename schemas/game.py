@@ -264,6 +264,7 @@ class ActionName(StrEnum):
     DROP_BALL = "drop_ball"
     PLACE_BALL = "place_ball"
     GOAL = "goal"
+    CANCEL_GOAL = "cancel_goal"
     YELLOW_CARD = "yellow_card"
     RED_CARD = "red_card"
     REPAIR = "repair"
@@ -275,6 +276,10 @@ class ActionName(StrEnum):
     UNDO = "undo"
     END_HALF = "end_half"
     END_GAME = "end_game"
+
+
+REFBOX = "refbox"
+"""The source of what a league's referee box asks for, and the kind of the tokens of those who speak for it."""
 
 
 class RefereeAction(Message):

@@ -336,7 +336,7 @@ ALIVE = Topic(
     "while it lives",
     Delivery.PRESENCE,
     False,
-    "liveliness token of a process: host, agent, coach, recorder",
+    "liveliness token of a process: host, agent, coach, recorder; refbox: a league's referee box officiates",
 )
 
 TOPICS: dict[str, Topic] = {

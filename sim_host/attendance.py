@@ -1,6 +1,7 @@
-"""Who is there: agents and recorders come and go by their liveliness tokens, and recorders tell how far they are."""
+"""Who is there: agents, recorders and referee boxes by their liveliness tokens; recorders tell how far they are."""
 
 from schemas.bus.contract import Bus, Presence
+from schemas.game import REFBOX
 from schemas.message import BadMessageError
 from schemas.topics import PROGRESS
 from sim_host.inbox import Ledger
@@ -13,7 +14,7 @@ _KNOWN = 100
 
 
 class Attendance:
-    """Presence of agents and recorders."""
+    """Presence of agents, recorders and referee boxes."""
 
     def __init__(self, bus: Bus, ledgers: dict[str, Ledger], patience: float) -> None:
         """`patience` is how long a recorder whose link broke is expected back, in s of wall time."""
@@ -24,6 +25,8 @@ class Attendance:
         self._ledgers = ledgers
         self._agents: dict[str, bool] = {}
         """Everyone who came as an agent, also for a robot that does not play yet: whether it is there."""
+        self._refboxes: dict[str, bool] = {}
+        """Everyone who came to speak for a league's referee box: whether it is there."""
         self.recorders: dict[str, int] = {}
         """Recorder → the newest tick it has taken in; one whose link broke is in here until it is given up."""
         self._lost: dict[str, float] = {}
@@ -42,6 +45,8 @@ class Attendance:
                 changed.append(presence)
             elif presence.kind == "recorder":
                 self._recorder(presence)
+            elif presence.kind == REFBOX and (presence.name in self._refboxes or len(self._refboxes) < _KNOWN):
+                self._refboxes[presence.name] = presence.alive
             presence = self._watch.receive(0.0)
         self.hear_recorders(0.0)
         self._give_up()
@@ -85,6 +90,10 @@ class Attendance:
     def _forget(self, name: str) -> None:
         self.recorders.pop(name, None)
         self._lost.pop(name, None)
+
+    def is_officiated(self) -> bool:
+        """Whether a league's referee box is connected: nobody else officiates meanwhile."""
+        return any(self._refboxes.values())
 
     def all_here(self, wait_for_recorder: bool) -> bool:
         """Every robot's agent is there, and a recorder where one is waited for."""

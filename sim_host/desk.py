@@ -1,6 +1,6 @@
 """Where others put questions to the host: one clerk for each kind, all attended to between two ticks."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from schemas.bus.contract import Bus
 from schemas.game import ActionReply, RefereeAction
@@ -16,12 +16,15 @@ from sim_host.simulation import Simulation
 class Desk:
     """Answers between two ticks."""
 
-    def __init__(self, bus: Bus, simulation: Simulation, complaints: Complaints, relay: Relay) -> None:
+    def __init__(
+        self, bus: Bus, simulation: Simulation, complaints: Complaints, relay: Relay, officiated: Callable[[], bool]
+    ) -> None:
+        """`officiated` tells whether a league's referee box decides: then nobody else does."""
         self._setup = PromptClerk(bus, SETUP, lambda _: simulation.setup(), complaints)
         self._parameters = PromptClerk(bus, PARAMETERS, simulation.parameters, complaints)
         self._scene = PromptClerk(bus, SCENE, simulation.scene, complaints)
         self._orders = OrderClerk(bus, simulation.orders, complaints, relay)
-        self._actions = ActionClerk(bus, complaints)
+        self._actions = ActionClerk(bus, complaints, officiated)
 
     @property
     def actions(self) -> Sequence[RefereeAction]:

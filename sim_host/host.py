@@ -32,7 +32,7 @@ class Host:
         self._hands = Hands(bus, self._complaints)
         self._config = config
         self._clock = bus.clock
-        self._desk = Desk(bus, self.simulation, self._complaints, self._relay)
+        self._desk = Desk(bus, self.simulation, self._complaints, self._relay, self.attendance.is_officiated)
         self.pace = _pace(config, bus, self.inbox, self.attendance, self._desk, self.simulation.profile)
         tick_s = self.simulation.profile.time.tick
         self._outbox = Outbox(bus, self.simulation.roster, tick_s, sights_kept=config.record.sights)

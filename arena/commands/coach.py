@@ -39,6 +39,7 @@ SIDED: dict[str, tuple[ActionName, str]] = {
     "corner": (ActionName.CORNER, "Stop play and give a side a corner."),
     "penalty": (ActionName.PENALTY, "Stop play and give a side a penalty."),
     "goal": (ActionName.GOAL, "Count a goal for a side."),
+    "cancel-goal": (ActionName.CANCEL_GOAL, "Take a goal from a side's score; the game goes on as it does."),
 }
 """Command that names a side → the same."""
 

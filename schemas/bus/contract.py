@@ -197,7 +197,11 @@ class Bus(ABC):
 
     @abstractmethod
     def declare_alive(self, kind: str, name: str) -> None:
-        """Be seen as `alive/{kind}/{name}` until this bus is closed or its process dies."""
+        """Be seen as `alive/{kind}/{name}` until that is withdrawn, this bus is closed or its process dies."""
+
+    @abstractmethod
+    def withdraw_alive(self, kind: str, name: str) -> None:
+        """Be seen so no more; nothing where one was not."""
 
     @abstractmethod
     def watch_alive(self) -> PresenceWatch:

@@ -228,6 +228,13 @@ class InProcessBus(Bus):
         self._tokens.append(who)
         self.medium.change_alive(self.match, who, +1)
 
+    def withdraw_alive(self, kind: str, name: str) -> None:
+        self.check_open()
+        who = (self.prefix + kind, name)
+        if who in self._tokens:
+            self._tokens.remove(who)
+            self.medium.change_alive(self.match, who, -1)
+
     def watch_alive(self) -> PresenceWatch:
         self.check_open()
         watch = _Watch(self.match)

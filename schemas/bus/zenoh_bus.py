@@ -293,7 +293,7 @@ class ZenohBus(Bus):
         self.prefix = root(match)
         self._mailboxes: list[EveryMailbox[Any]] = []
         self._subscriptions: list[_Subscription] = []
-        self._tokens: list[zenoh.LivelinessToken] = []
+        self._tokens: dict[str, zenoh.LivelinessToken] = {}
         self.is_client = is_client
         self._alarm: threading.Thread | None = None
         self._leaving = threading.Event()
@@ -319,7 +319,13 @@ class ZenohBus(Bus):
 
     def declare_alive(self, kind: str, name: str) -> None:
         key = self.prefix + TOPICS["alive"].fill(kind=kind, name=name)
-        self._tokens.append(self._open().session.liveliness().declare_token(key))
+        self._tokens[key] = self._open().session.liveliness().declare_token(key)
+
+    def withdraw_alive(self, kind: str, name: str) -> None:
+        self._open()
+        token = self._tokens.pop(self.prefix + TOPICS["alive"].fill(kind=kind, name=name), None)
+        if token is not None:
+            token.undeclare()  # type: ignore[no-untyped-call]
 
     def watch_alive(self) -> PresenceWatch:
         watch = _Watch(self._open())

@@ -243,6 +243,16 @@ def test_a_process_is_seen_to_come_and_go(seats: Seats) -> None:
     assert went is not None and (went.name, went.alive) == ("cyan1", False)
 
 
+def test_who_withdraws_its_token_is_seen_to_go_and_may_come_again(seats: Seats) -> None:
+    watch = seats.host.watch_alive()
+    bus = seats.join()
+    bus.withdraw_alive("refbox", "cyan")
+    for alive in (True, False, True):
+        (bus.declare_alive if alive else bus.withdraw_alive)("refbox", "cyan")
+        seen = watch.receive(SOON)
+        assert seen is not None and (seen.kind, seen.name, seen.alive) == ("refbox", "cyan", alive)
+
+
 def test_a_watch_begins_with_those_who_are_there(seats: Seats) -> None:
     bus = seats.join()
     bus.declare_alive("recorder", "main")

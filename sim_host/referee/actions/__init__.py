@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from schemas.game import ActionName, ActionReply, EventKind, RefereeAction
 from sim_host.referee.actions import (
+    cancel_goal,
     confirm,
     corner,
     drop_ball,
@@ -55,6 +56,7 @@ ACTIONS: Mapping[ActionName, Action] = {
     ActionName.DROP_BALL: Action(drop_ball.why_illegal, drop_ball.apply),
     ActionName.PLACE_BALL: Action(place_ball.why_illegal, place_ball.apply, can_be_undone=False),
     ActionName.GOAL: Action(goal.why_illegal, goal.apply),
+    ActionName.CANCEL_GOAL: Action(cancel_goal.why_illegal, cancel_goal.apply),
     ActionName.YELLOW_CARD: Action(yellow_card.why_illegal, yellow_card.apply),
     ActionName.RED_CARD: Action(red_card.why_illegal, red_card.apply),
     ActionName.REPAIR: Action(repair.why_illegal, repair.apply),

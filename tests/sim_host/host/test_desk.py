@@ -4,7 +4,7 @@ import pytest
 
 from schemas.bus.contract import NoAnswerError
 from schemas.coach import CoachOrder
-from schemas.game import ActionName, ActionReply, Phase, RefereeAction
+from schemas.game import REFBOX, ActionName, ActionReply, Phase, RefereeAction
 from schemas.host import SetupRequest
 from schemas.parameters import ParameterDeed, ParametersRequest
 from schemas.side import Side
@@ -37,6 +37,25 @@ def test_actions_of_one_tick_are_answered_each_with_its_own_reply(pitch):
     first, second = (pitch.outside.ask(ACTION, RefereeAction(action=ActionName.STOP)) for _ in range(2))
     pitch.ticks(1)
     assert (first.result(0.0).accepted, second.result(0.0).accepted) == (True, False)
+
+
+def test_while_a_referee_box_is_connected_nobody_else_may_more_than_stop_the_game(pitch):
+    """Reference 8.3: manual buttons are disabled while the box is connected, and the space bar always stops."""
+    ask(pitch, ActionName.STOP)
+    box = pitch.seat()
+    box.declare_alive(REFBOX, "cyan")
+    by_hand, from_box = (
+        pitch.outside.ask(ACTION, RefereeAction(action=ActionName.CORNER, side=Side.CYAN, source=source))
+        for source in ("page", REFBOX)
+    )
+    pitch.ticks(1)
+    assert "referee box is connected" in by_hand.result(0.0).reason
+    assert from_box.result(0.0).accepted
+    pitch.ticks(100)
+    assert ask(pitch, ActionName.STOP).accepted
+    box.withdraw_alive(REFBOX, "cyan")
+    pitch.ticks(1)
+    assert ask(pitch, ActionName.START).accepted
 
 
 def test_a_question_that_is_none_is_told_and_answered_with_what_is_wrong(pitch):

@@ -54,6 +54,17 @@ def test_after_full_time_everything_is_refused(bench, name):
     refused(bench.ask(name, CYAN, (1.0, 1.0) if name == "place_ball" else None))
 
 
+def test_a_cancelled_goal_leaves_the_score_and_nothing_else_changes(bench):
+    bench.playing()
+    bench.ask("goal", MAGENTA)
+    before = bench.state
+    ruling = bench.ask("cancel_goal", MAGENTA)
+    assert ruling.replies[0].accepted and bench.state.score == Score()
+    assert (bench.state.phase, bench.state.pending) == (before.phase, before.pending)
+    assert [event.score for event in ruling.events if event.kind is EventKind.NO_GOAL] == [Score()]
+    assert "magenta has no goal" in refused(bench.ask("cancel_goal", MAGENTA))
+
+
 def test_stop_halts_at_once_and_waits_for_people(bench):
     bench.playing()
     ruling = bench.ask("stop")

@@ -1,0 +1,33 @@
+"""Cancel goal: takes one from a side's score by the word of a person, whenever it was scored; the game goes on.
+
+Who takes it back at once, before anything else is decided, rather has it undone: the restart goes with it then.
+"""
+
+import dataclasses
+
+from schemas.game import EventKind, RefereeAction
+from sim_host.referee.actions.legality import no_match, no_side
+from sim_host.referee.turn import Turn
+
+
+def why_illegal(turn: Turn, action: RefereeAction) -> str | None:
+    """A reason against it, or nothing."""
+    return no_match(turn) or no_side(action) or _no_goal(turn, action)
+
+
+def apply(turn: Turn, action: RefereeAction) -> None:
+    """Take it away."""
+    side = action.side
+    if side is None:
+        return
+    score = turn.state.score.plus(side, -1)
+    turn.state = dataclasses.replace(turn.state, score=score)
+    text = f"a goal of {side} is cancelled by the word of {action.source}"
+    turn.say(EventKind.NO_GOAL, action.action, text, side=side, score=score)
+
+
+def _no_goal(turn: Turn, action: RefereeAction) -> str | None:
+    """The side must have scored."""
+    if action.side is None or turn.state.score.of(action.side):
+        return None
+    return f"{action.side} has no goal"
