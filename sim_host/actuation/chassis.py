@@ -2,8 +2,6 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-import numpy as np
-
 from schemas.host import AppliedInput
 from schemas.profile import TimeSteps
 from schemas.robot_model import RobotModel
@@ -38,14 +36,13 @@ class Chassis:
 
     def plan(self, robots: Sequence[RobotState], inputs: Sequence[AppliedInput]) -> Iterable[Sequence[FieldDrive]]:
         """The drives of one tick: per physics step, per robot. Each is to be asked for when its step begins."""
-        state = np.array(robots)
-        told = np.array([(one.drive.vx, one.drive.vy, one.drive.omega) for one in inputs])
+        told = [one.drive for one in inputs]
         if not self._rolling:
-            planned = self._velocity.plan(state, told)
+            planned = self._velocity.plan(robots, told)
             self._watch.note(self._set, self._velocity.held)
             return planned
-        planned = self._velocity.plan(state[self._set], told[self._set])
-        self._omni.plan([robots[place] for place in self._rolling], told[self._rolling])
+        planned = self._velocity.plan([robots[place] for place in self._set], [told[place] for place in self._set])
+        self._omni.plan([robots[place] for place in self._rolling], [told[place] for place in self._rolling])
         self._watch.note(self._set, self._velocity.held)
         self._watch.note(self._rolling, self._omni.held)
         return self._step_by_step(planned)

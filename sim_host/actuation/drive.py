@@ -1,11 +1,12 @@
-"""The drive of each robot: a velocity demand in the body frame becomes velocities the body can really have.
+"""How a demand becomes motion a body can really have: limits on speed and acceleration, for all robots at once.
 
-One control tick is planned at once for all robots: within it the demand does not change. Speed and acceleration
-limits hold in the body frame, where the wheels are, and a limit that bites keeps the direction of what it limits.
-Planar vectors are complex numbers, x + iy: turning is multiplying.
+One control tick is planned at once: within it the demand does not change. The limits hold in the body frame, where the
+wheels are, and a limit that bites keeps the direction of what it limits. Planar vectors are complex numbers, x + iy:
+turning is multiplying. A turn rate is a vector of one dimension, and obeys the same rules.
 """
 
 from collections.abc import Sequence
+from typing import Any, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,8 @@ from schemas.profile import Drive
 Floats = NDArray[np.float64]
 Vectors = NDArray[np.complex128]
 Flags = NDArray[np.bool_]
+Motions = TypeVar("Motions", bound=NDArray[Any])
+"""m/s or rad/s, one of each robot."""
 
 FieldDrive = tuple[float, float, float]
 """vx, vy in m/s and omega in rad/s, field frame."""
@@ -23,32 +26,42 @@ _TINY = 1e-12
 """m/s; keeps directions of nothing finite."""
 
 
-class DrivePlanner:
-    """Plans the velocities of all robots over the physics steps of one tick."""
+class Ramp:
+    """The limits of some motions, and how each goes toward its demand over the physics steps of one tick."""
 
-    def __init__(self, drives: Sequence[Drive], step: float, steps: int) -> None:
+    def __init__(
+        self, top: Sequence[float], gain: Sequence[float], loss: Sequence[float], step: float, steps: int
+    ) -> None:
+        """Top speed, and how fast speed is gained and lost, of each motion; `step` in s."""
         elapsed = step * np.arange(1, steps + 1)[:, None]
-        acceleration = np.array([drive.acceleration for drive in drives])
-        deceleration = np.array([drive.deceleration for drive in drives])
-        self._top_speed = np.array([drive.max_speed for drive in drives])
-        self._top_turn_rate = np.array([drive.max_turn_rate for drive in drives])
-        self._gain = acceleration * elapsed
-        self._loss = deceleration * elapsed
-        self._turn = np.array([drive.turn_acceleration for drive in drives]) * elapsed
-        self._kept = 1.0 - acceleration / deceleration
+        self._top = np.array(top)
+        self._gain = np.array(gain) * elapsed
+        self._loss = np.array(loss) * elapsed
+        self._kept = 1.0 - np.array(gain) / np.array(loss)
 
-    def within_limits(self, demand: Vectors) -> Vectors:
-        """Demanded velocities, in m/s, shortened to top speed."""
-        shortened: Vectors = demand * np.minimum(1.0, self._top_speed / (np.abs(demand) + _TINY))
+    @classmethod
+    def of_moving(cls, drives: Sequence[Drive], step: float, steps: int) -> Self:
+        """The limits of the drives' velocities."""
+        return cls(*_moving(drives), step, steps)
+
+    @classmethod
+    def of_turning(cls, drives: Sequence[Drive], step: float, steps: int) -> Self:
+        """The limits of the drives' turn rates."""
+        return cls(*_turning(drives), step, steps)
+
+    @classmethod
+    def of_both(cls, drives: Sequence[Drive], step: float, steps: int) -> Self:
+        """First the limits of all velocities, then those of all turn rates."""
+        top, gain, loss = (a + b for a, b in zip(_moving(drives), _turning(drives), strict=True))
+        return cls(top, gain, loss, step, steps)
+
+    def within_limits(self, demand: Motions) -> Motions:
+        """Demanded motions, shortened to top speed."""
+        shortened: Motions = demand * np.minimum(1.0, self._top / (np.abs(demand) + _TINY))
         return shortened
 
-    def turn_within_limits(self, demand: Floats) -> Floats:
-        """Demanded turn rates, in rad/s, cut off at the top one."""
-        cut: Floats = np.minimum(np.maximum(demand, -self._top_turn_rate), self._top_turn_rate)
-        return cut
-
-    def velocities(self, now: Vectors, demand: Vectors) -> Vectors:
-        """Body velocities after each step, shape (steps, n), from those now toward the demanded ones; all in m/s.
+    def toward(self, now: Motions, demand: Motions) -> Motions:
+        """Motions after each step, shape (steps, n), from those now toward the demanded ones.
 
         A demand beyond top speed is shortened. Speed against the direction of the change is lost at the deceleration
         limit, and only then speed is gained at the acceleration limit.
@@ -58,11 +71,18 @@ class DrivePlanner:
         direction = change / (size + _TINY)
         to_lose = np.maximum(-(now * direction.conj()).real, 0.0)
         done = np.minimum(self._loss, self._gain + self._kept * to_lose)
-        after: Vectors = now + np.minimum(done, size) * direction
+        after: Motions = now + np.minimum(done, size) * direction
         return after
 
-    def turn_rates(self, now: Floats, demand: Floats) -> Floats:
-        """Turn rates after each step, shape (steps, n), from those now toward the demanded ones; all in rad/s."""
-        change = self.turn_within_limits(demand) - now
-        after: Floats = now + np.minimum(np.maximum(change, -self._turn), self._turn)
-        return after
+
+def _moving(drives: Sequence[Drive]) -> tuple[list[float], list[float], list[float]]:
+    return (
+        [drive.max_speed for drive in drives],
+        [drive.acceleration for drive in drives],
+        [drive.deceleration for drive in drives],
+    )
+
+
+def _turning(drives: Sequence[Drive]) -> tuple[list[float], list[float], list[float]]:
+    changes = [drive.turn_acceleration for drive in drives]
+    return [drive.max_turn_rate for drive in drives], changes, changes

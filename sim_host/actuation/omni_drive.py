@@ -9,9 +9,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from schemas.command import Drive
 from schemas.profile import TimeSteps
 from schemas.robot_model import RobotModel
-from sim_host.actuation.drive import DrivePlanner, FieldDrive, Flags, Floats
+from sim_host.actuation.drive import FieldDrive, Flags, Floats, Ramp
 from sim_host.actuation.stuck import MOVING, SHARE, TURNING
 from sim_host.actuation.wheels import WheelSets
 from sim_host.snapshot import RobotState
@@ -24,7 +25,9 @@ class OmniDrive:
     """Some robots of this drive, each with its own memory: rim speeds, and the twist that was told last."""
 
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:
-        self._planner = DrivePlanner([model.drive for model in models], time.physics_step, time.steps_per_tick)
+        drives = [model.drive for model in models]
+        self._moving = Ramp.of_moving(drives, time.physics_step, time.steps_per_tick)
+        self._turning = Ramp.of_turning(drives, time.physics_step, time.steps_per_tick)
         self._wheels = WheelSets(models, time.physics_step)
         self._remembers = False
         self._told = np.zeros((3, len(models)))
@@ -37,20 +40,20 @@ class OmniDrive:
         """Remember nothing: in the next tick the wheels roll without slip at the twists that are measured."""
         self._remembers = False
 
-    def plan(self, robots: Sequence[RobotState], told: Floats) -> None:
-        """Begin a tick of robots told vx, vy and omega each, in their body frames."""
+    def plan(self, robots: Sequence[RobotState], told: Sequence[Drive]) -> None:
+        """Begin a tick of robots that are told these velocities, in their body frames."""
         twist, _ = _twist(robots)
         if not self._remembers:
             self._told, self._speeds = twist, self._wheels.rolling(twist)
             self._remembers = True
         self.held = _held(twist, self._told)
-        demand = self._planner.within_limits(told[:, 0] + 1j * told[:, 1])
-        turn = self._planner.turn_within_limits(told[:, 2])
+        demand = self._moving.within_limits(np.array([complex(one.vx, one.vy) for one in told]))
+        turn = self._turning.within_limits(np.array([one.omega for one in told]))
         vx, vy, omega = self._wheels.within_limit(np.stack([demand.real, demand.imag, turn]))
         wanted = vx + 1j * vy
-        velocities = self._planner.velocities(self._told[0] + 1j * self._told[1], wanted)
+        velocities = self._moving.toward(self._told[0] + 1j * self._told[1], wanted)
         velocities = np.where(np.abs(velocities - wanted) < _ARRIVED, wanted, velocities)
-        turn_rates = self._planner.turn_rates(self._told[2], omega)
+        turn_rates = self._turning.toward(self._told[2], omega)
         steps = zip(velocities.real, velocities.imag, turn_rates, strict=True)
         self._plan = [self._wheels.within_limit(np.stack(step)) for step in steps]
         self._told = self._plan[-1]

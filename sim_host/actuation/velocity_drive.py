@@ -4,71 +4,69 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from schemas.command import Drive
 from schemas.profile import TimeSteps
 from schemas.robot_model import RobotModel
-from sim_host.actuation.drive import DrivePlanner, FieldDrive, Flags, Floats, Vectors
+from sim_host.actuation.drive import FieldDrive, Flags, Floats, Ramp, Vectors
 from sim_host.actuation.stuck import MOVING, SHARE, TURNING
+from sim_host.snapshot import RobotState
 
 _AS_SET = 1e-3
 """m/s and rad/s; a robot that moves this exactly as it was set to was touched by nobody."""
 
 
 class VelocityDrive:
-    """Some robots of this drive, each with its own memory."""
+    """Some robots of this drive, each with its own memory.
+
+    Their motions stand in one array: the velocities of all, x + iy, and then the turn rates of all.
+    """
 
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:
-        count = len(models)
+        drives = [model.drive for model in models]
+        self._count = len(models)
         self._step = time.physics_step
-        self._top = np.array([model.drive.max_speed for model in models])
-        self._top_turn = np.array([model.drive.max_turn_rate for model in models])
-        self._planner = DrivePlanner([model.drive for model in models], time.physics_step, time.steps_per_tick)
-        self._set_in_body: Vectors = np.zeros(count, dtype=complex)
-        self._set_in_field: Vectors = np.zeros(count, dtype=complex)
-        self._set_turn = np.zeros(count)
-        self.held: Flags = np.zeros(count, dtype=bool)
+        self._top = np.array([drive.max_speed for drive in drives] + [drive.max_turn_rate for drive in drives])
+        self._ramp = Ramp.of_both(drives, time.physics_step, time.steps_per_tick)
+        self._set_in_body: Vectors = np.zeros(2 * self._count, dtype=complex)
+        self._set_in_field: Vectors = np.zeros(2 * self._count, dtype=complex)
+        self._undisturbed: Flags = np.zeros(self._count, dtype=bool)
+        self.held = self._undisturbed
         """Per robot, as the tick begins: something keeps it well below its demand."""
 
     def forget(self) -> None:
         """Remember nothing: the robots' velocities are what is measured."""
         self._set_in_body = np.zeros_like(self._set_in_body)
         self._set_in_field = np.full_like(self._set_in_field, np.inf)
-        self._set_turn = np.full_like(self._set_turn, np.inf)
 
-    def plan(self, state: Floats, told: Floats) -> list[list[FieldDrive]]:
-        """The drives of one tick: per physics step, per robot.
-
-        `state` has a row of `RobotState` for each robot, `told` its vx, vy and omega in the body frame.
-        """
-        demand = told[:, 0] + 1j * told[:, 1]
-        body, disturbed = self._body_velocities(state)
-        self.held = self._held(body, demand, disturbed, state[:, 6], told[:, 2])
-        velocities = self._planner.velocities(body, demand)
-        turn_rates = self._planner.turn_rates(state[:, 6], told[:, 2])
-        headings = state[:, 3] + self._step * (np.cumsum(turn_rates, axis=0) - turn_rates)
+    def plan(self, robots: Sequence[RobotState], told: Sequence[Drive]) -> list[list[FieldDrive]]:
+        """The drives of one tick: per physics step, per robot. What they are told is in their body frames."""
+        count = self._count
+        demand = np.array([complex(one.vx, one.vy) for one in told] + [one.omega for one in told], dtype=complex)
+        measured = np.array([complex(one.vx, one.vy) for one in robots] + [one.omega for one in robots], dtype=complex)
+        heading = np.array([one.heading for one in robots])
+        after = self._ramp.toward(self._motions(measured, heading, demand), demand)
+        velocities, turn_rates = after[:, :count], after[:, count:].real
+        headings = heading + self._step * (np.add.accumulate(turn_rates, axis=0) - turn_rates)
         in_field = velocities * np.exp(1j * headings)
-        self._set_in_body, self._set_in_field, self._set_turn = velocities[-1], in_field[-1], turn_rates[-1]
+        self._set_in_body = after[-1]
+        self._set_in_field = np.concatenate((in_field[-1], turn_rates[-1]))
         rows = zip(in_field.real.tolist(), in_field.imag.tolist(), turn_rates.tolist(), strict=True)
         return [list(zip(vx, vy, omega, strict=True)) for vx, vy, omega in rows]
 
-    def _body_velocities(self, state: Floats) -> tuple[Vectors, Flags]:
-        """Velocities as they were set, or as measured for the robots that something stood in the way of.
+    def _motions(self, measured: Vectors, heading: Floats, demand: Vectors) -> Vectors:
+        """Motions as they were set, or as measured where something stood in the way; notes who is held.
 
         A set velocity stays what it is in the turning body frame, as with wheels that keep their speeds.
         """
-        measured = state[:, 4] + 1j * state[:, 5]
+        count = self._count
         disturbed = np.abs(measured - self._set_in_field) > _AS_SET
         if not disturbed.any():
-            return self._set_in_body, disturbed
-        return np.where(disturbed, measured * np.exp(-1j * state[:, 3]), self._set_in_body), disturbed
-
-    def _held(self, body: Vectors, demand: Vectors, disturbed: Flags, turn: Floats, demanded_turn: Floats) -> Flags:
-        """Robots that were disturbed, and are well below their demand: in moving, or in turning if that is all."""
-        turn_disturbed = np.abs(turn - self._set_turn) > _AS_SET
-        if not (disturbed | turn_disturbed).any():
-            return disturbed
+            self.held = self._undisturbed
+            return self._set_in_body
+        in_body = np.concatenate((measured[:count] * np.exp(-1j * heading), measured[count:]))
+        motions: Vectors = np.where(disturbed, in_body, self._set_in_body)
         wanted = np.minimum(np.abs(demand), self._top)
-        wanted_turn = np.minimum(np.abs(demanded_turn), self._top_turn)
-        slow = disturbed & (np.abs(body) < SHARE * wanted)
-        slow_turn = turn_disturbed & (wanted_turn > TURNING) & (np.abs(turn) < SHARE * wanted_turn)
-        held: Flags = np.where(wanted > MOVING, slow, slow_turn)
-        return held
+        slow = disturbed & (np.abs(motions) < SHARE * wanted)
+        moves, turns = wanted[:count] > MOVING, wanted[count:] > TURNING
+        self.held = np.where(moves, slow[:count], turns & slow[count:])
+        return motions

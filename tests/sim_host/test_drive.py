@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from pytest import approx
 
 from schemas.profile import load_profile
-from sim_host.actuation.drive import DrivePlanner
+from sim_host.actuation.drive import Ramp
 
 MSL = load_profile("msl")
 STEP, STEPS = MSL.time.physics_step, MSL.time.steps_per_tick
@@ -17,15 +17,15 @@ LIMITS = MSL.drive
 SPEED = st.floats(-8, 8)
 
 
-def planner() -> DrivePlanner:
-    return DrivePlanner([LIMITS], STEP, STEPS)
+MOVING = Ramp.of_moving([LIMITS], STEP, STEPS)
+TURNING = Ramp.of_turning([LIMITS], STEP, STEPS)
 
 
 def run(now: complex, demand: complex, ticks: int) -> list[complex]:
     """Velocities after each physics step of some ticks under one demand."""
     velocities, at = [], np.array([now])
     for _ in range(ticks):
-        planned = planner().velocities(at, np.array([demand]))
+        planned = MOVING.toward(at, np.array([demand]))
         velocities.extend(planned[:, 0].tolist())
         at = planned[-1]
     return velocities
@@ -87,7 +87,7 @@ def test_the_turn_rate_keeps_its_own_limits(now: float, demand: float) -> None:
     before = now
     at = np.array([now])
     for _ in range(100):
-        rates = planner().turn_rates(at, np.array([demand]))
+        rates = TURNING.toward(at, np.array([demand]))
         for after in rates[:, 0].tolist():
             assert abs(after - before) <= LIMITS.turn_acceleration * STEP + 1e-9
             before = after
@@ -98,18 +98,18 @@ def test_the_turn_rate_keeps_its_own_limits(now: float, demand: float) -> None:
 def test_robots_are_planned_each_for_itself() -> None:
     """Defect 5 of section 14 was one memory for all robots."""
     now, demand = np.array([0, 1 + 1j, -2j]), np.array([3, 0, 2j])
-    together = planner().velocities(now, demand)
+    together = MOVING.toward(now, demand)
     for one in range(3):
-        alone = planner().velocities(now[one : one + 1], demand[one : one + 1])
+        alone = MOVING.toward(now[one : one + 1], demand[one : one + 1])
         assert together[:, one] == approx(alone[:, 0])
 
 
 @pytest.mark.parametrize("step", [0.0025, 0.005, 0.01])
 def test_an_acceleration_is_the_same_in_steps_of_any_length(step: float) -> None:
     """Reference 14, defect 15: the seed's trajectory took every step for 7 ms. 1 m/s is reached after v / a."""
-    planner = DrivePlanner([LIMITS], step, 1)
+    moving = Ramp.of_moving([LIMITS], step, 1)
     at, steps = np.array([0j]), 0
     while at[0].real < 1 - 1e-9:
-        at = planner.velocities(at, np.array([1 + 0j]))[-1]
+        at = moving.toward(at, np.array([1 + 0j]))[-1]
         steps += 1
     assert steps * step == approx(1 / LIMITS.acceleration, abs=step)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from pytest import approx
 
+from schemas.command import Drive
 from schemas.profile import load_profile
 from schemas.robot_model import RobotModel
 from sim_host.actuation.omni_drive import OmniDrive
@@ -53,7 +54,7 @@ class Floor:
 
     def tick(self, *told: Told, pull: complex = 0) -> RobotState:
         """One control tick, pulled at with a force in N; the first robot as it is then."""
-        self.drive.plan(self.robots, np.array(told))
+        self.drive.plan(self.robots, [Drive(vx=vx, vy=vy, omega=omega) for vx, vy, omega in told])
         for number in range(TIME.steps_per_tick):
             self._step(self.drive.step(number, self.robots), pull)
         self.time += TIME.tick

@@ -3,6 +3,7 @@
 import numpy as np
 from pytest import approx
 
+from schemas.command import Drive
 from schemas.profile import load_profile
 from schemas.robot_model import RobotModel
 from sim_host.actuation.stuck import StuckWatch
@@ -36,11 +37,11 @@ def test_the_time_to_be_stuck_does_not_depend_on_the_tick() -> None:
 def held(told: tuple[float, float, float], measured: tuple[float, float, float]) -> list[bool]:
     """Three robots, told alike for a while; the second one never moves otherwise than as measured."""
     drive = VelocityDrive(MSL.time, [RobotModel.standard(MSL)] * 3)
-    commands = np.array([told] * 3)
+    commands = [Drive(vx=told[0], vy=told[1], omega=told[2])] * 3
     last = [(0.0, 0.0, 0.0)] * 3
     for _ in range(50):
         moving = [last[0], measured, last[2]]
-        last = drive.plan(np.array([RobotState(0, 0, 0.4, 0, *twist, False) for twist in moving]), commands)[-1]
+        last = drive.plan([RobotState(0, 0, 0.4, 0, *twist, False) for twist in moving], commands)[-1]
     flags: list[bool] = drive.held.tolist()
     return flags
 
