@@ -9,7 +9,8 @@ from schemas.profile import Sensing
 from sim_host.sensing.hulls import Hulls
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.sight_lines import Flags
-from sim_host.sensing.streams import Block, Floats, Streams, What, normal_pairs
+from sim_host.sensing.streams import Block, Floats, Streams, Vectors, What, normal_pairs
+from sim_host.sensing.team_frames import Motions, TeamFrames
 from sim_host.snapshot import BallState, ObstacleState, Roster, Snapshot
 
 BALL = "ball"
@@ -71,7 +72,7 @@ class Camera:
         self._shutter = shutter
         self._roster = roster
         self._rows = np.arange(len(roster.names))[:, None]
-        self._growth = np.array([sensing.range_noise, sensing.bearing_noise])[:, None, None]
+        self._growth = np.array([sensing.range_noise, sensing.bearing_noise])[:, None, None] ** 2
         self._ball_luck = Block(self._draw_ball)
         self._lay_out(())
 
@@ -88,75 +89,74 @@ class Camera:
         self._is_other = np.arange(-1, bodies) != self._rows
         self._luck = Block(self._draw)
 
-    def take(self, snapshot: Snapshot, robots: Floats, frame: Floats) -> Picture:
-        """A picture, in a tick in which one is taken.
-
-        `robots`: their states in the field frame, one column each; `frame`: as `Perception` makes it.
-        """
+    def take(self, snapshot: Snapshot, robots: Motions, frames: TeamFrames) -> Picture:
+        """A picture, in a tick in which one is taken."""
         if snapshot.obstacles != self._obstacles:
             self._lay_out(snapshot.obstacles)
-        number = self._shutter.number(snapshot.tick)
-        luck = self._luck.at(number)
-        eyes = robots[:2]
-        things = np.concatenate((np.array(snapshot.ball[:2])[:, None], self._hulls.places(robots)), axis=1)
-        places = things[:, None, :] - eyes[:, :, None]
-        square = places[0] * places[0] + places[1] * places[1]
-        distance = np.sqrt(square)
+        number, ball = self._shutter.number(snapshot.tick), snapshot.ball
+        luck, dropped = self._luck.at(number)
+        things = np.concatenate(([complex(ball.x, ball.y)], self._hulls.places(robots.place)))
+        places = things - robots.place[:, None]
+        distance = np.abs(places)
         found: Flags = distance <= self._range
         found &= self._is_other
-        found &= luck[2] >= self._dropout
+        found &= dropped.real >= self._dropout
         if self._sensing.occlusion == "hulls":
-            found &= ~self._hulls.hidden(places, square, robots, snapshot.ball.z)
-        x, y = self._blurred(places, square, distance, luck)
-        sign, dx, dy, _, c, s = frame[:, :, None]
-        seen_x = c * x - s * y + (sign * eyes[0][:, None] + dx)
-        seen_y = s * x + c * y + (sign * eyes[1][:, None] + dy)
-        away = np.where(found, x * x + y * y, np.inf)
+            found &= ~self._hulls.hidden(places, distance, robots.heading, ball.z)
+        blurred = places + places * self._blur(distance, luck)
+        seen = frames.turn[:, None] * blurred
+        seen += (frames.sign * robots.place + frames.shift)[:, None]
+        away = np.where(found, np.abs(blurred), np.inf)
         return Picture(
             tick=snapshot.tick,
-            ball=self._ball(snapshot.ball, seen_x[:, 0], seen_y[:, 0], square[:, 0], frame, self._ball_luck.at(number)),
+            ball=self._ball(ball, seen[:, 0], distance[:, 0], frames.turn, self._ball_luck.at(number)),
             found=found[:, 0].tolist(),
-            obstacles=self._nearest_first(away[:, 1:], seen_x[:, 1:], seen_y[:, 1:], found[:, 1:]),
+            obstacles=self._nearest_first(away[:, 1:], seen[:, 1:], found[:, 1:]),
         )
 
-    def _blurred(self, places: Floats, square: Floats, distance: Floats, luck: Floats) -> Floats:
-        """Places as seen from the eyes, with noise along the line of sight and across it."""
-        share = luck[:2] * np.sqrt(self._near + self._growth * self._growth * square) / (distance + _NO_DISTANCE)
-        along, across = 1.0 + share[0], share[1]
-        x, y = places
-        return np.stack((x * along - y * across, y * along + x * across))
+    def _blur(self, distance: Floats, luck: Vectors) -> Vectors:
+        """The noise along the line of sight and across it, as a share of the way from the eye: along + i·across."""
+        grown = self._growth * distance
+        grown *= distance
+        along, across = np.sqrt(grown + self._near) / (distance + _NO_DISTANCE)
+        blur = np.empty(luck.shape, dtype=complex)
+        blur.real, blur.imag = along * luck.real, across * luck.imag
+        return blur
 
     def _ball(
-        self, ball: BallState, x: Floats, y: Floats, square: Floats, frame: Floats, luck: Floats
+        self, ball: BallState, place: Vectors, distance: Floats, turn: Vectors, luck: Floats
     ) -> list[list[float]]:
-        """The ball of each robot that sees it at (x, y): with its height and velocity, and their noise."""
+        """The ball of each robot that sees it at this place: with its height and velocity, and their noise."""
         s = self._sensing
-        velocity = np.sqrt(s.ball_velocity**2 + s.ball_velocity_growth**2 * square)
-        _, _, _, _, cosine, sine = frame
-        seen = np.empty((5, len(x)))
-        seen[0], seen[1], seen[2] = x, y, ball.z + luck[0] * s.ball_position
-        seen[3] = cosine * ball.vx - sine * ball.vy + luck[1] * velocity
-        seen[4] = sine * ball.vx + cosine * ball.vy + luck[2] * velocity
+        sigma = np.sqrt(s.ball_velocity**2 + (s.ball_velocity_growth * distance) ** 2)
+        velocity = turn * complex(ball.vx, ball.vy)
+        seen = np.empty((5, len(place)))
+        seen[0], seen[1] = place.real, place.imag
+        seen[2] = luck[0] * s.ball_position
+        seen[2] += ball.z
+        seen[3:] = luck[1:] * sigma
+        seen[3] += velocity.real
+        seen[4] += velocity.imag
         numbers: list[list[float]] = seen.T.tolist()
         return numbers
 
-    def _nearest_first(self, square: Floats, x: Floats, y: Floats, found: Flags) -> list[list[float]]:
-        """The bodies that were found, in the order of their square distance: it tells nobody's name."""
-        order = square.argsort(axis=1, kind="stable")
-        numbers = np.empty((*square.shape, PER_OBSTACLE))
-        numbers[..., 0], numbers[..., 1], numbers[..., 2] = x, y, self._hulls.reach
-        rows = numbers[self._rows, order].reshape(len(square), -1).tolist()
-        counts = found.sum(axis=1).tolist()
+    def _nearest_first(self, away: Floats, places: Vectors, found: Flags) -> list[list[float]]:
+        """The bodies that were found, in the order of their distance: it tells nobody's name."""
+        order = away.argsort(axis=1, kind="stable")
+        numbers = np.empty((*away.shape, PER_OBSTACLE))
+        numbers[..., 0], numbers[..., 1], numbers[..., 2] = places.real, places.imag, self._hulls.reach
+        rows = numbers[self._rows, order].reshape(len(away), -1).tolist()
+        counts = np.add.reduce(found, axis=1).tolist()
         return [row[: PER_OBSTACLE * count] for row, count in zip(rows, counts, strict=True)]
 
     def _ticks(self, numbers: range) -> list[int]:
         return [self._shutter.tick_of(number) for number in numbers]
 
-    def _draw(self, numbers: range) -> Floats:
-        """Per picture: noise along and across the line of sight, and luck against dropouts; (3, robots, things)."""
+    def _draw(self, numbers: range) -> Vectors:
+        """Per picture: noise along + i·across the line of sight, and luck against dropouts; (2, robots, things)."""
         drawn = self._streams.between(What.SEEN, self._roster.names, self._names, self._ticks(numbers))
         noise = normal_pairs(drawn[..., :2]) * (drawn[..., 3:] < self._sensing.noise_rate)
-        return np.ascontiguousarray(np.moveaxis(np.concatenate((noise, drawn[..., 2:3]), axis=-1), -1, 1))
+        return np.stack((noise[..., 0] + 1j * noise[..., 1], drawn[..., 2]), axis=1)
 
     def _draw_ball(self, numbers: range) -> Floats:
         """Per picture: noise of the ball's height, vx and vy, noisy when its place is; (3, robots)."""

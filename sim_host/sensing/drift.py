@@ -8,7 +8,7 @@ same standard deviation at all times.
 import numpy as np
 
 from schemas.profile import Sensing
-from sim_host.sensing.streams import Block, Floats, Streams, What
+from sim_host.sensing.streams import Block, Streams, Vectors, What
 from sim_host.snapshot import Roster
 
 _PARTS = 3
@@ -24,17 +24,16 @@ class Drift:
         self._ticks = sensing.drift_time / tick
         self._drifts = Block(self._make)
 
-    def at(self, tick: int) -> Floats:
-        """x and y in m, heading in rad, its cosine and its sine, in the team frame of each robot: shape (5, robots)."""
+    def at(self, tick: int) -> Vectors:
+        """In the team frame of each robot: x + iy in m, and the turn of heading θ as e^iθ; shape (2, robots)."""
         return self._drifts.at(tick)
 
-    def _make(self, ticks: range) -> Floats:
+    def _make(self, ticks: range) -> Vectors:
         way = np.array(ticks) / self._ticks
         before = way.astype(int)
         first, last = int(before[0]), int(before[-1]) + 1
         knots = self._streams.normals(What.DRIFT, self._names, range(first, last + 1), _PARTS)
         turn = 0.5 * np.pi * (way - before)[:, None, None]
         drift = np.cos(turn) * knots[before - first] + np.sin(turn) * knots[before - first + 1]
-        x_y_heading = np.moveaxis(drift * self._sigma, 2, 1)
-        heading = x_y_heading[:, 2:]
-        return np.concatenate((x_y_heading, np.cos(heading), np.sin(heading)), axis=1)
+        x, y, heading = np.moveaxis(drift * self._sigma, 2, 0)
+        return np.stack((x + 1j * y, np.exp(1j * heading)), axis=1)

@@ -7,7 +7,7 @@ import numpy as np
 from schemas.obstacle import Shape
 from schemas.robot_model import RobotModel
 from sim_host.sensing.sight_lines import Flags, through_boxes, through_circles
-from sim_host.sensing.streams import Floats
+from sim_host.sensing.streams import Floats, Vectors
 from sim_host.snapshot import ObstacleState
 
 
@@ -22,7 +22,7 @@ class Hulls:
         is_round = [1.0] * len(robots) + [float(one.shape is Shape.CYLINDER) for one in obstacles]
         radius = [body.radius for body in robots] + [one.radius for one in obstacles]
         self._radius = np.array(radius) * is_round
-        self._places = np.array([(one.x, one.y) for one in obstacles]).reshape(-1, 2).T
+        self._places = np.array([complex(one.x, one.y) for one in obstacles], dtype=complex)
         self._headings = np.array([one.heading for one in obstacles])
         self._lay_out_boxes(models, obstacles)
         self._lay_out_heights(len(robots))
@@ -50,24 +50,23 @@ class Hulls:
         is_tall[bodies, bodies + 1] = False
         self._may_hide = is_tall[:, None, :] & self._is_others[:, :, None]
 
-    def places(self, robots: Floats) -> Floats:
-        """x and y of all bodies, shape (2, bodies), the robots being there."""
-        return np.concatenate((robots[:2], self._places), axis=1)
+    def places(self, robots: Vectors) -> Vectors:
+        """Where all bodies are, m, the robots being there."""
+        return np.concatenate((robots, self._places))
 
-    def hidden(self, places: Floats, square: Floats, robots: Floats, ball_height: float) -> Flags:
+    def hidden(self, places: Vectors, distance: Floats, headings: Floats, ball_height: float) -> Flags:
         """Whether a hull stands before a thing and is as high, shape (robots, things).
 
-        `places` of the things as seen from each robot, m, shape (2, robots, things), and their `square` distance. A
-        thing is hidden when the line to its middle passes through a hull that does not stand farther away.
+        `places` of the things as seen from each robot, m, shape (robots, things), and their `distance`. A thing is
+        hidden when the line to its middle passes through a hull that does not stand farther away.
         """
         self._may_hide[:, :, 0] = (self._height >= ball_height)[:, None] & self._is_others
-        hides = through_circles(places, square, places[:, :, 1:], self._radius)
+        hides = through_circles(places, distance, places[:, 1:], self._radius)
         hides &= self._may_hide
         found: Flags = np.logical_or.reduce(hides, axis=0)
         if len(self._owner):
-            headings = np.concatenate((robots[3], self._headings))[self._owner]
-            ahead = self._ahead * np.stack((np.cos(headings), np.sin(headings)))
-            centres = np.swapaxes(places[:, :, 1:][:, :, self._owner], 1, 2) + ahead[:, :, None]
-            hides = through_boxes(places, centres, headings, self._halves) & self._may_hide[self._owner]
+            turned = np.exp(1j * np.concatenate((headings, self._headings))[self._owner])
+            centres = places[:, 1:][:, self._owner].T + (self._ahead * turned)[:, None]
+            hides = through_boxes(places, centres, turned, self._halves) & self._may_hide[self._owner]
             found |= np.logical_or.reduce(hides, axis=0)
         return found

@@ -4,6 +4,7 @@ import numpy as np
 
 from schemas.profile import Sensing
 from sim_host.sensing.streams import Block, Floats, Streams, What
+from sim_host.sensing.team_frames import Motions, TeamFrames
 from sim_host.snapshot import Roster
 
 _PARTS = 6
@@ -20,21 +21,17 @@ class OwnMotion:
         self._rate = s.noise_rate
         self._noise = Block(self._draw)
 
-    def at(self, tick: int, robots: Floats, turned: Floats, frame: Floats) -> Floats:
-        """x, y, heading, vx, vy, omega of each robot in its team frame, shape (6, robots).
-
-        `robots`: their states in the field frame, one column each; `turned`: 0 or π, from field to team frame;
-        `frame`: as `Perception` makes it.
-        """
-        x, y, _, heading, vx, vy, omega, _ = robots
-        sign, dx, dy, turn, c, s = frame
+    def at(self, tick: int, robots: Motions, frames: TeamFrames) -> Floats:
+        """x, y, heading, vx, vy, omega of each robot in its team frame, shape (6, robots)."""
+        place = frames.sign * robots.place + frames.shift
+        velocity = frames.turn * robots.velocity
         seen = self._noise.at(tick).copy()
-        seen[0] += sign * x + dx
-        seen[1] += sign * y + dy
-        seen[2] = _wrapped(seen[2] + heading + turned + turn)
-        seen[3] += c * vx - s * vy
-        seen[4] += s * vx + c * vy
-        seen[5] += omega
+        seen[0] += place.real
+        seen[1] += place.imag
+        seen[2] = _wrapped(seen[2] + robots.heading + np.angle(frames.turn))
+        seen[3] += velocity.real
+        seen[4] += velocity.imag
+        seen[5] += robots.omega
         return seen
 
     def _draw(self, ticks: range) -> Floats:

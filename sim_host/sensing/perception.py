@@ -16,6 +16,7 @@ from sim_host.sensing.drift import Drift
 from sim_host.sensing.own_motion import OwnMotion
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.streams import Floats, Streams
+from sim_host.sensing.team_frames import Motions, TeamFrames
 from sim_host.snapshot import Roster, Snapshot
 
 
@@ -53,7 +54,6 @@ class Perception:
         self._attack = {
             attacks: np.array([float(side.attack(attacks)) for side in roster.sides]) for attacks in (1, -1)
         }
-        self._turned = {attacks: np.where(sign > 0, 0.0, np.pi) for attacks, sign in self._attack.items()}
         self._cyan_attacks: int | None = None
         self._under_way: deque[Picture] = deque()
         """Pictures that were taken and are not known yet."""
@@ -87,13 +87,13 @@ class Perception:
         if cyan_attacks != self._cyan_attacks:
             self._change_sides()
             self._cyan_attacks = cyan_attacks
-        tick, robots = snapshot.tick, np.array(snapshot.robots).T
-        frame = self._frame(tick, self._attack[cyan_attacks])
+        tick, robots = snapshot.tick, Motions.of(snapshot.robots)
+        frames = self._frames(tick, self._attack[cyan_attacks])
         if self._shutter.takes(tick):
-            self._under_way.append(self._camera.take(snapshot, robots, frame))
+            self._under_way.append(self._camera.take(snapshot, robots, frames))
         while self._under_way and self._under_way[0].tick <= tick - self._shutter.latency:
             self._take_in(self._under_way.popleft())
-        own = self._own.at(tick, robots, self._turned[cyan_attacks], frame).T.tolist()
+        own = self._own.at(tick, robots, frames).T.tolist()
         known, tick_s = self._known, self._tick_s
         age = (tick - known.tick) * tick_s
         return [
@@ -103,14 +103,10 @@ class Perception:
             for me, ball, obstacles in zip(own, self._balls, known.obstacles, strict=True)
         ]
 
-    def _frame(self, tick: int, sign: Floats) -> Floats:
-        """Where each robot believes its team frame to lie, shape (6, robots).
-
-        1 or −1 from field to team frame; by how much the frame is shifted, m, and turned about the robot, rad; cosine
-        and sine of the whole turn from the field frame.
-        """
-        drift = self._drift.at(tick)
-        return np.concatenate((sign[None], drift[:3], sign * drift[3:]))
+    def _frames(self, tick: int, sign: Floats) -> TeamFrames:
+        """Where each robot believes its team frame to lie; `sign` is 1 or −1 from field to team frame."""
+        shift, turn = self._drift.at(tick)
+        return TeamFrames(sign, shift, sign * turn)
 
     def _take_in(self, picture: Picture) -> None:
         """A picture becomes known."""

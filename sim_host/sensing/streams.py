@@ -6,6 +6,7 @@ There is no state: a draw that is left out shifts no other, any tick can be draw
 
 from collections.abc import Callable, Sequence
 from enum import IntEnum
+from typing import Any, Generic, TypeVar
 from zlib import crc32
 
 import numpy as np
@@ -13,6 +14,9 @@ from numpy.typing import NDArray
 
 Words = NDArray[np.uint64]
 Floats = NDArray[np.float64]
+Vectors = NDArray[np.complex128]
+"""Planar vectors, x + iy: turning is multiplying."""
+Draws = TypeVar("Draws", bound=NDArray[Any])
 
 _M0, _M1 = np.uint64(0xD2511F53), np.uint64(0xCD9E8D57)
 _W0, _W1 = 0x9E3779B9, 0xBB67AE85
@@ -51,21 +55,21 @@ AT_ONCE = 64
 """Draws are made for this many ticks or pictures at a time; the numbers are the same, the cost of each is not."""
 
 
-class Block:
+class Block(Generic[Draws]):
     """Draws of one kind for every tick or picture, made for many at once when the first of them is asked for."""
 
-    def __init__(self, draw: Callable[[range], Floats]) -> None:
+    def __init__(self, draw: Callable[[range], Draws]) -> None:
         self._draw = draw
         self._block = -1
-        self._rows: Floats
+        self._rows: Draws
 
-    def at(self, number: int) -> Floats:
+    def at(self, number: int) -> Draws:
         """The draws of one, as `draw` shapes them."""
         block, row = divmod(number, AT_ONCE)
         if block != self._block:
             self._rows = self._draw(range(block * AT_ONCE, (block + 1) * AT_ONCE))
             self._block = block
-        drawn: Floats = self._rows[row]
+        drawn: Draws = self._rows[row]
         return drawn
 
 
