@@ -101,9 +101,9 @@ class RadioAir:
 
     def _send(self, speaker: int, word: _Word) -> None:
         """On its way to everyone who will hear it."""
-        air, luck = self._air, self._luck.at(word.said)[speaker]
+        air, luck = self._air, self._luck.at(word.said)[speaker].tolist()
         for mate in self._mates[speaker]:
-            lost, late = luck[mate, 0], luck[mate, 1]
+            lost, late, *_ = luck[mate]
             if lost >= air.loss:
                 ticks = math.ceil((air.delay + late * air.jitter) / self._tick_s - _SAME)
                 heappush(self._under_way, (word.said + ticks, word.said, speaker, mate, word))

@@ -15,7 +15,7 @@ from sim_host.actuation.kick import KickRefusedError, Launch, Shot, launch
 from sim_host.actuation.kickers import Kickers
 from sim_host.actuation.possession import can_hold, holder, why_not_held
 from sim_host.snapshot import BallState, RobotState
-from sim_host.world.engine import BallContacts, Engine
+from sim_host.world.engine import BallContacts, BodyState, Engine
 
 _PRESSED = 0.005
 """m; a held ball that is pressed this deep into another body is lost: it is never carried through one."""
@@ -94,23 +94,29 @@ class BallHandling:
             report.touches.append(place)
         return report
 
-    def before_step(self, drives: Sequence[FieldDrive]) -> None:
-        """Move the ball as its holder does, or as ground and air do."""
-        position, _, velocity, spin = self._engine.ball_now()
+    def before_step(self, drives: Sequence[FieldDrive]) -> BodyState | None:
+        """Move the ball as its holder does, or as ground and air do; a free ball, as it begins the step."""
+        now = self._engine.ball_now()
+        position, _, velocity, spin = now
         if self.holding is not None and self._is_overrun(self.holding, position):
             self.hold(None)
         if self.holding is not None:
             self._carry(self.holding, drives[self.holding], BallState(*position, *velocity))
-            if self._dribbles[self.holding].method != "force":
-                return
-        else:
-            changed = self._free.sudden_change(position, velocity, spin)
-            if changed is not None:
-                self._engine.move_ball(*changed)
-                return
-        force = self._free.force(position, velocity, spin)
+            if self._dribbles[self.holding].method == "force":
+                self._push(now)
+            return None
+        changed = self._free.sudden_change(position, velocity, spin)
+        if changed is None:
+            self._push(now)
+            return now
+        self._engine.move_ball(*changed)
+        return now._replace(velocity=changed[0], spin=changed[1])
+
+    def _push(self, ball: BodyState) -> None:
+        """Ground and air push the ball in this step."""
+        force = self._free.force(ball.position, ball.velocity, ball.spin)
         if force != (0.0, 0.0, 0.0):
-            self._engine.push_ball(force, position)
+            self._engine.push_ball(force, ball.position)
 
     def after_step(self, report: BallReport) -> None:
         """Note who touched the ball."""

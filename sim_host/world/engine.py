@@ -72,6 +72,7 @@ class Engine:
         self._heights = [model.body.height / 2 for model in roster.models]
         self.client = pybullet.connect(pybullet.DIRECT)
         self._lift = GRAVITY * profile.time.physics_step
+        self._fast = DEEP / profile.time.physics_step
         self._obstacles: dict[str, tuple[ObstacleState, int]] = {}
         """Name → the obstacle and its body, in the order in which they were put down."""
         self._build()
@@ -359,16 +360,16 @@ class Engine:
         at = (x + vx * time, y + vy * time, z)
         pybullet.resetBasePositionAndOrientation(self.robots[place], at, _upright(turned), physicsClientId=self.client)
 
-    def bring_ball(self) -> None:
-        """Move a fast ball that would sink into a body in the next step to where it touches it.
+    def bring_ball(self, ball: BodyState) -> None:
+        """Move a fast ball, in this state, to where it touches a body that it would sink into in the next step.
 
         As with robots, the engine would notice too late: at 20 m/s, 10 cm. What is deep in a hull is pushed out again
         besides bouncing off, so that the rebound would depend on chance.
         """
-        position, _, velocity, spin = self._state(self.ball)
-        way = [speed * self._profile.time.physics_step for speed in velocity]
-        if math.hypot(*way) < DEEP:
+        position, _, velocity, spin = ball
+        if math.hypot(*velocity) < self._fast:
             return
+        way = [speed * self._profile.time.physics_step for speed in velocity]
         room = self._profile.ball.radius + _STIRS
         low = [at + min(0.0, by) - room for at, by in zip(position, way, strict=True)]
         high = [at + max(0.0, by) + room for at, by in zip(position, way, strict=True)]

@@ -120,12 +120,12 @@ class World:
         report = ball.begin(self.tick, self._robots, self._ball_state, ordered)
         pairs, fixed = self._impacts.due(self._robots)
         for drives in self._chassis.plan(self._robots, ordered):
-            ball.before_step(drives)
+            free_ball = ball.before_step(drives)
             if pairs or fixed:
                 engine.bring_together(pairs, fixed, drives)
             engine.drive(drives)
-            if ball.holding is None:
-                engine.bring_ball()
+            if free_ball is not None:
+                engine.bring_ball(free_ball)
             engine.step()
             ball.after_step(report)
         engine.read()

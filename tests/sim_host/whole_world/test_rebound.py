@@ -52,7 +52,7 @@ def test_the_rebound_is_the_restitution_in_whatever_phase_of_a_step_it_comes(
     deepest = 0.0
     for _ in range(8):
         engine.drive([(0.0, 0.0, 0.0)])
-        engine.bring_ball()
+        engine.bring_ball(engine.ball_now())
         engine.step()
         deepest = max(deepest, engine.ball_contacts(None).depth)
     (_, _, _), _, (vx, vy, _), _ = engine.ball_now()
@@ -72,7 +72,7 @@ def test_a_fast_ball_that_meets_a_hull_off_its_axis_is_stopped_at_the_hull(aside
     nearest = math.inf
     for _ in range(8):
         engine.drive([(0.0, 0.0, 0.0)])
-        engine.bring_ball()
+        engine.bring_ball(engine.ball_now())
         engine.step()
         (bx, by, _), *_ = engine.ball_now()
         robot = engine.robot_now(0)
