@@ -51,9 +51,10 @@ def main() -> None:
 
     def host() -> None:
         for _ in range(TICKS):
-            tick = simulation.step(told[0])
+            tick = simulation.step(told[0])  # sights and inputs leave it encoded
             to_json(tick.world)
-            to_json(tick.applied)
+            for _, _, word in tick.beliefs:
+                to_json(word)
 
     raw = Engine(simulation.profile, simulation.roster)
     drives = [(math.cos(place), math.sin(place), 0.3) for place in range(len(raw.robots))]

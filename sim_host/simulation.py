@@ -7,6 +7,7 @@ from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from pydantic import TypeAdapter
 from pydantic_core import to_json
 
 from schemas.coach import CoachOrder
@@ -60,6 +61,10 @@ class Tick:
     """One for each action, in order."""
     refused: Mapping[str, int] = field(default_factory=dict)
     """Robot → how many parts of its command could not be done."""
+
+
+_INPUTS = TypeAdapter(Mapping[str, AppliedInput]).serializer
+"""Knows what it encodes: half the work of finding it out."""
 
 
 def _keep(robot: str, sight: bytes) -> None:
@@ -346,15 +351,16 @@ class Simulation:
 
     def _applied(self, snapshot: Snapshot, inputs: Mapping[str, AppliedInput], done: Due) -> dict[str, Any]:
         """The fields of a tick that tell what was applied."""
-        fields: Fields = {"tick": snapshot.tick, "time": snapshot.time, "inputs": inputs, **done.noted()}
+        fields: Fields = {"tick": snapshot.tick, "time": snapshot.time, **done.noted()}
         if done.recast:
             fields["robots"] = self._stage.robots
         if done.rebuilt:
             fields["obstacles"] = self._stage.obstacles
         fields["episode"] = self.episode
-        noted = to_json({"version": VERSION, **fields}, inf_nan_mode="constants").removesuffix(b"}")
+        rest = to_json({"version": VERSION, **fields}, inf_nan_mode="constants").removesuffix(b"}")
+        noted = b'%s,"inputs":%s' % (rest, _INPUTS.to_json(inputs))
         chain = self.world.chain(noted)
-        return {"applied": {**fields, "chain": chain}, "applied_encoded": chained(noted, chain)}
+        return {"applied": {**fields, "inputs": inputs, "chain": chain}, "applied_encoded": chained(noted, chain)}
 
 
 def _in_words(value: Setting) -> str:

@@ -28,7 +28,7 @@ class OwnMotion:
         seen = self._noise.at(tick).copy()
         seen[0] += place.real
         seen[1] += place.imag
-        seen[2] = _wrapped(seen[2] + robots.heading + np.angle(frames.turn))
+        seen[2] = _wrapped(seen[2] + robots.heading + np.arctan2(frames.turn.imag, frames.turn.real))
         seen[3] += velocity.real
         seen[4] += velocity.imag
         seen[5] += robots.omega
