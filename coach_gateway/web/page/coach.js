@@ -1,0 +1,178 @@
+// Orders to a side: what the team shall do, and the test mode with points and angles picked on the field.
+
+import { circle, write } from "./brush.js";
+import { onField } from "./beliefs.js";
+import { byId, choice, element, offer, say, show } from "./elements.js";
+import { FIELDS, TESTS } from "./tests.js";
+import { degrees, headed, radians, spoken } from "./words.js";
+
+const MODES = ["play", "hold", "park", "test"];
+const LIMITS = ["max_speed", "max_turn_rate"];
+
+export class Coach {
+  #inputs = {};
+
+  constructor(match, stage, desk, seat) {
+    Object.assign(this, { match, stage, desk, seat });
+    this.#lay();
+    match.on("welcome orders host", () => this.update());
+    byId("order-side").addEventListener("change", () => this.update());
+    byId("order-mode").addEventListener("change", () => this.#fit());
+    byId("order-test").addEventListener("change", () => this.#fit());
+    byId("order-give").addEventListener("click", () => this.#give());
+    stage.over.push((context, view) => this.#draw(context, view));
+  }
+
+  get side() {
+    return byId("order-side").value;
+  }
+
+  /** Who may be ordered, and how the standing orders are taken in. */
+  update() {
+    const { match } = this;
+    if (match.setup === null) return;
+    const sides = ["cyan", "magenta"].filter((side) => match.may("order", side));
+    const shown = sides.length ? sides : ["cyan", "magenta"];
+    offer(byId("order-side"), shown.map((side) => [side, match.setup.teams[side].name]));
+    const robots = [["", "any"], ...match.setup.teams[this.side].robots.map((name) => [name, name])];
+    for (const key of ["robot_a", "robot_b"]) offer(this.#inputs[key].select, robots);
+    const why = !match.live ? "this is a recording" : sides.length ? "" : "orders are for the coach of a side, and the referee";
+    byId("order-give").disabled = why !== "" || !match.hostThere;
+    byId("order-give").title = why;
+    byId("standing").replaceChildren(...["cyan", "magenta"].flatMap((side) => this.#standing(side)));
+    this.#fit();
+  }
+
+  #lay() {
+    offer(byId("order-mode"), MODES.map((mode) => [mode, headed(mode)]));
+    offer(byId("order-test"), Object.entries(TESTS).map(([word, [name]]) => [word, name]));
+    for (const [key, [words, kind, unit, most]] of Object.entries(FIELDS)) {
+      this.#inputs[key] = KINDS[kind](this, key, words, unit, most);
+      byId("order-fields").append(this.#inputs[key].row);
+    }
+  }
+
+  /** Shows the fields that the order needs. */
+  #fit() {
+    const mode = byId("order-mode").value;
+    const [, sentence, needed] = TESTS[byId("order-test").value];
+    show(byId("order-test-row"), mode === "test");
+    say(byId("order-says"), mode === "test" ? sentence : MODE_WORDS[mode]);
+    for (const [key, { row }] of Object.entries(this.#inputs)) {
+      show(row, mode === "test" ? needed.includes(key) || LIMITS.includes(key) : mode === "play" || LIMITS.includes(key));
+    }
+    show(byId("order-tactic-row"), mode === "play");
+  }
+
+  #give() {
+    const order = { mode: byId("order-mode").value };
+    if (order.mode === "test") order.test = byId("order-test").value;
+    if (order.mode === "play" && byId("order-tactic").value) order.tactic = byId("order-tactic").value;
+    for (const [key, { row, read }] of Object.entries(this.#inputs)) {
+      const value = row.hidden ? null : read();
+      if (value !== null) order[key] = value;
+    }
+    const words = order.mode === "test" ? `Test ${spoken(order.test)}` : headed(order.mode);
+    return this.desk.ask(byId("order-give"), `${words}, ${this.side}`, "order", { side: this.side, order });
+  }
+
+  #standing(side) {
+    const standing = this.match.orders[side];
+    if (!standing?.order) return [];
+    const { order, acknowledged } = standing;
+    const what = order.mode === "test" ? `test ${spoken(order.test ?? "")}` : order.mode;
+    const robots = Object.entries(acknowledged);
+    const taken = robots.filter(([, has]) => has).length;
+    return [
+      element(
+        "p", {},
+        element("b", {}, `${this.match.setup.teams[side].name}: ${what}`), ` — taken in by ${taken} of ${robots.length} `,
+        ...robots.map(([name, has]) => element("span", { class: `ack ${has ? "accepted" : "waits"}` }, `${has ? "✓" : "…"} ${name}`)),
+      ),
+    ];
+  }
+
+  /** The points of the form while it is seen, and those of the standing orders of a test. */
+  #draw(context, view) {
+    if (byId("order-fields").offsetParent !== null) {
+      for (const key of ["point_a", "point_b"]) {
+        const { row, onPitch } = this.#inputs[key];
+        const place = row.hidden ? null : onPitch();
+        if (place) cross(context, view, place, key === "point_a" ? "A" : "B");
+      }
+    }
+    for (const [side, standing] of Object.entries(this.match.orders)) {
+      const order = standing?.order;
+      if (order?.mode !== "test") continue;
+      for (const [letter, point] of [["A", order.point_a], ["B", order.point_b]]) {
+        if (point) cross(context, view, onField(this.match, side, point), letter);
+      }
+    }
+  }
+}
+
+const MODE_WORDS = {
+  play: "The team plays; tactic, points and robots mean what its own code makes of them.",
+  hold: "All robots of the side stand still.",
+  park: "All robots of the side drive to where they park.",
+};
+
+/** Kind of field → its row, and how it is read: a value of the order, or nothing where it is left empty. */
+const KINDS = {
+  robot(coach, key, words) {
+    const select = choice([], { id: `order-${key}` });
+    return { select, row: labelled(key, words, select), read: () => select.value || null };
+  },
+  number(coach, key, words, unit, most) {
+    const input = numeric(`order-${key}`, { min: 0, max: most });
+    return { row: labelled(key, `${words} (${unit})`, input), read: () => numberIn(input) };
+  },
+  angle(coach, key, words) {
+    const input = numeric(`order-${key}`, { step: 5 });
+    const read = () => {
+      const given = numberIn(input);
+      return given === null ? null : turnedBy(coach, radians(given));
+    };
+    return { input, row: labelled(key, `${words} (°, on the field)`, input), read };
+  },
+  point(coach, key, words) {
+    const x = numeric(`order-${key}-x`, { step: 0.1 }), y = numeric(`order-${key}-y`, { step: 0.1 });
+    const pick = element("button", { type: "button", id: `order-${key}-pick` }, "Pick");
+    pick.addEventListener("click", () =>
+      coach.seat.pick(words, (place, angle) => {
+        x.value = place.x.toFixed(2);
+        y.value = place.y.toFixed(2);
+        const beside = byId(`order-${key.replace("point", "angle")}`);
+        if (angle !== null) beside.value = Math.round(degrees(angle));
+      }),
+    );
+    for (const [input, axis] of [[x, "x"], [y, "y"]]) input.setAttribute("aria-label", `${words}, ${axis} in m`);
+    pick.setAttribute("aria-label", `Pick ${words} on the field`);
+    const onPitch = () => (numberIn(x) === null || numberIn(y) === null ? null : { x: numberIn(x), y: numberIn(y) });
+    const read = () => {
+      const place = onPitch();
+      const sign = coach.match.attack(coach.side);
+      return place === null ? null : { x: sign * place.x, y: sign * place.y };
+    };
+    const row = element("div", { class: "field", data: { field: key } }, element("span", {}, `${words} (m)`), element("span", { class: "pair" }, x, y, pick));
+    return { row, read, onPitch };
+  },
+};
+
+/** A direction of the field in the frame of the side that is ordered, in (−π, π]. */
+function turnedBy(coach, angle) {
+  const turned = coach.match.attack(coach.side) > 0 ? angle : angle + Math.PI;
+  return Math.atan2(Math.sin(turned), Math.cos(turned));
+}
+
+const labelled = (key, words, input) => element("label", { class: "field", data: { field: key } }, words, input);
+const numeric = (id, limits) => element("input", { id, type: "number", step: "any", autocomplete: "off", ...limits });
+const numberIn = (input) => (input.value.trim() === "" || !Number.isFinite(input.valueAsNumber) ? null : input.valueAsNumber);
+
+function cross(context, view, place, letter) {
+  context.strokeStyle = "#ffffff";
+  context.lineWidth = 2;
+  circle(context, view, place, 7 / view.scale);
+  context.stroke();
+  write(context, letter, view.x(place.x) + 14, view.y(place.y) - 10, 12, { ground: "#0b1c14cc" });
+}

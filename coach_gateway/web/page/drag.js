@@ -1,0 +1,146 @@
+// Pointing at the field: choosing a robot, dragging ball and robots to a place, picking points.
+
+import { byId, say, show } from "./elements.js";
+import { metres } from "./words.js";
+
+const REACH_PX = 20; // a finger is thicker than a ball
+const MOVED_PX = 6; // less is a click
+const TURN_M = 0.35; // a drawn direction is longer
+
+export class Drag {
+  #held = null;
+  #drawn = null;
+
+  constructor(canvas, stage, match, desk, seat) {
+    Object.assign(this, { canvas, stage, match, desk, seat });
+    canvas.addEventListener("pointerdown", (event) => this.#down(event));
+    canvas.addEventListener("pointermove", (event) => this.#move(event));
+    canvas.addEventListener("pointerup", (event) => this.#up(event));
+    canvas.addEventListener("pointercancel", () => this.cancel());
+    seat.on(() => this.#hint());
+    stage.over.push((context, view) => this.#draw(context, view));
+  }
+
+  /** Lets everything lie where it is. */
+  cancel() {
+    this.#held = null;
+    this.#drawn = null;
+    this.seat.cancel();
+  }
+
+  /** Why a body cannot be set down, or nothing. */
+  why(body) {
+    const { match } = this;
+    const action = body === "ball" && !byId("freely").checked;
+    if (!match.live) return "this is a recording";
+    if (!match.may(action ? "place_ball" : "scene")) return "only the referee sets bodies down";
+    if (action && match.refbox.connected) return "the referee box commands the match";
+    if (action || byId("freely").checked || !match.state?.running) return null;
+    return "the game is running; stop it first, or place freely (Settings)";
+  }
+
+  /** Sets a body down, and shows what came of it. */
+  place(source, body, { x, y, heading }) {
+    const words = `${body === "ball" ? "Ball" : body} to (${metres(x)}, ${metres(y)})`;
+    if (body === "ball" && !byId("freely").checked) {
+      return this.desk.ask(source, words, "action", { action: { action: "place_ball", place: { x, y } } });
+    }
+    const turned = heading ?? this.match.film.newest?.robots[body]?.heading ?? 0;
+    const where = body === "ball" ? { body, x, y } : { body, x, y, heading: turned };
+    return this.desk.ask(source, words, "scene", { request: { deed: "place", place: [where] } });
+  }
+
+  #at(event) {
+    const box = this.canvas.getBoundingClientRect();
+    return { left: event.clientX - box.left, top: event.clientY - box.top };
+  }
+
+  #down(event) {
+    if (event.button !== 0 || this.stage.world === null) return;
+    const at = this.#at(event);
+    const place = this.stage.view.onField(at.left, at.top);
+    if (this.seat.picking) {
+      this.#drawn = { from: place, to: place };
+    } else {
+      const body = this.#bodyAt(at);
+      if (body === null) return;
+      this.#held = { body, at, place, moved: false };
+    }
+    event.preventDefault();
+    this.canvas.focus({ preventScroll: true });
+    this.canvas.setPointerCapture(event.pointerId);
+  }
+
+  #move(event) {
+    const at = this.#at(event);
+    const place = this.stage.view.onField(at.left, at.top);
+    if (this.#drawn) this.#drawn.to = place;
+    if (this.#held === null) {
+      this.canvas.style.cursor = this.seat.picking ? "crosshair" : this.#bodyAt(at) ? "grab" : "default";
+      return;
+    }
+    const held = this.#held;
+    held.place = place;
+    if (held.moved || Math.hypot(at.left - held.at.left, at.top - held.at.top) < MOVED_PX) return;
+    const why = this.why(held.body);
+    if (why !== null) {
+      this.#held = null;
+      if (this.match.role !== "spectator") this.desk.show(byId("moving"), `Move ${held.body}`, { accepted: false, reason: why });
+      return;
+    }
+    held.moved = true;
+    this.seat.dragged = { ...place, radius: held.body === "ball" ? 0.2 : this.match.radiusOf(held.body) };
+  }
+
+  #up() {
+    const held = this.#held, drawn = this.#drawn;
+    this.#held = null;
+    this.#drawn = null;
+    this.seat.dragged = null;
+    if (drawn) {
+      const dx = drawn.to.x - drawn.from.x, dy = drawn.to.y - drawn.from.y;
+      this.seat.picked(drawn.from, Math.hypot(dx, dy) > TURN_M ? Math.atan2(dy, dx) : null);
+    } else if (held?.moved) {
+      this.place(byId("drop"), held.body, held.place);
+    } else if (held && held.body !== "ball") {
+      this.seat.choose(this.seat.robot === held.body ? null : held.body);
+    }
+  }
+
+  /** What lies under a pointer, the nearest: a robot's name, `ball`, or nothing. */
+  #bodyAt({ left, top }) {
+    const { view, world } = this.stage;
+    if (world === null) return null;
+    let nearest = null, least = REACH_PX;
+    for (const [body, { x, y }] of [["ball", world.ball], ...Object.entries(world.robots)]) {
+      const off = Math.hypot(view.x(x) - left, view.y(y) - top) - (body === "ball" ? 3 : 0);
+      if (off < least) [nearest, least] = [body, off];
+    }
+    return nearest;
+  }
+
+  #draw(context, view) {
+    const held = this.#held;
+    const at = held?.moved ? held.place : null;
+    if (at) {
+      Object.assign(this.seat.dragged, at);
+      const drop = byId("drop");
+      drop.style.left = `${view.x(at.x)}px`;
+      drop.style.top = `${view.y(at.y)}px`;
+    }
+    if (!this.#drawn) return;
+    const { from, to } = this.#drawn;
+    context.strokeStyle = "#ffffff";
+    context.lineWidth = 2;
+    context.beginPath();
+    context.moveTo(view.x(from.x), view.y(from.y));
+    context.lineTo(view.x(to.x), view.y(to.y));
+    context.stroke();
+  }
+
+  #hint() {
+    const { picking } = this.seat;
+    show(byId("hint"), picking !== null);
+    if (picking) say(byId("hint"), `Point at the field: ${picking.words}. Draw on for a direction. Esc leaves it.`);
+  }
+}

@@ -1,0 +1,47 @@
+// The few words in which this page makes and finds elements.
+
+export const byId = (id) => document.getElementById(id);
+
+/** An element with properties (`class`, `on`, `data`, `aria` and attributes by name) and children, texts among them. */
+export function element(tag, properties = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name === "on") for (const [event, does] of Object.entries(value)) made.addEventListener(event, does);
+    else if (name === "data") Object.assign(made.dataset, value);
+    else if (name === "aria") for (const [word, says] of Object.entries(value)) made.setAttribute(`aria-${word}`, says);
+    else made.setAttribute(name, value === true ? "" : String(value));
+  }
+  made.append(...children);
+  return made;
+}
+
+/** Says a text, and leaves the element alone that says it already. */
+export function say(node, text) {
+  if (node.textContent !== text) node.textContent = text;
+}
+
+/** Shows an element, or hides it. */
+export function show(node, shown) {
+  if (node.hidden === shown) node.hidden = !shown;
+}
+
+/** Gives an element a class, or takes it away. */
+export function mark(node, name, marked) {
+  if (node.classList.contains(name) !== marked) node.classList.toggle(name, marked);
+}
+
+/** A `select` with these [value, text] pairs. */
+export function choice(options, properties = {}) {
+  return element("select", properties, ...options.map(([value, text]) => element("option", { value }, text)));
+}
+
+/** Puts these [value, text] pairs into a `select`, and keeps what is chosen if it is still there. */
+export function offer(select, options) {
+  const wanted = JSON.stringify(options);
+  if (select.dataset.offers === wanted) return;
+  const chosen = select.value;
+  select.dataset.offers = wanted;
+  select.replaceChildren(...options.map(([value, text]) => element("option", { value }, text)));
+  if (options.some(([value]) => value === chosen)) select.value = chosen;
+}

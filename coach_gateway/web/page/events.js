@@ -1,0 +1,80 @@
+// The list of what happened; of a recording, each event leads to its moment.
+
+import { byId, element, mark } from "./elements.js";
+import { clockWords, headed } from "./words.js";
+
+const LESSER = new Set(["stop", "start", "in_play", "restart", "ball_out", "agent", "parameters", "action", "no_goal"]);
+const GREAT = new Set(["goal", "half_time", "full_time", "forfeit"]);
+const MOST = 400; // lines shown
+export const LEAD_S = 2; // a jump goes to so long before the event
+
+export class Events {
+  #shown = 0;
+  #all = false;
+  #rows = [];
+
+  constructor(match, jump) {
+    Object.assign(this, { match, jump });
+    match.on("welcome", () => this.#anew());
+    match.on("event", () => this.#later());
+    for (const [id, all] of [["key-events", false], ["all-events", true]]) {
+      byId(id).addEventListener("click", () => {
+        this.#all = all;
+        byId("key-events").setAttribute("aria-pressed", !all);
+        byId("all-events").setAttribute("aria-pressed", all);
+        this.#anew();
+      });
+    }
+  }
+
+  /** Marks the event that the shown moment follows. */
+  follow(time) {
+    if (this.match.live) return;
+    const now = this.#rows.findLast(({ event }) => event.time <= time + 1e-6);
+    for (const { row, event } of this.#rows) mark(row, "now-is", event === now?.event);
+  }
+
+  #anew() {
+    this.#shown = 0;
+    this.#rows = [];
+    byId("events").replaceChildren();
+    this.#later();
+  }
+
+  /** Events come in crowds at the beginning: they are shown together. */
+  #later() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.#show();
+    });
+  }
+
+  #show() {
+    const list = byId("events");
+    if (this.#shown > this.match.events.length) this.#shown = 0;
+    for (const event of this.match.events.slice(this.#shown)) {
+      if (!this.#all && LESSER.has(event.kind)) continue;
+      const row = this.#row(event);
+      this.#rows.push({ row, event });
+      if (this.match.live) list.prepend(row);
+      else list.append(row);
+    }
+    this.#shown = this.match.events.length;
+    while (this.match.live && list.childElementCount > MOST) {
+      list.lastElementChild.remove();
+      this.#rows.shift();
+    }
+  }
+
+  #row(event) {
+    const side = event.side ? element("span", { class: `mark ${event.side}`, aria: { label: event.side }, role: "img" }) : element("span");
+    const words = element("span", {}, element("b", {}, headed(event.kind)), " ", element("span", { class: "what" }, event.text));
+    const parts = [element("time", {}, clockWords(event.clock)), side, words];
+    const looks = GREAT.has(event.kind) ? "great" : "";
+    if (this.match.live) return element("li", { class: looks }, ...parts);
+    const button = element("button", { type: "button", on: { click: () => this.jump(event.time - LEAD_S) } }, ...parts);
+    return element("li", { class: looks }, button);
+  }
+}

@@ -1,0 +1,71 @@
+// How the host is doing, its recorders and each robot's program, and how fast this page draws.
+
+import { byId, element, say } from "./elements.js";
+
+const EVERY_MS = 500;
+const COLUMNS = [
+  ["answers", ({ answers }) => answers],
+  ["missed", ({ missed }) => missed],
+  ["twice", ({ duplicates }) => duplicates],
+  ["invalid", ({ invalid }) => invalid],
+  ["refused", ({ refused }) => refused],
+  ["ms", ({ latency_ms: latency }) => (latency === null ? "–" : latency.toFixed(1))],
+];
+
+/** Word → the text from the health and from the page. */
+const LINES = [
+  ["pace", ({ health }) => health.pace],
+  ["real-time factor", ({ health }) => `${health.real_time_factor.toFixed(2)} ×`],
+  ["late ticks", ({ health }) => String(health.late_ticks)],
+  ["worst tick of the last second", ({ health }) => `${health.worst_tick_ms.toFixed(1)} ms`],
+  ["recorders", ({ health }) => recorderWords(health.recorders)],
+  ["messages where nobody should speak", ({ health }) => String(sum(Object.values(health.strangers)))],
+  ["answers missed by all robots", ({ health }) => String(sum(Object.values(health.robots).map(({ missed }) => missed)))],
+];
+
+export class HealthPanel {
+  #values = [];
+
+  constructor(match, stage) {
+    Object.assign(this, { match, stage });
+    this.#values = LINES.map(([word, text]) => ({ text, ...this.#line(word) }));
+    this.drawing = this.#line("this page draws");
+    byId("health").append(...this.#values.map(({ row }) => row), this.drawing.row);
+    match.on("health welcome", () => this.update());
+    setInterval(() => say(this.drawing.value, `${stage.rate} pictures a second`), EVERY_MS);
+  }
+
+  update() {
+    const { health } = this.match;
+    for (const { text, value } of this.#values) say(value, health ? text({ health }) : "–");
+    const table = byId("programs");
+    const names = Object.keys(health?.robots ?? {});
+    if (table.dataset.names !== names.join()) this.#layTable(table, names);
+    names.forEach((name, place) => {
+      const robot = health.robots[name];
+      const cells = table.tBodies[0].rows[place].cells;
+      say(cells[0], robot.alive ? name : `${name} (no program)`);
+      COLUMNS.forEach(([, text], column) => say(cells[column + 1], String(text(robot))));
+    });
+  }
+
+  #line(word) {
+    const value = element("dd", {}, "–");
+    return { value, row: element("div", {}, element("dt", {}, word), value) };
+  }
+
+  #layTable(table, names) {
+    table.dataset.names = names.join();
+    const head = element("tr", {}, ...["robot", ...COLUMNS.map(([word]) => word)].map((word) => element("th", { scope: "col" }, word)));
+    const rows = names.map(() => element("tr", {}, element("th", { scope: "row" }), ...COLUMNS.map(() => element("td"))));
+    table.replaceChildren(element("thead", {}, head), element("tbody", {}, ...rows));
+  }
+}
+
+function recorderWords(recorders) {
+  const all = Object.entries(recorders);
+  if (all.length === 0) return "none: nothing is recorded";
+  return all.map(([name, behind]) => (behind > 5 ? `${name} is ${behind} ticks behind` : `${name} keeps up`)).join(", ");
+}
+
+const sum = (values) => values.reduce((all, value) => all + value, 0);

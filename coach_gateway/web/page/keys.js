@@ -1,0 +1,79 @@
+// The keys of the page. The space bar always stops, wherever the focus is.
+
+import { byId } from "./elements.js";
+
+/** What the help says: keys, and what they do. */
+export const KEYS = [
+  ["space", "stop: the match, or your own side; in a recording, pause and play"],
+  ["?", "this list"],
+  ["v", "see the field from another side"],
+  ["[ ]", "choose the robot before or after"],
+  ["esc", "leave picking, dragging and driving"],
+  ["n p", "recording: next event, event before"],
+  ["← →", "recording: 1 s back or on, with shift 10 s"],
+  [", .", "recording: one picture back or on"],
+  ["w a s d, arrows", "driving: ahead, left, back, right"],
+  ["q e", "driving: turn left, turn right"],
+  ["z", "driving: dribbler on or off"],
+  ["k l", "driving: kick along the ground, lob"],
+  ["enter", "press the button, or switch the box, that has the focus"],
+];
+const PICTURE_S = 0.02;
+
+export function listenForKeys({ match, buttons, drive, drag, replay, layers, seat }) {
+  const typed = {
+    "?": () => byId("help").showModal(),
+    v: () => layers.turn(),
+    "[": () => chooseNext(match, seat, -1),
+    "]": () => chooseNext(match, seat, 1),
+  };
+  const replayed = {
+    n: () => replay.jump(1),
+    p: () => replay.jump(-1),
+    ".": () => replay.step(),
+    ",": () => replay.seek(replay.time - PICTURE_S),
+    ArrowLeft: (event) => replay.seek(replay.time - (event.shiftKey ? 10 : 1)),
+    ArrowRight: (event) => replay.seek(replay.time + (event.shiftKey ? 10 : 1)),
+  };
+  const stops = () => (match.live ? match.may("stop") || match.may("order", match.role) : match.may("replay"));
+
+  addEventListener("keydown", (event) => {
+    if (event.code === "Space" && stops()) {
+      event.preventDefault();
+      if (event.repeat) return;
+      drive.giveBack();
+      if (match.live) buttons.stop();
+      else replay.toggle();
+      return;
+    }
+    if (event.key === "Escape") {
+      drag.cancel();
+      drive.giveBack();
+      return;
+    }
+    if (event.key === "Enter" && event.target.type === "checkbox") event.target.click();
+    if (isTyping(event.target)) return;
+    if (drive.key(event, true)) {
+      event.preventDefault();
+      return;
+    }
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const does = typed[event.key] ?? (match.live || event.target.type === "range" ? undefined : replayed[event.key]);
+    if (does === undefined) return;
+    event.preventDefault();
+    does(event);
+  }, { capture: true });
+  addEventListener("keyup", (event) => {
+    if (event.code === "Space" && stops()) event.preventDefault(); // or a button with the focus would be pressed too
+    drive.key(event, false);
+  }, { capture: true });
+}
+
+/** Whether keys go into a field. */
+const isTyping = (target) => target.matches?.("input:not([type=checkbox]):not([type=range]), select, textarea") ?? false;
+
+function chooseNext(match, seat, step) {
+  const all = match.robots;
+  const place = all.indexOf(seat.robot);
+  seat.choose(all[place < 0 ? (step > 0 ? 0 : all.length - 1) : (place + step + all.length) % all.length] ?? null);
+}

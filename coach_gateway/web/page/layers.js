@@ -1,0 +1,82 @@
+// What the picture shows: switches beside it, kept for the next visit.
+
+import { byId, choice, element, offer } from "./elements.js";
+import { TRAILS } from "./trails.js";
+import { SEEN_FROM } from "./view.js";
+
+const KEY = "touchline.layers";
+const SWITCHES = [
+  ["roles", "Roles", true],
+  ["velocities", "Velocities", true],
+  ["passes", "Passes", true],
+  ["distances", "Distances", true],
+  ["obstacles", "Obstacles", true],
+];
+
+export class Layers {
+  trails = "short";
+  beliefs = "none";
+  seenFrom = "fixed";
+
+  constructor(match) {
+    for (const [name, , initial] of SWITCHES) this[name] = initial;
+    Object.assign(this, kept());
+    this.#lay(match);
+  }
+
+  /** Looks at the field from the other side, or back. */
+  turn() {
+    const steps = SEEN_FROM.map(([value]) => value);
+    this.#set("seenFrom", steps[(steps.indexOf(this.seenFrom) + 1) % steps.length]);
+  }
+
+  #lay(match) {
+    const boxes = SWITCHES.map(([name, text]) => {
+      const box = element("input", { type: "checkbox", id: `layer-${name}`, on: { change: () => this.#set(name, box.checked) } });
+      box.checked = this[name];
+      return element("label", { class: "switch" }, box, text);
+    });
+    byId("layers").append(
+      this.#chosen("seenFrom", "Field", SEEN_FROM), this.#chosen("beliefs", "Believed", [["none", "nothing"]]),
+      this.#chosen("trails", "Trails", TRAILS), ...boxes,
+    );
+    match.on("welcome health", () => this.#offerRobots(match));
+  }
+
+  #chosen(name, text, options) {
+    const select = choice(options, { id: `layer-${name}`, on: { change: () => this.#set(name, select.value) } });
+    select.value = this[name];
+    return element("label", { class: "chosen" }, text, select);
+  }
+
+  /** Whose beliefs can be looked at: those that are shown to who sits here. */
+  #offerRobots(match) {
+    const sides = match.setup === null ? [] : match.shown;
+    const robots = match.robots.filter((name) => sides.includes(match.sideOf(name)));
+    offer(byId("layer-beliefs"), [
+      ["none", "nothing"],
+      ...(sides.length ? [["all", "by all"]] : []),
+      ...sides.map((side) => [side, `by ${match.setup.teams[side].name}`]),
+      ...robots.map((name) => [name, `by ${name}`]),
+    ]);
+    this.beliefs = byId("layer-beliefs").value;
+  }
+
+  #set(name, value) {
+    this[name] = value;
+    const input = byId(`layer-${name}`);
+    if (input.type === "checkbox") input.checked = value;
+    else input.value = value;
+    const all = Object.fromEntries([...SWITCHES.map(([word]) => word), "trails", "seenFrom"].map((word) => [word, this[word]]));
+    localStorage.setItem(KEY, JSON.stringify(all));
+  }
+}
+
+/** What was chosen at the last visit. */
+function kept() {
+  try {
+    return JSON.parse(localStorage.getItem(KEY) ?? "{}");
+  } catch {
+    return {};
+  }
+}

@@ -1,0 +1,117 @@
+// The match as the gateway tells it: what is known now, and who wants to hear when that changes.
+
+import { Film } from "./film.js";
+
+const MOST_EVENTS = 5000;
+
+/** What is known of a match of which nothing was heard yet. */
+const nothing = () => ({
+  role: "spectator",
+  live: true,
+  name: "",
+  setup: null,
+  deeds: new Set(),
+  shown: [], // sides whose beliefs are told
+  state: null,
+  health: null,
+  orders: {},
+  beliefs: {},
+  events: [],
+  replay: null,
+  refbox: { connected: false, team: null },
+  hostThere: true,
+  episode: 1,
+  film: new Film(),
+});
+
+/** Kind of message → what becomes of it. */
+const READERS = {
+  welcome(match, { role, match: name, setup, live, deeds, beliefs }) {
+    Object.assign(match, nothing(), { role, name, setup, live, deeds: new Set(deeds), shown: beliefs });
+  },
+  frame(match, { world, beliefs }) {
+    if (world.episode !== match.episode) match.film.cut();
+    match.episode = world.episode;
+    match.beliefs = beliefs;
+    match.film.add(world, performance.now());
+  },
+  state(match, { state }) {
+    match.state = state;
+  },
+  event(match, { event }) {
+    match.events.push(event);
+    if (match.events.length > MOST_EVENTS) match.events.shift();
+  },
+  health(match, { health }) {
+    match.health = health;
+  },
+  orders(match, { cyan, magenta }) {
+    match.orders = { cyan, magenta };
+  },
+  host(match, { there }) {
+    match.hostThere = there;
+  },
+  replay(match, { replay }) {
+    match.replay = replay;
+    match.film.still = replay.paused;
+  },
+  refbox(match, { connected, team }) {
+    match.refbox = { connected, team };
+  },
+};
+
+export class Match {
+  #hearers = new Map();
+
+  constructor() {
+    Object.assign(this, nothing());
+  }
+
+  /** Has `does` called after each message of these kinds. */
+  on(kinds, does) {
+    for (const kind of kinds.split(" ")) this.#hearers.set(kind, [...(this.#hearers.get(kind) ?? []), does]);
+  }
+
+  /** Takes in a message of the gateway; of a kind that this page does not know there is nothing to take. */
+  take(message) {
+    READERS[message.kind]?.(this, message);
+    for (const does of this.#hearers.get(message.kind) ?? []) does(this);
+  }
+
+  /** All robots: those of the setup in order, then others that the pitch has. */
+  get robots() {
+    const listed = this.setup ? ["cyan", "magenta"].flatMap((side) => this.setup.teams[side].robots) : [];
+    const there = this.film.newest?.robots ?? {};
+    return [...listed, ...Object.keys(there).filter((name) => !listed.includes(name))];
+  }
+
+  /** Whether who sits here may do a deed, for a side where it belongs to one. */
+  may(deed, side = null) {
+    if (!this.deeds.has(deed)) return false;
+    return this.role === "referee" || side === null || side === this.role;
+  }
+
+  sideOf(robot) {
+    for (const side of ["cyan", "magenta"]) if (this.setup?.teams[side].robots.includes(robot)) return side;
+    return robot.startsWith("magenta") ? "magenta" : "cyan";
+  }
+
+  /** 1 if a side attacks +x now, −1 if it attacks −x: what turns its team frame into the field's. */
+  attack(side) {
+    const cyan = this.state?.cyan_attacks ?? 1;
+    return side === "cyan" ? cyan : -cyan;
+  }
+
+  /** Radius of a robot's hull in m. */
+  radiusOf(robot) {
+    const type = this.setup?.teams[this.sideOf(robot)].types[robot] ?? "standard";
+    return (this.setup?.models[type]?.body ?? this.setup?.robot)?.radius ?? 0.25;
+  }
+
+  /** What a robot last said, or nothing when that is older than `age` s. */
+  wordOf(robot, age = 1.5) {
+    const belief = this.beliefs[robot];
+    const now = this.film.newest?.time ?? 0;
+    return belief && Math.abs(now - belief.time) <= age ? belief.radio : null;
+  }
+}

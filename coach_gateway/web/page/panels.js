@@ -1,0 +1,111 @@
+// A panel for each robot: who it is, what it does and means to do, where it is, and how its program is doing.
+
+import { byId, element, mark, say, show } from "./elements.js";
+import { standingWords } from "./scoreboard.js";
+import { degreeWords, metres, numberOf, placeWords, spoken } from "./words.js";
+
+const EVERY_MS = 200;
+/** Key, word before it, and the text from what is known of the robot; an empty text hides the line. */
+const LINES = [
+  ["intention", "means", ({ word }) => word?.intention ?? ""],
+  ["pose", "at", ({ body }) => (body ? `${placeWords(body)} ${degreeWords(body.heading)}` : "")],
+  ["speed", "speed", ({ body }) => (body ? `${metres(Math.hypot(body.vx, body.vy))} m/s` : "")],
+  ["ball", "ball", ({ body, ball, holds }) => (holds ? "in hand" : body ? `${metres(Math.hypot(ball.x - body.x, ball.y - body.y))} m off` : "")],
+  ["battery", "battery", ({ word }) => batteryWords(word?.extra?.battery)],
+  ["latency", "answers in", ({ health }) => (health?.latency_ms ? `${health.latency_ms.toFixed(1)} ms` : "")],
+  ["missed", "missed", ({ health }) => (health?.missed ? `${health.missed} of ${health.answers + health.missed}` : "")],
+  ["refused", "refused", ({ health }) => (health?.refused ? String(health.refused) : "")],
+  ["order", "order", ({ acknowledged }) => (acknowledged === undefined ? "" : acknowledged ? "taken in" : "not taken in yet")],
+  ["cards", "referee", ({ standing }) => (standing ? standingWords(standing) : "")],
+];
+
+export class Panels {
+  #panels = new Map();
+  #robots = "";
+
+  constructor(match, stage, seat) {
+    Object.assign(this, { match, stage, seat });
+    setInterval(() => this.update(), EVERY_MS);
+    seat.on(() => this.update());
+  }
+
+  update() {
+    const { match } = this;
+    if (match.setup === null) return;
+    if (match.robots.join() !== this.#robots) this.#lay();
+    for (const [name, panel] of this.#panels) this.#fill(name, panel);
+  }
+
+  #lay() {
+    this.#robots = this.match.robots.join();
+    this.#panels = new Map(this.match.robots.map((name) => [name, this.#panel(name)]));
+    for (const side of ["cyan", "magenta"]) {
+      const mine = [...this.#panels].filter(([name]) => this.match.sideOf(name) === side);
+      byId(`${side}-robots`).replaceChildren(...mine.map(([, { card }]) => card));
+    }
+  }
+
+  #panel(name) {
+    const side = this.match.sideOf(name);
+    const role = element("span", { class: "does" });
+    const badge = element("span", { class: "badge" });
+    const number = numberOf(name, this.match.setup.teams[side].robots);
+    const head = element(
+      "button",
+      { type: "button", class: "who", on: { click: () => this.seat.choose(this.seat.robot === name ? null : name) } },
+      element("span", { class: `mark ${side}` }, number), element("b", {}, name), role, badge,
+    );
+    const lines = LINES.map(([key, word, text]) => {
+      const value = element("dd", { data: { is: key } });
+      return { value, row: element("div", {}, element("dt", {}, word), value), text };
+    });
+    const card = element("li", { class: `panel ${side}`, data: { robot: name } }, head, element("dl", {}, ...lines.map(({ row }) => row)));
+    return { card, head, role, badge, lines };
+  }
+
+  #fill(name, { card, head, role, badge, lines }) {
+    const { match } = this;
+    const world = this.stage.world;
+    const body = world?.robots[name];
+    const known = {
+      body,
+      ball: world?.ball,
+      holds: world?.possession === name,
+      word: match.wordOf(name, 5),
+      health: match.health?.robots[name],
+      acknowledged: match.orders[match.sideOf(name)]?.order ? match.orders[match.sideOf(name)].acknowledged[name] : undefined,
+      standing: match.state?.robots[name],
+    };
+    say(role, known.word?.role ? spoken(known.word.role) : "");
+    const [word, looks] = stateOf(known);
+    say(badge, word);
+    badge.dataset.looks = looks;
+    show(badge, word !== "");
+    mark(card, "holds", known.holds);
+    mark(card, "away", !body || body.off_field !== null);
+    head.setAttribute("aria-pressed", this.seat.robot === name);
+    for (const { value, row, text } of lines) {
+      const says = text(known);
+      show(row, says !== "");
+      say(value, says);
+    }
+  }
+}
+
+/** What is most to be known of a robot, in a word, and how that looks. */
+function stateOf({ body, holds, health }) {
+  if (!body) return ["not there", "grey"];
+  if (body.off_field) return [spoken(body.off_field), "grey"];
+  if (health?.removed || health?.still) return ["stands still", "grey"];
+  if (health && !health.alive) return ["no program", "bad"];
+  if (body.stuck) return ["stuck", "bad"];
+  if (holds) return ["ball", "ball"];
+  if (health && !health.answering) return ["silent", "bad"];
+  return ["", ""];
+}
+
+/** A share up to 1 in percent; a larger number is a voltage. */
+function batteryWords(battery) {
+  if (typeof battery !== "number") return battery === undefined ? "" : String(battery);
+  return battery <= 1 ? `${Math.round(100 * battery)} %` : `${battery.toFixed(1)} V`;
+}

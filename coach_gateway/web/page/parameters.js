@@ -1,0 +1,145 @@
+// Live parameters, speeds and noise among them: listed with unit and range, set, and reset.
+
+import { byId, element, say, show } from "./elements.js";
+import { headed } from "./words.js";
+
+const FIRST = ["drive", "noise", "sensing", "radio", "ball"];
+
+export class Parameters {
+  #rows = new Map();
+
+  constructor(match, desk) {
+    Object.assign(this, { match, desk });
+    byId("parameter-filter").addEventListener("input", () => this.#filter());
+    byId("parameters-reset").addEventListener("click", () => this.#change(byId("parameters-reset"), "Reset all", { deed: "reset" }));
+    match.on("welcome host", () => this.#changed());
+    match.on("event", ({ events }) => events.at(-1).kind === "parameters" && this.#changed());
+  }
+
+  /** Asks for all parameters, when the panel is seen. */
+  async load() {
+    const { match } = this;
+    if (!match.live || match.setup === null || !match.deeds.has("read_parameters") || this.loading) return;
+    this.loading = true;
+    const reply = await this.desk.line.ask("parameters", { request: { deed: "list" } });
+    this.loading = false;
+    this.stale = !reply.accepted;
+    if (reply.accepted) this.#lay(reply.answer.parameters);
+    else say(byId("parameters-state"), reply.reason);
+  }
+
+  #changed() {
+    this.stale = true;
+    const { match } = this;
+    byId("parameters-reset").disabled = !match.may("parameters");
+    show(byId("parameters-away"), !match.deeds.has("read_parameters"));
+    if (byId("parameters").offsetParent !== null) this.load();
+  }
+
+  #lay(parameters) {
+    const sections = new Map();
+    for (const one of parameters) {
+      const section = one.name.slice(0, one.name.lastIndexOf(".")) || "other";
+      sections.set(section, [...(sections.get(section) ?? []), one]);
+    }
+    const names = parameters.map(({ name }) => name).join();
+    if (byId("parameters").dataset.names !== names) {
+      byId("parameters").dataset.names = names;
+      this.#rows.clear();
+      const order = [...sections.keys()].sort((a, b) => rank(a) - rank(b));
+      byId("parameters").replaceChildren(...order.map((section) => this.#section(section, sections.get(section))));
+    }
+    for (const one of parameters) this.#fill(one);
+    say(byId("parameters-state"), `${parameters.filter(({ live }) => live).length} can be set while the match runs`);
+    this.#filter();
+  }
+
+  #section(name, parameters) {
+    return element(
+      "details",
+      { data: { section: name }, ...(name === "drive" ? { open: true } : {}) },
+      element("summary", {}, headed(name)), ...parameters.map((one) => this.#row(one)),
+    );
+  }
+
+  #row(one) {
+    const id = `parameter-${one.name}`;
+    const input = one.words.length
+      ? element("select", { id }, ...one.words.map((word) => element("option", { value: word }, word)))
+      : element("input", { id, type: "text", inputmode: "decimal", autocomplete: "off" });
+    const set = element("button", { type: "button" }, "Set");
+    const reset = element("button", { type: "button", aria: { label: `Reset ${one.name}` } }, "Reset");
+    set.setAttribute("aria-label", `Set ${one.name}`);
+    set.addEventListener("click", () => this.#set(set, one, input.value));
+    input.addEventListener("keydown", (event) => event.key === "Enter" && this.#set(set, one, input.value));
+    reset.addEventListener("click", () => this.#change(reset, `Reset ${one.name}`, { deed: "reset", names: [one.name] }));
+    const range = element("span", { class: "quiet" }, rangeWords(one));
+    const row = element(
+      "div", { class: "parameter", data: { parameter: one.name } },
+      element("label", { for: id }, element("b", {}, one.name.split(".").at(-1)), ` ${one.says}`), range,
+      element("div", { class: "setting" }, input, set, reset),
+    );
+    this.#rows.set(one.name, { row, input, set, reset, words: `${one.name} ${one.says}`.toLowerCase() });
+    return row;
+  }
+
+  #fill(one) {
+    const { row, input, set, reset } = this.#rows.get(one.name);
+    const may = one.live && this.match.may("parameters");
+    if (document.activeElement !== input) input.value = valueWords(one.value);
+    for (const control of [input, set, reset]) {
+      control.disabled = !may;
+      control.title = one.live ? "" : one.why_not;
+    }
+    row.classList.toggle("changed", valueWords(one.value) !== valueWords(one.initial));
+    reset.disabled = !may || valueWords(one.value) === valueWords(one.initial);
+  }
+
+  #set(source, one, text) {
+    const value = valueOf(text, one);
+    if (value === null) {
+      this.desk.show(source, `Set ${one.name}`, { accepted: false, reason: `${text} is no number` });
+      return;
+    }
+    this.#change(source, `${one.name} = ${text}`, { deed: "set", values: { [one.name]: value } });
+  }
+
+  async #change(source, words, request) {
+    const reply = await this.desk.ask(source, words, "parameters", { request });
+    if (reply.accepted) this.load();
+  }
+
+  #filter() {
+    const words = byId("parameter-filter").value.toLowerCase().trim();
+    for (const { row, words: said } of this.#rows.values()) show(row, said.includes(words));
+    for (const section of byId("parameters").children) {
+      const some = [...section.querySelectorAll(".parameter")].some((row) => !row.hidden);
+      show(section, some);
+      if (words && some) section.open = true;
+    }
+  }
+}
+
+/** Sections that people look for come first; types of robots last. */
+function rank(section) {
+  const place = FIRST.findIndex((name) => section.includes(name));
+  return (section.startsWith("types") ? 100 : 0) + (place < 0 ? FIRST.length : place);
+}
+
+function rangeWords({ unit, low, high, words }) {
+  if (words.length) return "a word";
+  const named = unit && unit !== "1" ? ` ${unit}` : "";
+  if (low !== null && high !== null) return `${low} to ${high}${named}`;
+  if (low !== null) return `from ${low}${named}`;
+  return high !== null ? `up to ${high}${named}` : named.trim();
+}
+
+const valueWords = (value) => (Array.isArray(value) ? value.join(", ") : String(value));
+
+/** What was typed as the protocol wants it, or nothing if it is no number. */
+function valueOf(text, { value, words }) {
+  if (words.length || typeof value === "string") return text;
+  const numbers = text.split(",").map((part) => Number(part.trim() === "" ? NaN : part));
+  if (numbers.some((number) => !Number.isFinite(number))) return null;
+  return Array.isArray(value) ? numbers : numbers.length === 1 ? numbers[0] : null;
+}

@@ -1,0 +1,144 @@
+// A recording is played here: a bar with the marks of its events, play, pause, step, rate, loop, and jumps.
+
+import { byId, mark, say, show } from "./elements.js";
+import { LEAD_S } from "./events.js";
+import { SIDES } from "./brush.js";
+import { clockWords } from "./words.js";
+
+const MARKED = { goal: "★", card: "▮", foul: "•", half_time: "|", full_time: "|" };
+
+export class Replay {
+  #wanted = null;
+  #asking = false;
+  #holding = false;
+
+  constructor(match, desk) {
+    Object.assign(this, { match, desk });
+    const scrub = byId("scrub");
+    scrub.addEventListener("input", () => this.seek(Number(scrub.value)));
+    scrub.addEventListener("pointerdown", () => { this.#holding = true; });
+    for (const end of ["pointerup", "pointercancel", "change"]) scrub.addEventListener(end, () => { this.#holding = false; });
+    byId("play").addEventListener("click", () => this.toggle());
+    byId("step").addEventListener("click", () => this.step());
+    byId("loop").addEventListener("click", () => this.#ask("loop", "Loop", { deed: "loop" }));
+    byId("previous").addEventListener("click", () => this.jump(-1));
+    byId("next").addEventListener("click", () => this.jump(1));
+    byId("rate").addEventListener("change", () => this.setRate(byId("rate").value));
+    byId("marks").addEventListener("click", (event) => this.#pointed(event));
+    match.on("welcome replay", () => this.update());
+    match.on("event welcome", () => this.#later());
+    addEventListener("resize", () => this.#later());
+  }
+
+  /** Simulated time in s that is shown. */
+  get time() {
+    return this.#wanted ?? this.match.film.newest?.time ?? 0;
+  }
+
+  update() {
+    const { replay, live } = this.match;
+    show(byId("replay"), !live);
+    if (live || replay === null) return;
+    const scrub = byId("scrub");
+    if (Number(scrub.min) !== replay.start || Number(scrub.max) !== replay.end) {
+      scrub.min = replay.start;
+      scrub.max = replay.end;
+      this.#later();
+    }
+    mark(byId("play"), "playing", !replay.paused);
+    byId("play").setAttribute("aria-label", replay.paused ? "Play (space)" : "Pause (space)");
+    byId("loop").setAttribute("aria-pressed", replay.loop);
+    if (document.activeElement !== byId("rate")) byId("rate").value = replay.rate === null ? "fast" : String(replay.rate);
+    const may = this.match.may("replay");
+    for (const control of byId("replay").querySelectorAll("button, select, #scrub")) {
+      control.disabled = !may;
+      control.title = may ? control.dataset.title ?? "" : "only the referee of this replay may";
+    }
+  }
+
+  /** The bar follows what is drawn, unless it is being dragged. */
+  tick(world) {
+    if (this.match.live || world === null) return;
+    say(byId("moment"), `${clockWords(this.#wanted ?? world.time)} of ${clockWords(this.match.replay?.end ?? 0)}`);
+    if (!this.#holding && this.#wanted === null) byId("scrub").value = world.time;
+  }
+
+  toggle() {
+    return this.#ask("play", this.match.replay?.paused ? "Play" : "Pause", { deed: this.match.replay?.paused ? "play" : "pause" });
+  }
+
+  step(ticks = 1) {
+    return this.#ask("step", "Step", { deed: "step", ticks });
+  }
+
+  setRate(rate) {
+    return this.#ask("rate", `Rate ${rate}`, rate === "fast" ? { deed: "rate" } : { deed: "rate", rate: Number(rate) });
+  }
+
+  /** Goes to a time in s; while one is on its way, only the newest wish counts. */
+  async seek(time) {
+    const { start, end } = this.match.replay ?? { start: 0, end: time };
+    this.#wanted = Math.min(Math.max(time, start), end);
+    if (this.#asking) return;
+    this.#asking = true;
+    let went = null;
+    while (this.#wanted !== went) {
+      went = this.#wanted;
+      const reply = await this.desk.line.ask("replay", { request: { deed: "seek", to: String(went) } });
+      if (reply.accepted) continue;
+      this.desk.show(byId("scrub"), `Go to ${clockWords(went)}`, reply);
+      break;
+    }
+    this.#wanted = null;
+    this.#asking = false;
+  }
+
+  /** To the event before or after the shown moment. */
+  jump(step) {
+    const times = this.match.events.filter(({ kind }) => MARKED[kind]).map(({ time }) => Math.max(time - LEAD_S, this.match.replay?.start ?? 0));
+    const now = this.time;
+    const to = step > 0 ? times.find((time) => time > now + 0.05) : times.findLast((time) => time < now - 0.5);
+    if (to !== undefined) this.seek(to);
+  }
+
+  async #ask(id, words, request) {
+    const reply = await this.desk.line.ask("replay", { request });
+    if (!reply.accepted) this.desk.show(byId(id), words, reply);
+  }
+
+  #pointed(event) {
+    const box = byId("marks").getBoundingClientRect();
+    const { start, end } = this.match.replay;
+    if (this.match.may("replay")) this.seek(start + ((event.clientX - box.left) / box.width) * (end - start));
+  }
+
+  #later() {
+    if (this.waiting || this.match.live) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.#draw();
+    });
+  }
+
+  /** Marks of goals, cards, fouls and halves along the bar. */
+  #draw() {
+    const canvas = byId("marks"), { replay, events } = this.match;
+    const density = devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
+    if (replay === null || width === 0) return;
+    canvas.width = width * density;
+    canvas.height = height * density;
+    const context = canvas.getContext("2d");
+    context.scale(density, density);
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    const ink = getComputedStyle(canvas).color;
+    for (const event of events) {
+      if (!MARKED[event.kind]) continue;
+      const left = ((event.time - replay.start) / Math.max(replay.end - replay.start, 0.01)) * width;
+      context.fillStyle = event.kind === "goal" && event.side ? SIDES[event.side].fill : ink;
+      context.font = `${event.kind === "goal" ? 17 : 12}px system-ui, "DejaVu Sans", sans-serif`;
+      context.fillText(MARKED[event.kind], Math.min(Math.max(left, 7), width - 7), height / 2);
+    }
+  }
+}

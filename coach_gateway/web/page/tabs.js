@@ -1,0 +1,50 @@
+// The tabs beside the field; on a phone below it, with robots and events among them.
+
+import { byId, show } from "./elements.js";
+
+export class Tabs {
+  #tabs = [...document.querySelectorAll("[role=tab]")];
+  #narrow = matchMedia("(max-width: 1000px)");
+
+  /** `seen` is called with the name of the tab that is opened. */
+  constructor(seen) {
+    this.seen = seen;
+    for (const tab of this.#tabs) {
+      tab.addEventListener("click", () => this.open(tab.dataset.tab));
+      tab.addEventListener("keydown", (event) => this.#key(event));
+    }
+    this.#narrow.addEventListener("change", () => this.open(this.opened));
+    this.open(this.#narrow.matches ? "robots" : "match");
+  }
+
+  /** The name of the tab that is open. */
+  opened = "match";
+
+  open(name) {
+    const tab = this.#seen().find((one) => one.dataset.tab === name) ?? this.#seen()[0];
+    this.opened = tab.dataset.tab;
+    for (const one of this.#tabs) {
+      const chosen = one === tab;
+      one.setAttribute("aria-selected", chosen);
+      one.tabIndex = chosen ? 0 : -1;
+      const beside = one.classList.contains("beside") && !this.#narrow.matches;
+      show(byId(one.getAttribute("aria-controls")), chosen || beside);
+    }
+    this.seen(this.opened);
+  }
+
+  #seen() {
+    return this.#tabs.filter((tab) => this.#narrow.matches || !tab.classList.contains("beside"));
+  }
+
+  #key(event) {
+    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (step === undefined) return;
+    const seen = this.#seen();
+    const next = seen[(seen.indexOf(event.currentTarget) + step + seen.length) % seen.length];
+    this.open(next.dataset.tab);
+    next.focus();
+    event.preventDefault();
+    event.stopPropagation();
+  }
+}

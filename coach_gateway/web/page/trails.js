@@ -1,0 +1,67 @@
+// Where everything has been: a tail behind each body, or all of its way.
+
+import { SIDES } from "./brush.js";
+
+export const TRAILS = [
+  ["off", "off"],
+  ["short", "3 s"],
+  ["all", "kept"],
+];
+const SHORT_S = 3;
+const STEP_M = 0.06; // what moved less is not noted
+const JUMP_M = 1.5; // what moved more was set down elsewhere
+const MOST = 2500; // points of one body
+
+export class Trails {
+  #ways = new Map();
+  #episode = 0;
+  #time = 0;
+
+  /** Takes in where everything is. */
+  note(world) {
+    if (world.episode !== this.#episode || world.time < this.#time) this.#ways.clear();
+    this.#episode = world.episode;
+    this.#time = world.time;
+    this.#step("ball", world.ball, world.time);
+    for (const [name, robot] of Object.entries(world.robots)) this.#step(name, robot, world.time);
+  }
+
+  draw(context, view, match, kept) {
+    if (kept === "off") return;
+    context.lineJoin = "round";
+    for (const [name, way] of this.#ways) {
+      const from = kept === "short" ? this.#time - SHORT_S : -Infinity;
+      context.strokeStyle = name === "ball" ? "#ffcf5c" : SIDES[match.sideOf(name)].line;
+      context.globalAlpha = kept === "short" ? 0.65 : 0.4;
+      context.lineWidth = name === "ball" ? 2 : 1.3;
+      trace(context, view, way, from);
+    }
+    context.globalAlpha = 1;
+  }
+
+  #step(name, { x, y }, time) {
+    const way = this.#ways.get(name);
+    if (way === undefined) {
+      this.#ways.set(name, [{ x, y, time, jump: true }]);
+      return;
+    }
+    const last = way.at(-1);
+    const gone = Math.hypot(x - last.x, y - last.y);
+    if (gone < STEP_M) return;
+    way.push({ x, y, time, jump: gone > JUMP_M });
+    if (way.length > MOST) way.splice(0, MOST / 5);
+  }
+}
+
+function trace(context, view, way, from) {
+  let place = way.length - 1;
+  while (place > 0 && way[place - 1].time >= from) place -= 1;
+  context.beginPath();
+  for (; place < way.length; place += 1) {
+    const { x, y, time, jump } = way[place];
+    if (time < from) continue;
+    if (jump) context.moveTo(view.x(x), view.y(y));
+    else context.lineTo(view.x(x), view.y(y));
+  }
+  context.stroke();
+}
