@@ -58,6 +58,8 @@ class Welcome(Part):
     """Whose robots' beliefs this role is shown."""
     orders: list[Side]
     """Whose orders this role is shown."""
+    scenes: dict[str, str] = {}
+    """Scenes that can be loaded by name, and what each is for."""
 
 
 class HostNews(Part):

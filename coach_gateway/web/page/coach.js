@@ -2,12 +2,13 @@
 
 import { circle, write } from "./brush.js";
 import { onField } from "./beliefs.js";
-import { byId, choice, element, offer, say, show } from "./elements.js";
+import { byId, choice, element, mark, offer, say, show } from "./elements.js";
 import { FIELDS, TESTS } from "./tests.js";
 import { degrees, headed, radians, spoken } from "./words.js";
 
 const MODES = ["play", "hold", "park", "test"];
 const LIMITS = ["max_speed", "max_turn_rate"];
+const OF_TESTS = ["radius", "kick_mode", "with_ball", "avoid"]; // fields that no other order has
 
 export class Coach {
   #inputs = {};
@@ -34,7 +35,7 @@ export class Coach {
     const sides = ["cyan", "magenta"].filter((side) => match.may("order", side));
     const shown = sides.length ? sides : ["cyan", "magenta"];
     offer(byId("order-side"), shown.map((side) => [side, match.setup.teams[side].name]));
-    const robots = [["", "any"], ...match.setup.teams[this.side].robots.map((name) => [name, name])];
+    const robots = [["", "none"], ...match.setup.teams[this.side].robots.map((name) => [name, name])];
     for (const key of ["robot_a", "robot_b"]) offer(this.#inputs[key].select, robots);
     const why = !match.live ? "this is a recording" : sides.length ? "" : "orders are for the coach of a side, and the referee";
     byId("order-give").disabled = why !== "" || !match.hostThere;
@@ -46,8 +47,8 @@ export class Coach {
   #lay() {
     offer(byId("order-mode"), MODES.map((mode) => [mode, headed(mode)]));
     offer(byId("order-test"), Object.entries(TESTS).map(([word, [name]]) => [word, name]));
-    for (const [key, [words, kind, unit, most]] of Object.entries(FIELDS)) {
-      this.#inputs[key] = KINDS[kind](this, key, words, unit, most);
+    for (const [key, [words, kind, knows]] of Object.entries(FIELDS)) {
+      this.#inputs[key] = KINDS[kind](this, key, words, knows);
       byId("order-fields").append(this.#inputs[key].row);
     }
   }
@@ -55,11 +56,13 @@ export class Coach {
   /** Shows the fields that the order needs. */
   #fit() {
     const mode = byId("order-mode").value;
-    const [, sentence, needed] = TESTS[byId("order-test").value];
+    const [, sentence, needed, taken] = TESTS[byId("order-test").value];
     show(byId("order-test-row"), mode === "test");
     say(byId("order-says"), mode === "test" ? sentence : MODE_WORDS[mode]);
     for (const [key, { row }] of Object.entries(this.#inputs)) {
-      show(row, mode === "test" ? needed.includes(key) || LIMITS.includes(key) : mode === "play" || LIMITS.includes(key));
+      const fits = { test: [...needed, ...taken].includes(key), play: !OF_TESTS.includes(key) };
+      show(row, fits[mode] ?? LIMITS.includes(key));
+      mark(row, "needed", mode === "test" && needed.includes(key));
     }
     show(byId("order-tactic-row"), mode === "play");
   }
@@ -123,9 +126,18 @@ const KINDS = {
     const select = choice([], { id: `order-${key}` });
     return { select, row: labelled(key, words, select), read: () => select.value || null };
   },
-  number(coach, key, words, unit, most) {
+  number(coach, key, words, most) {
     const input = numeric(`order-${key}`, { min: 0, max: most });
-    return { row: labelled(key, `${words} (${unit})`, input), read: () => numberIn(input) };
+    return { row: labelled(key, words, input), read: () => numberIn(input) };
+  },
+  word(coach, key, words, all) {
+    const select = choice(all.map((word) => [word, spoken(word)]), { id: `order-${key}` });
+    return { row: labelled(key, words, select), read: () => select.value };
+  },
+  switch(coach, key, words) {
+    const input = element("input", { id: `order-${key}`, type: "checkbox" });
+    const row = element("label", { class: "switch", data: { field: key } }, input, words);
+    return { row, read: () => (input.checked ? true : null) };
   },
   angle(coach, key, words) {
     const input = numeric(`order-${key}`, { step: 5 });

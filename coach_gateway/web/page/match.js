@@ -12,6 +12,7 @@ const nothing = () => ({
   setup: null,
   deeds: new Set(),
   shown: [], // sides whose beliefs are told
+  scenes: {}, // name → what it is for
   state: null,
   health: null,
   orders: {},
@@ -26,8 +27,8 @@ const nothing = () => ({
 
 /** Kind of message → what becomes of it. */
 const READERS = {
-  welcome(match, { role, match: name, setup, live, deeds, beliefs }) {
-    Object.assign(match, nothing(), { role, name, setup, live, deeds: new Set(deeds), shown: beliefs });
+  welcome(match, { role, match: name, setup, live, deeds, beliefs, scenes }) {
+    Object.assign(match, nothing(), { role, name, setup, live, deeds: new Set(deeds), shown: beliefs, scenes });
   },
   frame(match, { world, beliefs }) {
     if (world.episode !== match.episode) match.film.cut();
