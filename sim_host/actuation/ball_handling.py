@@ -53,7 +53,7 @@ class BallHandling:
 
         A ball that is carried lies a little in the hull; one that is drawn touches it.
         """
-        is_carried = place is not None and self._dribbles[place].method != "force"
+        is_carried = place is not None and self._is_carried(place)
         self._engine.let_through(place if is_carried else None)
         self.holding = place
         self._leaving = None
@@ -80,7 +80,7 @@ class BallHandling:
         claims = [place for place, one in enumerate(inputs) if one.dribble or one.kick is not None]
         new = holder(claims, robots, ball, self._dribbles) if claims else None
         if new != self.holding:
-            self.hold(new)
+            self.hold(None if new is not None and self._would_press(new) else new)
         for place in claims:
             if inputs[place].kick is None:
                 continue
@@ -102,7 +102,7 @@ class BallHandling:
             self.hold(None)
         if self.holding is not None:
             self._carry(self.holding, drives[self.holding], BallState(*position, *velocity))
-            if self._dribbles[self.holding].method == "force":
+            if not self._is_carried(self.holding):
                 self._push(now)
             return None
         changed = self._free.sudden_change(position, velocity, spin)
@@ -166,6 +166,17 @@ class BallHandling:
         has_left = math.hypot(x - robot.x, y - robot.y) > touching or z > hull.height
         if has_left or self._is_overrun(kicker, position):
             self.hold(None)
+
+    def _would_press(self, place: int) -> bool:
+        """Whether the ball lies pressed into another body than the robot that would carry it.
+
+        Carried to its place it would be pressed deeper, lost, and caught again in the next tick, each time deeper.
+        """
+        return self._is_carried(place) and self._engine.ball_contacts(place).depth > _PRESSED
+
+    def _is_carried(self, place: int) -> bool:
+        """Whether a robot moves the ball for certain, rather than draws it by forces."""
+        return self._dribbles[place].method != "force"
 
     def _is_overrun(self, place: int, ball: Vector) -> bool:
         """Whether another body, or its own way, has brought the ball into the hull of who holds or kicked it."""

@@ -266,17 +266,17 @@ class Engine:
                 self._states[place] = self._state(body)
 
     def _stands_at(self, place: int) -> Vector:
-        """The centre of a tipped robot once it is upright: where it is, or over its foot if it can be the ball's doing.
+        """The centre of a tipped robot once it is upright: where it is, or as the ball sees it if it can be its doing.
 
-        A pressed ball is light and touches a hull at its foot, so the solver tips the robot rather than stops it. Put
-        upright about its centre, the robot would come down into the ball.
+        A pressed ball is light and touches a hull at its foot, or in the air near its top, so the solver tips the
+        robot rather than stops it. Put upright about its centre, the robot would come down into the ball.
         """
         (x, y, _), (qx, qy, qz, qw), *_ = self._states[place]
-        (ball_x, ball_y, _), radius = self._states[-1].position, self._profile.ball.radius
-        if math.hypot(ball_x - x, ball_y - y) < self._models[place].body.reach + 2.0 * radius:
-            below = self._heights[place] - radius
+        (ball_x, ball_y, ball_z), height = self._states[-1].position, self._heights[place]
+        if math.hypot(ball_x - x, ball_y - y) < self._models[place].body.reach + 2.0 * self._profile.ball.radius:
+            below = height - min(ball_z, 2.0 * height)
             x, y = x - below * 2.0 * (qx * qz + qw * qy), y - below * 2.0 * (qy * qz - qw * qx)
-        return x, y, self._heights[place]
+        return x, y, height
 
     def robot_states(self, holding: int | None) -> tuple[RobotState, ...]:
         """All robots, as they were read."""

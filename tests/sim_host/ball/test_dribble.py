@@ -143,3 +143,19 @@ def test_a_ball_between_two_robots_that_press_is_never_thrown(rig, build, tell):
         for _ in range(round(3 / rig.profile.time.tick)):
             snapshot = rig.tick(cyan1=tell(top), magenta1=tell(top))
             assert math.hypot(*snapshot.ball[3:]) < 3 * top and snapshot.ball.z < 1.0
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("bearing", [0.0, 0.5, 1.0, 1.5])
+def test_a_ball_that_an_opponent_presses_is_not_pumped_into_it(rig, build, tell, way, bearing):
+    """Reference 14, defect 8: who carries a ball loses it to the press, and does not catch it again while it lasts.
+
+    Within 2 cm, although the carrier drives on and wants the ball in every tick.
+    """
+    rig = build(rig.profile.name, dribble={"method": way})
+    touching = rig.profile.robot.radius + rig.profile.ball.radius
+    x, y = touching * math.cos(bearing) + 0.05, touching * math.sin(bearing)
+    rig.place(cyan1=(-rig.profile.dribble.gap, 0, 0), ball=(0, 0, 0), magenta1=(x, y, math.pi + bearing))
+    for _ in range(round(2.0 / rig.profile.time.tick)):
+        snapshot = rig.tick(cyan1=tell(0.5, dribble=True), magenta1=tell(0.5))
+        assert overlap_with(rig, snapshot, "magenta1") < 0.02

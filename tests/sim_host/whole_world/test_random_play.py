@@ -24,6 +24,7 @@ from schemas.robot_model import RobotModel
 from schemas.side import Side
 from sim_host.actuation.carrying import PULL
 from sim_host.snapshot import RobotState, Roster, Snapshot
+from sim_host.world.engine import Engine
 from sim_host.world.gravity import GRAVITY
 from sim_host.world.world import World
 
@@ -39,8 +40,10 @@ ERRAND_TICKS = 40
 PLAYS = 20
 FASTEST_KICK = 40.0
 """m/s that a command may ask for."""
-RECENT = 6
-"""Ticks in which the engine takes the ball out of what it flew into."""
+LEFT = 0.9
+"""Share of what a ball is in a body that the engine leaves of it in a step."""
+RECENT = 2
+"""Ticks in which the engine takes the ball out of the hull of who carried it."""
 
 
 class Errand(NamedTuple):
@@ -211,7 +214,30 @@ class Watch:
         self.step, self.tick = self.profile.time.physics_step, self.profile.time.tick
         self.before = self.world.snapshot()
         self.energy = self._energies(self.before)
-        self.fastest = [0.0] * RECENT
+        self.fastest = 0.0
+        """m/s of the ball in this tick."""
+        self.flown = 0.0
+        """m that a fast ball may still be in what it flew into: one step of flight, less what the engine took away."""
+        self.held: list[set[str]] = [set()] * RECENT
+        """Who has carried the ball, tick by tick."""
+        self.carried: set[str] = set()
+        """The same of this tick: in any step of it."""
+        self.met: set[str] = set()
+        """Robots that touched another robot or the ball in any step of this tick."""
+        self._watch_steps(self.world._engine)
+
+    def _watch_steps(self, engine: Engine) -> None:
+        """Have every physics step noted: two robots may meet and part within a tick."""
+        step = engine.step
+
+        def noted() -> None:
+            if engine._through is not None:
+                self.carried.add(NAMES[engine._through])
+            step()
+            self.met.update(NAMES[place] for pair in engine._robot_contacts() for place in pair)
+            self.met.update(NAMES[place] for place in engine.ball_contacts(None).robots)
+
+        engine.step = noted  # type: ignore[method-assign]
 
     def look(self, after: Snapshot) -> None:
         """Check one tick."""
@@ -219,11 +245,15 @@ class Watch:
         speeds = [math.hypot(*ball[3:]) for ball in (self.before.ball, after.ball)]
         if after.kicked is not None:
             speeds.append(self._kick_speed(after.kicked))
-        self.fastest = [*self.fastest[1:], max(speeds)]
+        self.fastest = max(speeds)
+        self.flown = max(self.fastest * self.step, self.flown * LEFT**self.profile.time.steps_per_tick)
+        self.held = [*self.held[1:], self.carried.copy()]
         self._within_walls(after)
         self._not_in_each_other(after)
         self._energy(after)
         self.before = after
+        self.met.clear()
+        self.carried.clear()
 
     def _within_walls(self, after: Snapshot) -> None:
         field, ball = self.profile.field, self.profile.ball
@@ -232,31 +262,34 @@ class Watch:
             room = (x - model.body.radius - abs(robot.x), y - model.body.radius - abs(robot.y))
             assert min(room) >= 0, f"{name} left the field: {robot}"
             assert abs(robot.z - model.body.height / 2) < DEEP, f"{name} left the ground: {robot}"
-        sunk = self.fastest[-1] * self.step
+        sunk = self.fastest * self.step
         room = (x - ball.radius - abs(after.ball.x), y - ball.radius - abs(after.ball.y), after.ball.z - ball.radius)
         assert min(room) >= -DEEP - sunk, f"the ball left the field: {after.ball}"
 
     def _not_in_each_other(self, after: Snapshot) -> None:
-        """Two cm; the ball also as far as it flies in a step, and as a held ball lies in its holder's hull."""
-        in_hull = max(m.body.radius + self.profile.ball.radius - m.dribble.gap for m in self.roster.models)
-        flown = max(self.fastest) * self.step
+        """Two cm; the ball also as far as it flies in a step, and as a carried ball lies in its carrier's hull."""
         for one, other, depth in contacts(self.world):
             allowed = DEEP
             if "ball" in (one, other):
-                allowed += flown + (max(0.0, in_hull) if {one, other} & set(NAMES) else 0.0)
+                allowed += self.flown + max(map(self._in_hull, {one, other} & set().union(*self.held)), default=0.0)
             assert depth <= allowed, f"tick {after.tick}: {one} and {other} are {depth:.3f} m in each other"
+
+    def _in_hull(self, name: str) -> float:
+        """m by which the ball lies in the hull of a robot that carries it."""
+        model = self.roster.models[NAMES.index(name)]
+        return max(0.0, model.body.radius + self.profile.ball.radius - model.dribble.gap)
 
     def _energy(self, after: Snapshot) -> None:
         """Never more than drives, dribblers and kicks put in; and a ball that nobody touches only loses."""
         before, now = self.energy, self._energies(after)
         touched = after.touches or self.before.touches or after.kicked or after.possession or self.before.possession
         if not touched:
-            brought_on = 2 * self.profile.ball.mass * GRAVITY * self.fastest[-1] * self.step  # at up to two impacts
+            brought_on = 2 * self.profile.ball.mass * GRAVITY * self.fastest * self.step  # at up to two impacts
             gain = now[-1] - before[-1]
             assert gain <= 1e-3 + brought_on, f"tick {after.tick}: the ball gains {gain} J"
         work = sum(
-            self._work(robot, model, in_touch=bool(after.contacts or self.before.contacts or after.touches))
-            for robot, model in zip(self.before.robots, self.roster.models, strict=True)
+            self._work(robot, model, in_touch=name in self.met)
+            for name, robot, model in zip(NAMES, self.before.robots, self.roster.models, strict=True)
         )
         gained = sum(now) - sum(before)
         assert gained <= work + self._handed(after), f"tick {after.tick}: {gained} J out of nothing"
@@ -270,7 +303,8 @@ class Watch:
         """What a drive can do in a tick: as much as its limits, or the grip of its wheels, change speed and turn.
 
         The drive `velocity` sets what it planned for the tick in each of its steps, whatever is in the way, and so
-        gives as often all that a robot in touch has lost to others.
+        gives as often all that this robot has lost to another, or to the ball: it has no measure of what it pushes.
+        Who touches neither is given nothing again, and in `omni` nobody is.
         """
         body, drive, wheels = model.body, model.drive, model.wheels
         gain, turn_gain = max(drive.acceleration, drive.deceleration), drive.turn_acceleration
