@@ -14,7 +14,7 @@ Not judged: whether people who officiate are right.
 import dataclasses
 
 from schemas.game import RESTARTS, EventKind, Mode, Phase, Stage
-from sim_host.referee import flow, restart
+from sim_host.referee import flow, penalties, restart
 from sim_host.referee.bench import bench_pose, entry_pose
 from sim_host.referee.call import Restart
 from sim_host.referee.decision import Decision, Proposal
@@ -110,7 +110,7 @@ def undo(turn: Turn) -> None:
 def _again(turn: Turn, before: RefereeState) -> Restart:
     """How the game goes on that was running."""
     if before.stage is Stage.SHOOT_OUT and before.side is not None:
-        return flow.penalty_for(turn, before.side)
+        return penalties.penalty_for(turn, before.side)
     x, y = before.ball[:2] if before.ball is not None else turn.ball_spot
     return restart_at(turn.match, turn.state, Phase.DROP_BALL, None, (x, y))
 

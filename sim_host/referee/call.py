@@ -7,6 +7,7 @@ from schemas.side import Side
 
 Spot = tuple[float, float]
 """A point on the ground: x and y in m, field frame."""
+CENTRE: Spot = (0.0, 0.0)
 
 
 class Restart(NamedTuple):

@@ -12,7 +12,7 @@ from typing import Any
 
 from schemas.quantity import Quantity, meanings
 from schemas.rule_book import SECTIONS, SHIPPED, RuleBook, load_rule_book
-from sim_host.referee import authority, discipline, flow, positions, restart
+from sim_host.referee import authority, discipline, flow, penalties, positions, restart
 from sim_host.referee.rules import RULES, SHOOT_OUT, Rule
 
 NOTE = (
@@ -33,7 +33,7 @@ A number is chosen by the match's rule book: `touchline match --rules msl`. Each
 stands in `schemas/rule_books/`. A foul whose word is `off` is not called; with `yellow` the offender is shown a card.
 """
 
-AROUND = (flow, restart, positions, discipline, authority)
+AROUND = (flow, penalties, restart, positions, discipline, authority)
 """What happens around the rules, by the modules that do it; each says the same of itself as a rule does."""
 
 BY_HAND = (

@@ -3,14 +3,13 @@
 Each half ends at once when its playing time is up; robots park, and after the break they are carried to their start
 poses and play in the other direction, the other side kicking off. A level match whose match file or rule book asks for
 a winner goes on with extra time, as much shorter or longer than the rule book says as the halves are, and then with a
-penalty shoot-out. Sides alternate there until one cannot be caught up with; a level shoot-out is repeated, the other
-side beginning, and then said to be undecided. A side that cannot field enough robots, because they are sent off for
-good or their programs are gone, forfeits.
+penalty shoot-out. A side that cannot field enough robots, because they are sent off for good or their programs are
+gone, forfeits.
 
 Section: match.
 Measures: the clock, which runs from the first START of a half to its end, also through stoppages; beside it the
 effective playing time, while the ball is in play. In a shoot-out both stand.
-Not judged: added time; who wins an undecided match.
+Not judged: added time.
 """
 
 import dataclasses
@@ -18,18 +17,16 @@ from collections.abc import Callable, Mapping
 
 from schemas.game import RESTARTS, EventKind, Phase, Score, Stage
 from schemas.side import Side
-from sim_host.referee import discipline, restart
+from sim_host.referee import discipline, penalties, restart
 from sim_host.referee.bench import bench_pose
-from sim_host.referee.call import Restart, Spot
+from sim_host.referee.call import CENTRE, Restart
 from sim_host.referee.decision import Decision
-from sim_host.referee.shoot_out import ShootOut
-from sim_host.referee.spots import restart_at
+from sim_host.referee.ending import end_match, forfeit, forfeiter, rest
 from sim_host.referee.state import RefereeState
 from sim_host.referee.timing import reached
 from sim_host.referee.turn import Turn
 
 RULE = "flow"
-CENTRE: Spot = (0.0, 0.0)
 HALF_ON = RESTARTS | {Phase.STOPPED, Phase.PLAY}
 """Phases in which a half is being played."""
 
@@ -42,7 +39,7 @@ def carry_out(turn: Turn, rule: str, decision: Decision) -> None:
     if decision.goal_for is not None:
         turn.state = dataclasses.replace(turn.state, score=turn.state.score.plus(decision.goal_for))
     if decision.shot_scored is not None:
-        _count_shot(turn, decision.shot_scored)
+        penalties.count(turn, decision.shot_scored)
     turn.say(
         decision.kind,
         rule,
@@ -60,7 +57,7 @@ def carry_out(turn: Turn, rule: str, decision: Decision) -> None:
     if decision.card is not None and decision.robot is not None:
         discipline.show(turn, rule, decision.robot, decision.card)
     if decision.shot_scored is not None:
-        next_penalty(turn, rule)
+        penalties.next_penalty(turn, rule)
     else:
         restart.stop(turn, rule, decision.restart)
 
@@ -87,15 +84,9 @@ def end_half(turn: Turn, rule: str, text: str) -> None:
         return
     turn.say(kind, rule, text, score=turn.state.score)
     if turn.book.periods.parking:
-        _rest(turn, Phase.PARKING, turn.book.periods.parking)
+        rest(turn, Phase.PARKING, turn.book.periods.parking)
     else:
-        _rest(turn, Phase.HALF_TIME, _break(turn))
-
-
-def end_match(turn: Turn, rule: str, text: str) -> None:
-    """Full time."""
-    _rest(turn, Phase.FULL_TIME, None)
-    turn.say(EventKind.FULL_TIME, rule, text, score=turn.state.score)
+        rest(turn, Phase.HALF_TIME, _break(turn))
 
 
 def what_follows(turn: Turn) -> Stage | None:
@@ -121,38 +112,10 @@ def go_on(turn: Turn) -> None:
         score = turn.state.score
         end_match(turn, RULE, f"full time, cyan {score.cyan} : {score.magenta} magenta")
     elif stage is Stage.SHOOT_OUT:
-        _begin_shoot_out(turn)
+        _carry(turn)
+        penalties.begin(turn)
     else:
         _change_sides(turn, stage)
-
-
-def forfeiter(turn: Turn) -> Side | None:
-    """The side that cannot field as many robots as the rule book asks for; of two, the one with fewer."""
-    least = turn.book.people.least_robots
-    if not least:
-        return None
-    fielded = {side: discipline.can_play(turn, side) for side in Side}
-    short = [side for side in Side if fielded[side] < least]
-    return min(short, key=lambda side: fielded[side], default=None)
-
-
-def forfeit(turn: Turn, loser: Side) -> None:
-    """End the match: won by the other side, by as many goals as the rule book says at least."""
-    state, winner = turn.state, loser.opponent
-    goals = max(0, state.score.of(loser) + turn.book.people.forfeit_goals - state.score.of(winner))
-    turn.state = dataclasses.replace(state, score=state.score.plus(winner, goals))
-    left, least = discipline.can_play(turn, loser), turn.book.people.least_robots
-    turn.say(
-        EventKind.FORFEIT,
-        RULE,
-        f"{loser} forfeits: it can field {left} robots, {least} are asked",
-        side=loser,
-        score=turn.state.score,
-        measured=left,
-        limit=least,
-        unit="robots",
-    )
-    end_match(turn, RULE, f"full time, {winner} wins by forfeit")
 
 
 def progress(turn: Turn) -> None:
@@ -166,38 +129,6 @@ def progress(turn: Turn) -> None:
         loser = forfeiter(turn)
         if loser is not None:
             forfeit(turn, loser)
-
-
-def next_penalty(turn: Turn, rule: str) -> None:
-    """After an attempt: the other side's, another series, or the end."""
-    state, periods = turn.state, turn.book.periods
-    out = state.shoot_out
-    if out is None:
-        return
-    kicks = periods.shoot_out_kicks
-    leader = out.leader(kicks)
-    said = f"cyan {out.goals.cyan} : {out.goals.magenta} magenta"
-    if leader is not None:
-        end_match(turn, rule, f"{leader} wins the penalty shoot-out, {said}")
-        return
-    if out.is_played(kicks):
-        if out.series >= periods.shoot_out_series:
-            end_match(turn, rule, f"the penalty shoot-out is undecided after {out.series} series, {said}")
-            return
-        out = out.repeated()
-        turn.state = dataclasses.replace(state, shoot_out=out)
-    restart.stop(turn, rule, penalty_for(turn, out.next_side()))
-
-
-def penalty_for(turn: Turn, side: Side) -> Restart:
-    """A penalty of a side, from the mark it attacks."""
-    return restart_at(turn.match, turn.state, Phase.PENALTY, side, CENTRE)
-
-
-def _count_shot(turn: Turn, scored: bool) -> None:
-    state = turn.state
-    if state.shoot_out is not None and state.side is not None:
-        turn.state = dataclasses.replace(state, shoot_out=state.shoot_out.counted(state.side, scored))
 
 
 def _score_said(state: RefereeState, decision: Decision) -> Score | None:
@@ -222,15 +153,6 @@ def _change_sides(turn: Turn, stage: Stage) -> None:
     )
     _carry(turn)
     begin_half(turn)
-
-
-def _begin_shoot_out(turn: Turn) -> None:
-    """Everybody at the start poses; the side that would have kicked off begins."""
-    state = turn.state
-    out = ShootOut(state.kick_off.opponent)
-    turn.state = dataclasses.replace(state, stage=Stage.SHOOT_OUT, shoot_out=out, before=None)
-    _carry(turn)
-    restart.signal(turn, penalty_for(turn, out.next_side()))
 
 
 def _carry(turn: Turn) -> None:
@@ -265,7 +187,7 @@ def _parking(turn: Turn) -> None:
     if what_follows(turn) is None:
         go_on(turn)
     else:
-        _rest(turn, Phase.HALF_TIME, _break(turn))
+        rest(turn, Phase.HALF_TIME, _break(turn))
 
 
 def _resting(turn: Turn) -> None:
@@ -286,19 +208,3 @@ def _break(turn: Turn) -> float:
     """s of the break before what follows."""
     periods = turn.book.periods
     return periods.shoot_out_break if what_follows(turn) is Stage.SHOOT_OUT else periods.half_time_break
-
-
-def _rest(turn: Turn, phase: Phase, until: float | None) -> None:
-    state = turn.state
-    turn.state = dataclasses.replace(
-        state,
-        phase=phase,
-        side=None,
-        spot=None,
-        running=False,
-        pending=None,
-        set_piece=None,
-        proposal=None,
-        people=discipline.new_stoppage(state.people),
-        timing=state.timing.anew(until, runs=False),
-    )

@@ -1,7 +1,7 @@
 """End the game: full time at once, from any phase."""
 
 from schemas.game import Phase, RefereeAction
-from sim_host.referee import flow
+from sim_host.referee import ending
 from sim_host.referee.turn import Turn
 
 
@@ -12,4 +12,4 @@ def why_illegal(turn: Turn, _action: RefereeAction) -> str | None:
 
 def apply(turn: Turn, action: RefereeAction) -> None:
     """End the match."""
-    flow.end_match(turn, action.action, f"match ended at {turn.state.clock:.1f} s of play, asked by {action.source}")
+    ending.end_match(turn, action.action, f"match ended at {turn.state.clock:.1f} s of play, asked by {action.source}")
