@@ -46,12 +46,14 @@ def is_open(ball: Point, receiver: Point, opponents: Sequence[Point]) -> bool:
     return LEAST < math.dist(ball, receiver) < LONGEST and lane_width(ball, receiver, opponents) > OPEN
 
 
-def pass_speed(distance: float, setup: Setup) -> float:
-    """The exit speed in m/s of a ball that still rolls well after `distance` m."""
-    speed = math.sqrt(ARRIVING * ARRIVING + 2.0 * setup.ball.rolling_deceleration * distance)
+def pass_speed(distance: float, setup: Setup, arriving: float = ARRIVING) -> float:
+    """The exit speed in m/s of a ball that still rolls at `arriving` m/s after `distance` m."""
+    speed = math.sqrt(arriving * arriving + 2.0 * setup.ball.rolling_deceleration * distance)
     return min(setup.kicker.max_ground_speed, speed)
 
 
-def pass_to(me: Body, target: Point, setup: Setup, limits: Limits) -> tuple[Drive, Kick | None]:
-    """Aim at the target, and kick so that the ball arrives there."""
-    return kick_at(me, target, pass_speed(math.dist(target, me[:2]), setup), ERROR, limits)
+def pass_to(
+    me: Body, target: Point, setup: Setup, limits: Limits, arriving: float = ARRIVING
+) -> tuple[Drive, Kick | None]:
+    """Aim at the target, and kick so that the ball arrives there, at `arriving` m/s."""
+    return kick_at(me, target, pass_speed(math.dist(target, me[:2]), setup, arriving), ERROR, limits)

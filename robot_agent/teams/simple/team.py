@@ -7,7 +7,7 @@ from robot_agent.contract import Briefing
 from robot_agent.skills.intercept import meet, way_of
 from robot_agent.skills.keep_goal import keep_goal
 from robot_agent.skills.kick_at import kick_at
-from robot_agent.skills.pass_to import best_receiver, pass_to
+from robot_agent.skills.pass_to import ARRIVING, best_receiver, pass_to
 from robot_agent.skills.take_ball import HAS_IT, take_ball
 from robot_agent.teams.player import Action, Player
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
@@ -27,8 +27,10 @@ PROMISE = 2.0
 """s for which a receiver counts on the pass it was promised."""
 THREAT = 0.75
 """Share of the own half, from the middle, beyond which an opponent with the ball is met by the defender, too."""
-KICK_OFF_TO = (1.5, 3.2)
+KICK_OFF_TO = (0.8, 3.0)
 """m; where a kick-off is played to: ahead, so that the taker waits in his own half."""
+KICK_OFF_ARRIVING = 1.0
+"""m/s; a kick-off waits there for its receiver, who stands in his own half until START."""
 
 
 class Simple(Player):
@@ -184,7 +186,8 @@ class Simple(Player):
     def _restart_motion(self, scene: Scene, target: Point) -> tuple[Drive, Kick | None]:
         if scene.game.phase is TeamPhase.OUR_PENALTY:
             return kick_at(scene.me, target, self.setup.kicker.max_ground_speed, SHOT_ERROR, self.limits)
-        return pass_to(scene.me, target, self.setup, self.limits)
+        arriving = KICK_OFF_ARRIVING if scene.game.phase is TeamPhase.OUR_KICK_OFF else ARRIVING
+        return pass_to(scene.me, target, self.setup, self.limits, arriving)
 
     def _keep(self, scene: Scene, ball: Ball, spot: Point) -> Action:
         """Guard the goal; take a slow ball near it, and play it out."""
