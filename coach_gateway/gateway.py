@@ -12,9 +12,10 @@ from schemas.game import ActionReply, RefereeAction
 from schemas.host import Setup, SetupRequest
 from schemas.message import BadMessageError, Message, reason_of
 from schemas.parameters import ParametersReply, ParametersRequest
+from schemas.replay import ReplayReply, ReplayRequest
 from schemas.scene import SceneReply, SceneRequest
 from schemas.side import Side
-from schemas.topics import ACTION, ORDER, PARAMETERS, SCENE, SETUP, Topic
+from schemas.topics import ACTION, ORDER, PARAMETERS, REPLAY, SCENE, SETUP, Topic
 
 _LOOK_S = 0.02
 """s of wall time between two looks for acknowledgements."""
@@ -65,6 +66,15 @@ class Gateway:
             TouchlineError: no host answers for this match.
         """
         reply: SceneReply = self._ask(SCENE, request)
+        return reply
+
+    def replay(self, request: ReplayRequest) -> ReplayReply:
+        """Ask a replay how it stands, or to go elsewhere; the reply says whether it was accepted, and why not.
+
+        Raises:
+            TouchlineError: no replay answers, as when a match is played.
+        """
+        reply: ReplayReply = self._ask(REPLAY, request)
         return reply
 
     @property

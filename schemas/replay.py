@@ -1,10 +1,11 @@
 """What may be asked of a replay while it runs: a recording that is brought back onto the bus."""
 
 from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import Field
 
+from schemas.game import GameEvent
 from schemas.message import Message
 
 
@@ -13,6 +14,8 @@ class ReplayDeed(StrEnum):
 
     STATUS = "status"
     """Nothing: only say how it stands."""
+    EVENTS = "events"
+    """Nothing: also say all that happens in what is recorded."""
     PLAY = "play"
     PAUSE = "pause"
     STEP = "step"
@@ -44,6 +47,8 @@ class ReplayRequest(Message):
 class ReplayReply(Message):
     """How a replay stands after what was asked."""
 
+    max_bytes: ClassVar[int] = 8_000_000
+
     accepted: bool
     reason: str = ""
     """Why it was refused."""
@@ -59,3 +64,5 @@ class ReplayReply(Message):
     loop: bool = False
     messages: int = 0
     """Sent so far."""
+    events: list[GameEvent] = []
+    """All that happens in the recording, in order, where that was asked for."""

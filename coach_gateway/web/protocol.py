@@ -125,12 +125,10 @@ class ReplayNews(Part):
 
 
 class RefBoxNews(Part):
-    """Whether a league's referee box commands the match: while it does, the referee's actions are locked."""
+    """Whether a league's referee box officiates: while it does, all of the referee's actions but stop are locked."""
 
     kind: Literal["refbox"] = "refbox"
     connected: bool
-    team: Side | None = None
-    """As whose base station we are connected."""
 
 
 class Reply(Part):

@@ -12,6 +12,7 @@ from recordings.replay.transport import AS_FAST_AS_POSSIBLE, Transport
 from recordings.tape import Tape
 from schemas.clock import Clock
 from schemas.errors import TouchlineError
+from schemas.game import GameEvent
 from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
 from schemas.topics import APPLIED, BELIEF, COMMAND, HEALTH, ORDER, SIGHT, STANDING_ORDER, STATE, WORLD, Topic
 
@@ -55,18 +56,19 @@ class Player:
         stay: bool = False,
         follow: bool = False,
         time_of: Callable[[str], float] = float,
+        events: Callable[[], list[GameEvent]] = list,
         has_room: Callable[[], bool] = lambda: True,
     ) -> None:
         """Stand at the beginning of `span`, with nothing said yet.
 
         `stay` pauses at the end instead of ending, `follow` waits there for what a recorder adds. `time_of` gives the
-        simulated time in s that words name. Nothing of a new moment is said before there is
-        room for it, as `has_room` says.
+        simulated time in s that words name, `events` all that happens in the recording. Nothing of a new moment is said
+        before there is room for it, as `has_room` says.
         """
         self._tape, self._clock, self._say = tape, clock, say
         self._span = span or Span(tape.start_ns)
         self._stay, self._follow, self._loop = stay, follow, loop
-        self._time_of, self._has_room = time_of, has_room
+        self._time_of, self._events, self._has_room = time_of, events, has_room
         self._standing: dict[str, Recorded] = {}
         self._transport = Transport(self._span.start_ns, clock.now(), rate, paused)
         self._position_ns = self._span.start_ns
@@ -147,7 +149,8 @@ class Player:
             _DEEDS[request.deed](self, request)
         except TouchlineError as error:
             return self.status(accepted=False, reason=str(error))
-        return self.status()
+        told = self._events() if request.deed is ReplayDeed.EVENTS else []
+        return self.status().model_copy(update={"events": told})
 
     def status(self, *, accepted: bool = True, reason: str = "") -> ReplayReply:
         """How it stands."""
@@ -259,6 +262,7 @@ class Player:
 
 _DEEDS: dict[ReplayDeed, Callable[[Player, ReplayRequest], None]] = {
     ReplayDeed.STATUS: Player._say_status,
+    ReplayDeed.EVENTS: Player._say_status,
     ReplayDeed.PLAY: Player._play,
     ReplayDeed.PAUSE: Player._pause,
     ReplayDeed.STEP: Player._step,

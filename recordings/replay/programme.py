@@ -12,6 +12,8 @@ from recordings.selection import EVERYTHING, Selection, pattern
 from recordings.tape import Tape
 from schemas.clock import Clock
 from schemas.errors import TouchlineError, did_you_mean
+from schemas.game import GameEvent
+from schemas.topics import EVENT
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +68,14 @@ class Replay:
         """
         return time_of(words, moments_of(self.recording) if not _is_number(words) else [])
 
+    def events(self) -> list[GameEvent]:
+        """All that happens in the recording, as far as it has been written.
+
+        Raises:
+            TouchlineError: the file is damaged inside.
+        """
+        return [event for _, event in self.recording.decoded(EVENT.key)]
+
     def player(self, clock: Clock, **more: Callable[..., object]) -> Player:
         """A player for it; `more` is `say` and `has_room`."""
         wanted = self.programme
@@ -80,6 +90,7 @@ class Replay:
             stay=wanted.stay,
             follow=wanted.follow,
             time_of=self.time_of,
+            events=self.events,
             **more,  # type: ignore[arg-type]
         )
 

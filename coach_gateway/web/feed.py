@@ -1,0 +1,176 @@
+"""What the page is told of a match, as the bus brings it: the newest of what stands, and every event.
+
+Payloads are validated here and handed on as they came, so that a frame is put together once for all pages.
+"""
+
+from collections.abc import Iterable
+from typing import Any
+
+from coach_gateway.orders import OrderWatch
+from coach_gateway.presence import HostPresence
+from coach_gateway.web.protocol import EventNews, OrdersNews, RefBoxNews, SideOrders
+from schemas.bus.contract import Bus, Received, Subscription
+from schemas.game import REFBOX, GameEvent
+from schemas.host import Setup
+from schemas.message import BadMessageError
+from schemas.side import Side
+from schemas.topics import BELIEF, EVENT, HEALTH, STATE, WORLD
+
+_EVENTS_KEPT = 2000
+"""Events of a match that a page is told of, the newest."""
+
+
+class Feed:
+    """Follows one match, and knows how it stands."""
+
+    def __init__(self, bus: Bus) -> None:
+        self._events = bus.subscribe(EVENT, past=True)
+        self._stands: tuple[tuple[str, Subscription], ...] = (
+            ("state", bus.subscribe(STATE, newest=True)),
+            ("health", bus.subscribe(HEALTH, newest=True)),
+        )
+        self._worlds = bus.subscribe(WORLD, newest=True)
+        self._said = bus.subscribe(BELIEF, newest=True)
+        self._orders = OrderWatch(bus)
+        self._presence = HostPresence(bus)
+        self._others = bus.watch_alive()
+        self._refboxes: dict[str, bool] = {}
+        self._numbers: dict[str, int] = {}
+        self._known: dict[str, str] = {}
+        self._told: dict[str, None] = {}
+        self._world: tuple[str, str] | None = None
+        self._beliefs: dict[Side, dict[str, str]] = {side: {} for side in Side}
+        self.setup: Setup | None = None
+        """How the match is set up, as whoever owns this has asked."""
+        self.live = True
+        """A match; otherwise a replay, as whoever owns this has found."""
+        self.there = False
+        """The host is there."""
+        self.arrived = False
+        """A host has come, or another than before: whoever owns this asks it, and then says that it is no news."""
+        self.moved = False
+        """There is another frame than when this was last set back."""
+        self.ordered = False
+        """There is news of orders, likewise."""
+        self.unreadable = 0
+        """Messages that could not be read; each was left out."""
+
+    def update(self) -> list[str]:
+        """Take in what has come, without waiting; returns what all pages are to be told, in order."""
+        news: list[str] = []
+        there = not self._presence.gone() and self._presence.seen
+        if there != self.there:
+            self.there = there
+            self.arrived = self.arrived or there
+            news.append(self._host())
+        if self._look_for_refboxes():
+            news.append(self._refbox())
+        for received in _all(self._events):
+            news.extend(self._event(received))
+        for kind, subscription in self._stands:
+            for payload in self._payloads(subscription):
+                self._known[kind] = f'{{"kind":"{kind}","{kind}":{payload}}}'
+                news.append(self._known[kind])
+        self._take_bodies()
+        self.ordered = bool(self._orders.update()) or self.ordered
+        return news
+
+    def begin(self, setup: Setup | None, *, live: bool, events: Iterable[GameEvent] = ()) -> None:
+        """A host was asked how its match is set up; of a replay, `events` are all of the recording."""
+        self.setup, self.live = setup, live
+        if not live:
+            self._told = {_event_text(event): None for event in events}
+
+    def standing(self) -> list[str]:
+        """What every page is told after its welcome, but for orders and the frame."""
+        return [self._host(), self._refbox(), *self._known.values(), *self._told]
+
+    def frame(self, beliefs: Iterable[Side]) -> str | None:
+        """The newest tick with what robots of these sides believe; nothing before the first."""
+        if self._world is None:
+            return None
+        head, world = self._world
+        words = ",".join(text for side in beliefs for text in self._beliefs[side].values())
+        return f'{{"kind":"frame",{head},"world":{world},"beliefs":{{{words}}}}}'
+
+    def orders(self, sides: Iterable[Side]) -> str:
+        """The orders of these sides."""
+        shown: dict[str, SideOrders] = {}
+        for side in sides:
+            standing = self._orders.book.standing(side)
+            known = SideOrders(order=standing.order, acknowledged=standing.acknowledged) if standing else SideOrders()
+            shown[side.value] = known
+        return OrdersNews.model_validate(shown).model_dump_json()
+
+    def _host(self) -> str:
+        return f'{{"kind":"host","there":{"true" if self.there else "false"}}}'
+
+    def _look_for_refboxes(self) -> bool:
+        """Whether a league's referee box has come or gone."""
+        before = any(self._refboxes.values())
+        while (presence := self._others.receive()) is not None:
+            if presence.kind == REFBOX:
+                self._refboxes[presence.name] = presence.alive
+        return any(self._refboxes.values()) != before
+
+    def _refbox(self) -> str:
+        return RefBoxNews(connected=any(self._refboxes.values())).model_dump_json()
+
+    def _event(self, received: Received) -> list[str]:
+        """What to say of an event; nothing of one that was told: a replay says again what has happened."""
+        event = self._read(received)
+        if event is None or (text := _event_text(event)) in self._told:
+            return []
+        self._told[text] = None
+        if len(self._told) > _EVENTS_KEPT:
+            del self._told[next(iter(self._told))]
+        return [text]
+
+    def _take_bodies(self) -> None:
+        for received in _all(self._worlds):
+            world = self._read(received)
+            if world is not None:
+                self._world = f'"tick":{world.tick},"time":{world.time!r}', received.payload.decode()
+                self.moved = True
+        for received in _all(self._said):
+            belief = self._read(received)
+            side = received.chunks["side"]
+            if belief is not None and side in self._beliefs:
+                robot = received.chunks["robot"]
+                self._beliefs[Side(side)][robot] = f'"{robot}":{received.payload.decode()}'
+
+    def _payloads(self, subscription: Subscription) -> list[str]:
+        return [received.payload.decode() for received in _all(subscription) if self._read(received) is not None]
+
+    def _read(self, received: Received) -> Any:
+        """The valid message; nothing when it is none. A writer that counts from its beginning is another host's."""
+        try:
+            message = received.message()
+        except BadMessageError:
+            self.unreadable += 1
+            return None
+        if received.stamp is not None:
+            before = self._numbers.get(received.key)
+            if before is not None and received.stamp.sequence <= before:
+                self._forget()
+            self._numbers[received.key] = received.stamp.sequence
+        return message
+
+    def _forget(self) -> None:
+        """Another host plays: nothing of the one before counts."""
+        self._numbers.clear()
+        self._known.clear()
+        self._told.clear()
+        self._world = None
+        for words in self._beliefs.values():
+            words.clear()
+        self._orders.book.forget()
+        self.arrived = True
+
+
+def _event_text(event: GameEvent) -> str:
+    return EventNews(event=event).model_dump_json()
+
+
+def _all(subscription: Subscription) -> Iterable[Received]:
+    return iter(subscription.receive, None)

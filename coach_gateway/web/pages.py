@@ -1,0 +1,110 @@
+"""The pages that are open: what each is told, and what is held against it."""
+
+import asyncio
+from collections import Counter
+from collections.abc import Iterator
+
+from coach_gateway.web.limits import Allowance
+from coach_gateway.web.outlet import Outlet
+from coach_gateway.web.protocol import Role
+
+MESSAGES_PER_S = 100.0
+"""What a page may say; one that drives a robot says 20."""
+MESSAGES_AT_ONCE = 200.0
+STUCK_S = 5.0
+"""Wall time after which a page that does not read is dropped."""
+_FORBEARANCE = 500
+"""Messages that could not be read or were too many, after which a page is sent away."""
+_WRONG_TOKENS = 20
+
+
+class Page:
+    """One open page."""
+
+    def __init__(self, origin: str | None, host: str | None, now: float) -> None:
+        self.origin, self.host = origin, host
+        self.role = Role.SPECTATOR
+        self.outlet = Outlet()
+        self.allowance = Allowance(MESSAGES_PER_S, MESSAGES_AT_ONCE, now)
+        self.scolding = Allowance(1.0, 5.0, now)
+        """How often it is told that it says too much."""
+        self.asks: set[asyncio.Task[None]] = set()
+        """What it has asked and not yet been answered."""
+        self.sending_since: float | None = None
+        """Wall time in s since which it has been sent one message."""
+        self.leave = asyncio.Event()
+        """It is sent away, or does not read."""
+        self.farewell = ""
+        """Why it is sent away."""
+        self._bad = 0
+        self._wrong_tokens = 0
+
+    def send_away(self, why: str) -> None:
+        """Close it, telling it why."""
+        self.farewell = self.farewell or why
+        self.leave.set()
+
+    def note_bad(self) -> None:
+        """It said what could not be read, or too much."""
+        self._bad += 1
+        if self._bad > _FORBEARANCE:
+            self.send_away("this page says too much that cannot be understood")
+
+    def note_wrong_token(self) -> None:
+        """It used a token that is nobody's."""
+        self._wrong_tokens += 1
+        if self._wrong_tokens > _WRONG_TOKENS:
+            self.send_away("this page has tried too many tokens")
+
+    def is_stuck(self, now: float) -> bool:
+        """It does not read what it is sent."""
+        since = self.sending_since
+        return self.outlet.overflows or (since is not None and now - since > STUCK_S)
+
+
+class Pages:
+    """All of them."""
+
+    def __init__(self, most: int) -> None:
+        self.most = most
+        self._open: dict[Page, None] = {}
+        self.counts: Counter[str] = Counter()
+        """What went wrong, by kind."""
+
+    def __len__(self) -> int:
+        return len(self._open)
+
+    def __iter__(self) -> Iterator[Page]:
+        return iter(tuple(self._open))
+
+    def enter(self, page: Page) -> None:
+        """It is told everything from now on."""
+        self._open[page] = None
+
+    def forget(self, page: Page) -> None:
+        """It has been closed."""
+        self._open.pop(page, None)
+
+    def roles(self) -> list[Role]:
+        """The roles that anybody watches in."""
+        there = {page.role: None for page in self._open}
+        return list(there)
+
+    def say(self, text: str, role: Role | None = None) -> None:
+        """Tell all pages, or those of one role."""
+        for page in self._open:
+            if role is None or page.role is role:
+                page.outlet.say(text)
+
+    def show(self, frame: str, role: Role) -> None:
+        """Show the pages of a role a frame, in place of one that they have not read yet."""
+        for page in self._open:
+            if page.role is role:
+                page.outlet.show(frame)
+
+    def drop_stuck(self, now: float) -> None:
+        """Drop those that do not read."""
+        for page in self:
+            if page.is_stuck(now):
+                self.counts["stuck"] += 1
+                page.leave.set()

@@ -1,0 +1,33 @@
+"""How the page is served: where, to whom, with which tokens."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+DEFAULT_PORT = 8080
+DEFAULT_PAGES = 300
+
+
+class BeliefsFor(StrEnum):
+    """Who is shown what robots believe; the referee always is, and a coach is shown its own side's."""
+
+    ALL = "all"
+    TEAMS = "teams"
+
+
+@dataclass(frozen=True, slots=True)
+class WebSettings:
+    """What whoever runs the gateway may choose."""
+
+    port: int = DEFAULT_PORT
+    """0 takes a free one."""
+    listen: str = "127.0.0.1"
+    """Address to listen on."""
+    tokens: Path | None = None
+    """File with the tokens, made when it is not there; without one they last as long as the process."""
+    origins: tuple[str, ...] = ()
+    """Further origins that the page may come from, `https://cup.example.org`."""
+    beliefs: BeliefsFor | None = None
+    """Without a word: for all in a friendly and in a replay, otherwise for the teams."""
+    pages: int = DEFAULT_PAGES
+    """How many pages may be open at once."""

@@ -1,0 +1,186 @@
+"""What happens on the page's side of the match: follows the feed, welcomes pages, and tells all of them what is new."""
+
+import asyncio
+
+from coach_gateway.web import access
+from coach_gateway.web.desk import Desk
+from coach_gateway.web.feed import Feed
+from coach_gateway.web.pace import FramePace
+from coach_gateway.web.pages import Page, Pages
+from coach_gateway.web.protocol import Ask, AskDrive, AskOrder, AskReplay, AskToken, ReplayNews, Role, Welcome
+from coach_gateway.web.settings import BeliefsFor
+from schemas.bus.contract import Bus
+from schemas.errors import TouchlineError
+from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
+from schemas.scene import load_scene, shipped_scenes
+from schemas.side import Side
+
+_LOOK_S = 0.01
+"""s of wall time between two looks at the bus."""
+_STATUS_S = 0.2
+"""Likewise, between two looks at how a replay stands."""
+_SWEEP_S = 1.0
+"""Likewise, for pages that do not read."""
+_AGAIN_S = 0.5
+"""Wall time after which a host that did not answer is asked again."""
+
+
+class Stage:
+    """The match as pages see it."""
+
+    def __init__(self, bus: Bus, pages: Pages, desk: Desk, beliefs: BeliefsFor | None) -> None:
+        self._bus, self._pages, self._desk = bus, pages, desk
+        self._beliefs = beliefs
+        self._pace = FramePace()
+        self._scenes = {name: load_scene(name).says for name in shipped_scenes()}
+        self.feed = Feed(bus)
+
+    async def follow(self, stop: asyncio.Event) -> None:
+        """Tell all pages what is new until `stop` is set."""
+        works = (self._tell(), self._meet_hosts(), self._follow_replay(), self._sweep())
+        tasks = [asyncio.create_task(work) for work in works]
+        stopped = asyncio.create_task(stop.wait())
+        try:
+            done, _ = await asyncio.wait([*tasks, stopped], return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in (*tasks, stopped):
+                task.cancel()
+            await asyncio.gather(*tasks, stopped, return_exceptions=True)
+        for task in done:
+            task.result()
+
+    def welcome(self, page: Page) -> None:
+        """Tell a page who it is and how things stand."""
+        feed, role = self.feed, page.role
+        welcome = Welcome(
+            role=role,
+            match=self._bus.match,
+            setup=feed.setup,
+            live=feed.live,
+            deeds=access.deeds_of(role),
+            beliefs=self._beliefs_of(role),
+            orders=self._orders_of(role),
+            scenes=self._scenes,
+        )
+        page.outlet.begin(welcome.model_dump_json())
+        for text in feed.standing():
+            page.outlet.say(text)
+        page.outlet.say(feed.orders(self._orders_of(role)))
+        frame = feed.frame(self._beliefs_of(role))
+        if frame is not None:
+            page.outlet.show(frame)
+
+    def robots(self) -> dict[str, Side]:
+        """All robots that take part, and their sides."""
+        if self.feed.setup is None:
+            return {}
+        return {name: side for side, team in self.feed.setup.teams.items() for name in team.robots}
+
+    def refusal(self, ask: Ask) -> str | None:
+        """Why nobody can do this now, whoever asks; nothing when it can be."""
+        if isinstance(ask, AskToken):
+            return None
+        if not self.feed.there or self.feed.setup is None:
+            return "the host is gone; wait until it is back"
+        if not self.feed.live and isinstance(ask, AskOrder | AskDrive):
+            return "this is a replay: what is recorded cannot be changed"
+        if self.feed.live and isinstance(ask, AskReplay):
+            return "this is a match, and no replay"
+        if isinstance(ask, AskDrive) and ask.robot not in self.robots():
+            return f'there is no robot "{ask.robot}"'
+        return None
+
+    def tell_replay(self, reply: ReplayReply) -> None:
+        """Tell all pages how the replay stands."""
+        self._pages.say(ReplayNews(replay=reply).model_dump_json())
+
+    def _beliefs_of(self, role: Role) -> list[Side]:
+        """Whose robots' beliefs a role is shown."""
+        wanted = self._beliefs
+        if wanted is None:
+            setup = self.feed.setup
+            friendly = not self.feed.live or (setup is not None and setup.rules == "friendly")
+            wanted = BeliefsFor.ALL if friendly else BeliefsFor.TEAMS
+        return access.sides_shown(role, to_all=wanted is BeliefsFor.ALL)
+
+    def _orders_of(self, role: Role) -> list[Side]:
+        """Whose orders a role is shown: those of a match that is over are no secret."""
+        return access.sides_shown(role, to_all=not self.feed.live)
+
+    async def _tell(self) -> None:
+        """Tell what has come, look after look; the time that one takes too long went into telling."""
+        clock, feed, pages = self._bus.clock, self.feed, self._pages
+        told_at: float | None = None
+        while True:
+            now = clock.now()
+            if told_at is not None:
+                self._pace.took(max(0.0, now - told_at - _LOOK_S))
+                told_at = None
+            for text in feed.update():
+                pages.say(text)
+            if feed.ordered:
+                feed.ordered = False
+                for role in pages.roles():
+                    pages.say(feed.orders(self._orders_of(role)), role)
+            if feed.moved and self._pace.due(now):
+                feed.moved = False
+                told_at = now
+                self._show()
+            await asyncio.sleep(_LOOK_S)
+
+    def _show(self) -> None:
+        """Show everybody the newest frame: put together once for all who see the same."""
+        made: dict[tuple[Side, ...], str | None] = {}
+        for role in self._pages.roles():
+            sides = tuple(self._beliefs_of(role))
+            if sides not in made:
+                made[sides] = self.feed.frame(sides)
+            frame = made[sides]
+            if frame is not None:
+                self._pages.show(frame, role)
+
+    async def _meet_hosts(self) -> None:
+        """Ask each host that comes how its match is set up, then welcome all pages anew."""
+        while True:
+            if self.feed.arrived:
+                self.feed.arrived = False
+                try:
+                    await self._ask_host()
+                except TouchlineError:
+                    self.feed.arrived = self.feed.there
+                    await asyncio.sleep(_AGAIN_S)
+                    continue
+                for page in self._pages:
+                    self.welcome(page)
+            await asyncio.sleep(_LOOK_S)
+
+    async def _ask_host(self) -> None:
+        """How the match is set up, and whether it is a replay; then what happens in the recording.
+
+        Raises:
+            TouchlineError: it does not answer.
+        """
+        gateway = self._desk.gateway
+        setup = await asyncio.to_thread(gateway.setup)
+        try:
+            recorded = await asyncio.to_thread(gateway.replay, ReplayRequest(deed=ReplayDeed.EVENTS))
+        except TouchlineError:
+            self.feed.begin(setup, live=True)
+        else:
+            self.feed.begin(setup, live=False, events=recorded.events)
+
+    async def _follow_replay(self) -> None:
+        """Tell all pages again and again how a replay stands."""
+        while True:
+            if self.feed.there and not self.feed.live and len(self._pages):
+                try:
+                    self.tell_replay(await asyncio.to_thread(self._desk.gateway.replay, ReplayRequest()))
+                except TouchlineError:
+                    await asyncio.sleep(_AGAIN_S)  # it is about to be seen that the host has gone
+            await asyncio.sleep(_STATUS_S)
+
+    async def _sweep(self) -> None:
+        """Drop pages that do not read."""
+        while True:
+            self._pages.drop_stuck(self._bus.clock.now())
+            await asyncio.sleep(_SWEEP_S)
