@@ -2,7 +2,7 @@
 
 import math
 from abc import ABC, abstractmethod
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 from robot_agent.bodies import Ball, Limits
 from robot_agent.contract import Briefing
@@ -13,11 +13,12 @@ from robot_agent.skills.keep_goal import keep_goal
 from robot_agent.skills.keep_out import Area, keep_out
 from robot_agent.skills.let_go import let_go
 from robot_agent.skills.search import search_place
-from robot_agent.teams import shoot_out
+from robot_agent.teams import shoot_out, test_mode
+from robot_agent.teams.action import Action
 from robot_agent.teams.set_piece import PENALTIES
 from robot_agent.world_model import Scene, WorldModel
 from schemas.coach import CoachMode, CoachOrder
-from schemas.command import BallBelief, Command, Drive, Kick, Motion, Radio
+from schemas.command import BallBelief, Command, Drive, Motion, Radio
 from schemas.game import GameView, Stage, TeamPhase
 from schemas.sight import Sight
 
@@ -49,17 +50,6 @@ _AIR = 0.1
 """m between two robots that pass each other."""
 
 
-class Action(NamedTuple):
-    """What a robot does in one tick, and what it calls that."""
-
-    role: str
-    intention: str
-    drive: Drive
-    dribble: bool = False
-    kick: Kick | None = None
-    pass_to: str | None = None
-
-
 class Player(ABC):
     """One robot of a team; a team says what it does while the ball is in play or about to be."""
 
@@ -87,6 +77,8 @@ class Player(ABC):
         """s for which the dribbler stays off after a kick."""
         self._penalty_kicked = False
         """This robot has kicked its penalty of the shoot-out; there is one kick."""
+        self._progress = test_mode.NOTHING_DONE
+        """How far this robot is with the coach's test."""
         self._last: Command | None = None
         self._game: GameView | None = None
 
@@ -105,6 +97,7 @@ class Player(ABC):
         """Another episode begins: what was believed of the world is void."""
         self._world = WorldModel(self.briefing)
         self._lets_go = 0.0
+        self._progress = test_mode.NOTHING_DONE
         self._last = None
 
     def _may_go_on(self, sight: Sight, last: Command) -> bool:
@@ -120,6 +113,7 @@ class Player(ABC):
             and game.phase is before.phase
             and game.running == before.running
             and (sight.order.sequence if sight.order else None) == last.acknowledges_order
+            and (sight.order is None or sight.order.mode is not CoachMode.TEST)
         )
 
     def _decide(self, sight: Sight) -> Command:
@@ -130,9 +124,7 @@ class Player(ABC):
         self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits
         self._carry = carried(self._carry, scene)
         self.control = control_after(self.control, scene, self.briefing.robot, self._asked.roll)
-        action = self._obey(scene, order) or self._by_the_rules(
-            scene, self._special(scene, order) or self.play(scene, order)
-        )
+        action = self._obey(scene, order) or self._by_the_rules(scene, self._special(scene) or self.play(scene, order))
         if not scene.kicker_ready:
             action = action._replace(kick=None, pass_to=None)  # it would be refused: keep the ball, and aim
         self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - scene.dt)
@@ -209,11 +201,17 @@ class Player(ABC):
             return Action("", "park", self._park(scene))
         if order and order.mode is CoachMode.HOLD:
             return Action("", "hold", Drive())
-        return None
+        return self.show(scene, order) if order and order.mode is CoachMode.TEST else None
 
-    def _special(self, scene: Scene, order: CoachOrder | None) -> Action | None:
+    def show(self, scene: Scene, order: CoachOrder) -> Action:
+        """What the coach's test asks of this robot; the coach's word goes before the rules in play."""
+        moment = test_mode.Moment(self.briefing, scene, order, self.limits)
+        action, self._progress = test_mode.show(moment, self._progress)
+        return action
+
+    def _special(self, scene: Scene) -> Action | None:
         """What every shipped team does alike: penalties of a shoot-out, and looking for the ball."""
-        return self._shoot_out(scene) or self._search(scene, order)
+        return self._shoot_out(scene) or self._search(scene)
 
     def _shoot_out(self, scene: Scene) -> Action | None:
         """Take the penalty, keep the goal, or wait."""
@@ -234,10 +232,9 @@ class Player(ABC):
             return Action("keeper", "keep", keep_goal(scene.me, scene.ball.now, pitch, reach, limits), dribble=True)
         return Action("", "wait", shoot_out.wait(scene, self.briefing.number, self.setup, limits))
 
-    def _search(self, scene: Scene, order: CoachOrder | None) -> Action | None:
+    def _search(self, scene: Scene) -> Action | None:
         """In play, when nobody has seen the ball for long: the keeper guards the goal, the others drive around."""
-        is_test = order is not None and order.mode is CoachMode.TEST
-        if scene.ball is not None or scene.game.phase is not TeamPhase.PLAY or is_test:
+        if scene.ball is not None or scene.game.phase is not TeamPhase.PLAY:
             return None
         pitch, reach, me = self.setup.pitch, self.setup.robot.reach, scene.me
         if self.is_keeper:

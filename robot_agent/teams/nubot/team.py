@@ -11,12 +11,13 @@ from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.pass_to import best_receiver, pass_speed, pass_to
 from robot_agent.skills.take_ball import take_ball
 from robot_agent.skills.turn_to import turn_rate
+from robot_agent.teams.action import Action
 from robot_agent.teams.nubot.machine import KICK, Doing, Machine, Points, Situation, State
 from robot_agent.teams.nubot.trajectory import ROTATION
-from robot_agent.teams.player import Action, Player
+from robot_agent.teams.player import Player
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
 from robot_agent.world_model import Scene, SeenBall, places_of
-from schemas.coach import CoachMode, CoachOrder
+from schemas.coach import CoachOrder, CoachTest
 from schemas.command import Drive, KickMode
 from schemas.game import TeamPhase
 
@@ -60,17 +61,31 @@ class NuBot(Player):
         self._points = Points().on(pitch)
         self._machine = Machine(self._points)
         self._role = HOLDS
+        self._shown = 0
+        """Number of the order that the machine was last begun for."""
 
     def begin_anew(self) -> None:
         """The paper's reset of the world: its machine begins again, from whatever state."""
         super().begin_anew()
         self._machine.restart()
 
+    def show(self, scene: Scene, order: CoachOrder) -> Action:
+        """The tests of every team, and the paper's own: one robot runs the machine once, to the order's points or its."""
+        if order.test is not CoachTest.MACHINE or order.robot_a != self.briefing.robot or scene.ball is None:
+            return super().show(scene, order)
+        if order.sequence != self._shown:
+            self._machine.restart()
+            self._shown = order.sequence
+        dribble = (order.point_a.x, order.point_a.y) if order.point_a else self._points.dribble
+        reset = (order.point_b.x, order.point_b.y) if order.point_b else self._points.reset
+        self._machine.points = Points(dribble, self._points.goal, reset)
+        situation = Situation(scene.me, scene.ball.now[:2], scene.holding, scene.dt, kicker_ready=scene.kicker_ready)
+        return self._carried_out(scene, self._machine.step(situation))
+
     def play(self, scene: Scene, order: CoachOrder | None) -> Action:
         """Keep, play the ball, or hold the place."""
         ball = scene.ball
-        if order is not None and order.mode is CoachMode.TEST:
-            return self._test(scene, order)
+        del order
         if ball is None:
             return self._hold(scene, self._home)
         spot = _spot(scene, ball)
@@ -191,16 +206,6 @@ class NuBot(Player):
             return self._hold(scene, spot)._replace(role=KEEPS)
         motion = keep_goal(scene.me, ball.now, self.setup.pitch, self.setup.robot.reach, self.limits)
         return Action(KEEPS, "keep", motion)
-
-    def _test(self, scene: Scene, order: CoachOrder) -> Action:
-        """The paper's own experiment: one robot runs the machine once, to the points of the order or the paper's."""
-        if order.robot_a not in (None, self.briefing.robot) or scene.ball is None:
-            return self._hold(scene, self._home)
-        dribble = (order.point_a.x, order.point_a.y) if order.point_a else self._points.dribble
-        reset = (order.point_b.x, order.point_b.y) if order.point_b else self._points.reset
-        self._machine.points = Points(dribble, self._points.goal, reset)
-        situation = Situation(scene.me, scene.ball.now[:2], scene.holding, scene.dt, kicker_ready=scene.kicker_ready)
-        return self._carried_out(scene, self._machine.step(situation))
 
 
 def _spot(scene: Scene, ball: SeenBall) -> tuple[float, float]:

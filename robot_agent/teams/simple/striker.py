@@ -12,7 +12,7 @@ from robot_agent.skills.keep_off import inside
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.pass_to import best_receiver, is_open, pass_to
 from robot_agent.skills.shoot import best_place, lane_width
-from robot_agent.teams.player import Action
+from robot_agent.teams.action import Action
 from robot_agent.teams.simple.roles import Role
 from robot_agent.world_model import Mate, places_of
 from schemas.command import Kick, KickMode

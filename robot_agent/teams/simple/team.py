@@ -9,7 +9,8 @@ from robot_agent.skills.keep_goal import keep_goal
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.pass_to import ARRIVING, best_receiver, pass_to
 from robot_agent.skills.take_ball import HAS_IT, take_ball
-from robot_agent.teams.player import Action, Player
+from robot_agent.teams.action import Action
+from robot_agent.teams.player import Player
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
 from robot_agent.teams.simple.formation import places
 from robot_agent.teams.simple.roles import Candidate, Role, share_places, striker_of

@@ -1,0 +1,16 @@
+"""What a robot of a shipped team decides in one tick."""
+
+from typing import NamedTuple
+
+from schemas.command import Drive, Kick
+
+
+class Action(NamedTuple):
+    """What a robot does in one tick, and what it calls that."""
+
+    role: str
+    intention: str
+    drive: Drive
+    dribble: bool = False
+    kick: Kick | None = None
+    pass_to: str | None = None

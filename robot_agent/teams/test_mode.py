@@ -1,0 +1,267 @@
+"""Test mode: what a robot does when the coach has it show one thing; every shipped team does it alike.
+
+Pure: (moment, progress) → (action, progress). The coach's word goes before the rules in play: nobody keeps out of an
+area here, and the ball is carried as far as was said. A robot that the order does not name stands still.
+"""
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from robot_agent.bodies import Ball, Limits
+from robot_agent.contract import Briefing
+from robot_agent.skills.avoid import Circle, circles, go_around
+from robot_agent.skills.circle import circle
+from robot_agent.skills.dribble_to import SPEED, TURN_RATE
+from robot_agent.skills.intercept import meet, way_of
+from robot_agent.skills.kick_at import kick_at
+from robot_agent.skills.pass_to import ERROR, pass_speed
+from robot_agent.skills.search import search_place
+from robot_agent.skills.take_ball import HAS_IT, take_ball
+from robot_agent.teams.action import Action
+from robot_agent.world_model import Scene
+from schemas.coach import CoachOrder, CoachTest
+from schemas.command import Drive, KickMode
+from schemas.frames import wrap
+from schemas.game import Point
+from schemas.host import Setup
+
+ROLE = "test"
+ARRIVED = 0.1
+"""m; closer than this to a point is at it."""
+FACING = 0.1
+"""rad; likewise of an angle."""
+RESTS = 1.0
+"""s at each end of a way that is driven over and over."""
+TURNS = 1.0
+"""m before a point where a robot with the ball begins to turn to the angle there; before, it faces ahead."""
+COMES = 0.7
+"""m/s; a ball that is faster, and nears, is caught."""
+SHOT_ERROR = 0.15
+"""m beside the target."""
+_RADIUS = 1.0
+"""m; of a circle that no radius was said for."""
+_AIR = 0.1
+"""m between two bodies that pass each other."""
+
+
+Place = tuple[float, float]
+
+
+class Moment(NamedTuple):
+    """All that a robot knows when it shows something."""
+
+    briefing: Briefing
+    scene: Scene
+    order: CoachOrder
+    limits: Limits
+    """Those of the robot, and of the order."""
+
+    @property
+    def setup(self) -> Setup:
+        """The match, with this robot's own numbers."""
+        return self.briefing.setup
+
+    @property
+    def me(self) -> str:
+        """The robot's name."""
+        return self.briefing.robot
+
+
+class Progress(NamedTuple):
+    """How far a robot is with an order."""
+
+    order: int = 0
+    """Its number."""
+    leg: int = 0
+    """Which end of a way is driven to."""
+    rested: float = 0.0
+    """s at that end."""
+    place: Place = (0.0, 0.0)
+    """m; where the robot was when the order came."""
+    kicked: bool = False
+
+
+NOTHING_DONE = Progress()
+
+Shown = tuple[Action, Progress]
+Show = Callable[[Moment, Progress], Shown]
+
+
+def show(now: Moment, done: Progress) -> Shown:
+    """What the order's test asks of this robot; a new order begins anew."""
+    if done.order != now.order.sequence:
+        done = Progress(now.order.sequence, place=now.scene.me[:2])
+    test = now.order.test
+    if now.me == now.order.robot_a and test in ACTS:
+        return ACTS[test](now, done)
+    if now.me == now.order.robot_b and test is CoachTest.PASS:
+        return _receive(now, done)
+    return _stand(now, done)
+
+
+def _stand(now: Moment, done: Progress) -> Shown:
+    return Action(ROLE, "stand", Drive(), dribble=now.scene.holding), done
+
+
+def _move(now: Moment, done: Progress) -> Shown:
+    order = now.order
+    return _bring(now, "move", _at(order.point_a, done), order.angle_a, with_ball=order.with_ball), done
+
+
+def _location(now: Moment, done: Progress) -> Shown:
+    """To one end, a rest there, to the other end."""
+    order, me = now.order, now.scene.me
+    ends = ((_at(order.point_a, done), order.angle_a), (_at(order.point_b, done), order.angle_b))
+    point, angle = ends[done.leg]
+    is_there = math.dist(point, me[:2]) < ARRIVED and (angle is None or abs(wrap(angle - me.heading)) < FACING)
+    rested = done.rested + now.scene.dt if is_there else 0.0
+    done = done._replace(rested=rested) if rested < RESTS else done._replace(leg=1 - done.leg, rested=0.0)
+    point, angle = ends[done.leg]
+    return _bring(now, f"move to {'ab'[done.leg]}", point, angle, with_ball=order.with_ball), done
+
+
+def _circle(now: Moment, done: Progress) -> Shown:
+    order = now.order
+    if order.with_ball and not now.scene.holding:
+        return _fetch(now), done
+    limits = now.limits.capped(SPEED, TURN_RATE) if order.with_ball else now.limits
+    motion = circle(now.scene.me, _at(order.point_a, done), order.radius or _RADIUS, limits)
+    return Action(ROLE, "circle", motion, dribble=order.with_ball), done
+
+
+def _pass(now: Moment, done: Progress) -> Shown:
+    """Get the ball, bring it to its point, and pass; once."""
+    order, receiver = now.order, now.order.robot_b or ""
+    mate = now.scene.mates.get(receiver)
+    target = _point(order.point_b) or (mate.body[:2] if mate is not None else None)
+    ready = _ready_to_kick(now, done)
+    if ready is not None:
+        return ready, done
+    if target is None:
+        return Action(ROLE, f"wait for {receiver}", Drive(), dribble=True), done
+    speed = order.kick_speed or pass_speed(math.dist(target, now.scene.me[:2]), now.setup)
+    action, done = _kick(now, done, target, speed, ERROR, KickMode.GROUND)
+    return action._replace(intention=f"pass to {receiver}", pass_to=receiver if action.kick else None), done
+
+
+def _shoot(now: Moment, done: Progress) -> Shown:
+    """Get the ball, bring it to its point, and shoot; once."""
+    ready = _ready_to_kick(now, done)
+    if ready is not None:
+        return ready, done
+    order, kicker = now.order, now.setup.kicker
+    target = _point(order.point_b) or (now.setup.pitch.goal_line, 0.0)
+    most = kicker.max_ground_speed if order.kick_mode is KickMode.GROUND else kicker.max_lob_speed
+    return _kick(now, done, target, order.kick_speed or most, SHOT_ERROR, order.kick_mode)
+
+
+def _catch(now: Moment, done: Progress) -> Shown:
+    return _await_ball(now, _at(now.order.point_a, done), now.order.angle_a), done
+
+
+def _receive(now: Moment, done: Progress) -> Shown:
+    """Wait for the pass; while the other robot has the ball there is none to go for."""
+    passer, ball = now.scene.mates.get(now.order.robot_a or ""), now.scene.ball
+    has_it = passer is not None and ball is not None and math.dist(passer.body[:2], ball.now[:2]) < HAS_IT
+    return _await_ball(now, _at(now.order.point_b, done), now.order.angle_b, is_mine=not has_it), done
+
+
+def _await_ball(now: Moment, point: Place, angle: float | None, *, is_mine: bool = True) -> Action:
+    """Stand at the point and face the ball, or the angle; meet a ball that comes, and keep it."""
+    scene, me = now.scene, now.scene.me
+    if scene.holding:
+        return Action(ROLE, "caught", Drive(), dribble=True)
+    if is_mine and scene.ball is not None and _comes(scene.ball.now, me[:2]):
+        return Action(ROLE, "catch", _take(now, scene.ball.now), dribble=True)
+    if angle is None and scene.ball is not None:
+        angle = math.atan2(scene.ball.now.y - me.y, scene.ball.now.x - me.x)
+    return Action(ROLE, "wait for the ball", _drive_to(now, point, angle, now.limits), dribble=True)
+
+
+def _comes(ball: Ball, place: Place) -> bool:
+    """Whether a ball is fast, and nears."""
+    nears = ball.vx * (place[0] - ball.x) + ball.vy * (place[1] - ball.y)
+    return math.hypot(ball.vx, ball.vy) > COMES and nears > 0.0
+
+
+def _ready_to_kick(now: Moment, done: Progress) -> Action | None:
+    """What is to be done before the kick, or after it; nothing where the ball is in hand and at its point."""
+    scene, point = now.scene, _point(now.order.point_a)
+    if done.kicked:
+        return Action(ROLE, "kicked", Drive())
+    if not scene.holding:
+        return _fetch(now)
+    if point is not None and math.dist(point, scene.me[:2]) > ARRIVED:
+        return _bring(now, "bring the ball", point, now.order.angle_a, with_ball=True)
+    return None
+
+
+def _kick(now: Moment, done: Progress, target: Place, speed: float, error: float, mode: KickMode) -> Shown:
+    motion, kick = kick_at(now.scene.me, target, speed, error, now.limits, mode)
+    kick = kick if now.scene.kicker_ready else None
+    return Action(ROLE, "shoot", motion, dribble=True, kick=kick), done._replace(kicked=kick is not None)
+
+
+def _bring(now: Moment, intention: str, point: Place, angle: float | None, *, with_ball: bool) -> Action:
+    """Drive to a point, with the ball if that is asked for."""
+    if with_ball and not now.scene.holding:
+        return _fetch(now)
+    me = now.scene.me
+    limits = now.limits.capped(SPEED, TURN_RATE) if with_ball else now.limits
+    if with_ball and math.dist(point, me[:2]) > TURNS:
+        angle = math.atan2(point[1] - me.y, point[0] - me.x)
+    return Action(ROLE, intention, _drive_to(now, point, angle, limits), dribble=with_ball)
+
+
+def _fetch(now: Moment) -> Action:
+    """Get the ball, or look for it."""
+    scene = now.scene
+    if scene.ball is None:
+        place = search_place(now.briefing.number, scene.game.clock, now.setup.pitch)
+        return Action(ROLE, "look for the ball", _drive_to(now, place, None, now.limits))
+    return Action(ROLE, "get the ball", _take(now, scene.ball.now), dribble=True)
+
+
+def _take(now: Moment, ball: Ball) -> Drive:
+    me, gap = now.scene.me, now.setup.dribble.gap
+    meeting = meet(me, way_of(ball, now.setup.ball.rolling_deceleration), gap, now.limits)
+    clearance = 2.0 * now.setup.robot.reach + _AIR / 2.0
+    opponents = now.scene.opponents if now.order.avoid else ()
+    return take_ball(me, ball, meeting, gap, opponents, clearance, now.limits)
+
+
+def _drive_to(now: Moment, point: Place, angle: float | None, limits: Limits) -> Drive:
+    """Straight on or around what is in the way; with no angle the heading is kept."""
+    me = now.scene.me
+    heading = me.heading if angle is None else angle
+    return go_around(me, *point, heading, _in_the_way(now) if now.order.avoid else (), limits)
+
+
+def _point(point: Point | None) -> Place | None:
+    return (point.x, point.y) if point is not None else None
+
+
+def _at(point: Point | None, done: Progress) -> Place:
+    """A point of the order, or where the robot was when the order came."""
+    return _point(point) or done.place
+
+
+def _in_the_way(now: Moment) -> list[Circle]:
+    """Everybody else, and the ball while this robot has not got it."""
+    reach, ball = now.setup.robot.reach, now.scene.ball
+    bodies = circles(now.scene.others, 2.0 * reach + _AIR)
+    if ball is None or now.scene.holding:
+        return bodies
+    return [*bodies, Circle(*ball.now[:2], reach + now.setup.ball.radius + _AIR)]
+
+
+ACTS: dict[CoachTest, Show] = {
+    CoachTest.MOVE: _move,
+    CoachTest.LOCATION: _location,
+    CoachTest.CIRCLE: _circle,
+    CoachTest.PASS: _pass,
+    CoachTest.CATCH: _catch,
+    CoachTest.SHOOT: _shoot,
+}
+"""Test → what the robot does that acts in it; in a test that is not here nobody moves."""
