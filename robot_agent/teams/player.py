@@ -124,7 +124,7 @@ class Player(ABC):
         self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits
         self._carry = carried(self._carry, scene)
         self.control = control_after(self.control, scene, self.briefing.robot, self._asked.roll)
-        action = self._obey(scene, order) or self._by_the_rules(scene, self._special(scene) or self.play(scene, order))
+        action = self._obey(scene, order) or self._by_the_rules(scene, self._act(scene, order))
         if not scene.kicker_ready:
             action = action._replace(kick=None, pass_to=None)  # it would be refused: keep the ball, and aim
         self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - scene.dt)
@@ -136,6 +136,11 @@ class Player(ABC):
             radio=self._word(scene, action),
             acknowledges_order=order.sequence if order else None,
         )
+
+    def _act(self, scene: Scene, order: CoachOrder | None) -> Action:
+        if order is not None and order.mode is CoachMode.TEST:
+            return self.show(scene, order)
+        return self._special(scene) or self.play(scene, order)
 
     @abstractmethod
     def play(self, scene: Scene, order: CoachOrder | None) -> Action:
@@ -201,10 +206,10 @@ class Player(ABC):
             return Action("", "park", self._park(scene))
         if order and order.mode is CoachMode.HOLD:
             return Action("", "hold", Drive())
-        return self.show(scene, order) if order and order.mode is CoachMode.TEST else None
+        return None
 
     def show(self, scene: Scene, order: CoachOrder) -> Action:
-        """What the coach's test asks of this robot; the coach's word goes before the rules in play."""
+        """What the coach's test asks of this robot."""
         moment = test_mode.Moment(self.briefing, scene, order, self.limits)
         action, self._progress = test_mode.show(moment, self._progress)
         return action

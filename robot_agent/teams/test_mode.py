@@ -1,7 +1,7 @@
 """Test mode: what a robot does when the coach has it show one thing; every shipped team does it alike.
 
-Pure: (moment, progress) → (action, progress). The coach's word goes before the rules in play: nobody keeps out of an
-area here, and the ball is carried as far as was said. A robot that the order does not name stands still.
+Pure: (moment, progress) → (action, progress). A robot that the order does not name stands still. As in play, the rules
+of the match bind whoever acts: where they do not let a robot carry the ball as far, it lets go of it on the way.
 """
 
 import math
@@ -15,7 +15,8 @@ from robot_agent.skills.circle import circle
 from robot_agent.skills.dribble_to import SPEED, TURN_RATE
 from robot_agent.skills.intercept import meet, way_of
 from robot_agent.skills.kick_at import kick_at
-from robot_agent.skills.pass_to import ERROR, pass_speed
+from robot_agent.skills.pass_to import pass_speed
+from robot_agent.skills.receive import comes, receive
 from robot_agent.skills.search import search_place
 from robot_agent.skills.take_ball import HAS_IT, take_ball
 from robot_agent.teams.action import Action
@@ -35,10 +36,12 @@ RESTS = 1.0
 """s at each end of a way that is driven over and over."""
 TURNS = 1.0
 """m before a point where a robot with the ball begins to turn to the angle there; before, it faces ahead."""
-COMES = 0.7
-"""m/s; a ball that is faster, and nears, is caught."""
-SHOT_ERROR = 0.15
+ARRIVING = 2.0
+"""m/s of a pass when it arrives: slower than in play, where somebody is in the way."""
+PASS_ERROR, SHOT_ERROR = 0.1, 0.15
 """m beside the target."""
+LEFT = 1.0
+"""m; a ball farther than this from who had it has left: word of where that is comes late, and the ball may swing."""
 _RADIUS = 1.0
 """m; of a circle that no radius was said for."""
 _AIR = 0.1
@@ -74,12 +77,14 @@ class Progress(NamedTuple):
     order: int = 0
     """Its number."""
     leg: int = 0
-    """Which end of a way is driven to."""
+    """Which end of a way is driven to; for whom a pass is meant, whether the other robot has had the ball."""
     rested: float = 0.0
     """s at that end."""
     place: Place = (0.0, 0.0)
     """m; where the robot was when the order came."""
     kicked: bool = False
+    passed: bool = False
+    """The ball that is waited for has come, and is this robot's to get."""
 
 
 NOTHING_DONE = Progress()
@@ -140,8 +145,8 @@ def _pass(now: Moment, done: Progress) -> Shown:
         return ready, done
     if target is None:
         return Action(ROLE, f"wait for {receiver}", Drive(), dribble=True), done
-    speed = order.kick_speed or pass_speed(math.dist(target, now.scene.me[:2]), now.setup)
-    action, done = _kick(now, done, target, speed, ERROR, KickMode.GROUND)
+    speed = order.kick_speed or pass_speed(math.dist(target, now.scene.me[:2]), now.setup, ARRIVING)
+    action, done = _kick(now, done, target, speed, PASS_ERROR, KickMode.GROUND)
     return action._replace(intention=f"pass to {receiver}", pass_to=receiver if action.kick else None), done
 
 
@@ -157,32 +162,32 @@ def _shoot(now: Moment, done: Progress) -> Shown:
 
 
 def _catch(now: Moment, done: Progress) -> Shown:
-    return _await_ball(now, _at(now.order.point_a, done), now.order.angle_a), done
+    return _await_ball(now, done, _at(now.order.point_a, done), now.order.angle_a)
 
 
 def _receive(now: Moment, done: Progress) -> Shown:
-    """Wait for the pass; while the other robot has the ball there is none to go for."""
+    """Wait for the pass; while the other robot has the ball, there is none to go for."""
     passer, ball = now.scene.mates.get(now.order.robot_a or ""), now.scene.ball
-    has_it = passer is not None and ball is not None and math.dist(passer.body[:2], ball.now[:2]) < HAS_IT
-    return _await_ball(now, _at(now.order.point_b, done), now.order.angle_b, is_mine=not has_it), done
+    away = math.dist(passer.body[:2], ball.now[:2]) if passer is not None and ball is not None else None
+    if away is not None and away < HAS_IT:
+        done = done._replace(leg=1)
+    has_left = done.leg == 1 and away is not None and away > LEFT
+    return _await_ball(now, done, _at(now.order.point_b, done), now.order.angle_b, may_come=has_left)
 
 
-def _await_ball(now: Moment, point: Place, angle: float | None, *, is_mine: bool = True) -> Action:
-    """Stand at the point and face the ball, or the angle; meet a ball that comes, and keep it."""
+def _await_ball(now: Moment, done: Progress, point: Place, angle: float | None, *, may_come: bool = True) -> Shown:
+    """Stand at the point and face the ball, or the angle; meet a ball that comes, get it if it stops short, keep it."""
     scene, me = now.scene, now.scene.me
     if scene.holding:
-        return Action(ROLE, "caught", Drive(), dribble=True)
-    if is_mine and scene.ball is not None and _comes(scene.ball.now, me[:2]):
-        return Action(ROLE, "catch", _take(now, scene.ball.now), dribble=True)
-    if angle is None and scene.ball is not None:
-        angle = math.atan2(scene.ball.now.y - me.y, scene.ball.now.x - me.x)
-    return Action(ROLE, "wait for the ball", _drive_to(now, point, angle, now.limits), dribble=True)
-
-
-def _comes(ball: Ball, place: Place) -> bool:
-    """Whether a ball is fast, and nears."""
-    nears = ball.vx * (place[0] - ball.x) + ball.vy * (place[1] - ball.y)
-    return math.hypot(ball.vx, ball.vy) > COMES and nears > 0.0
+        return Action(ROLE, "caught", Drive(), dribble=True), done
+    ball = scene.ball.now if scene.ball is not None else None
+    if ball is not None and may_come and comes(me, ball):
+        return Action(ROLE, "catch", receive(me, ball, now.limits), dribble=True), done._replace(passed=True)
+    if done.passed:
+        return _fetch(now), done
+    if angle is None and ball is not None:
+        angle = math.atan2(ball.y - me.y, ball.x - me.x)
+    return Action(ROLE, "wait for the ball", _drive_to(now, point, angle, now.limits), dribble=True), done
 
 
 def _ready_to_kick(now: Moment, done: Progress) -> Action | None:

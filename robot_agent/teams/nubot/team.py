@@ -70,7 +70,7 @@ class NuBot(Player):
         self._machine.restart()
 
     def show(self, scene: Scene, order: CoachOrder) -> Action:
-        """The tests of every team, and the paper's own: one robot runs the machine once, to the order's points or its."""
+        """Every team's tests, and the paper's: one robot runs the machine once, to the order's points or its own."""
         if order.test is not CoachTest.MACHINE or order.robot_a != self.briefing.robot or scene.ball is None:
             return super().show(scene, order)
         if order.sequence != self._shown:

@@ -1,0 +1,26 @@
+"""Receive a ball that comes: step into its way, face it, and let it run into the dribbler."""
+
+import math
+
+from robot_agent.bodies import Ball, Body, Limits
+from robot_agent.skills.go_to import drive, velocity_to
+from robot_agent.skills.turn_to import turn_rate
+from schemas.command import Drive
+
+COMES = 0.5
+"""m/s; a slower ball does not come."""
+
+
+def comes(me: Body, ball: Ball) -> bool:
+    """Whether the ball is fast, and nears the robot."""
+    nears = ball.vx * (me.x - ball.x) + ball.vy * (me.y - ball.y)
+    return nears > 0.0 and math.hypot(ball.vx, ball.vy) > COMES
+
+
+def receive(me: Body, ball: Ball, limits: Limits) -> Drive:
+    """Go to the nearest point of the ball's way, and face where it comes from; for a ball that comes."""
+    speed = math.hypot(ball.vx, ball.vy)
+    ux, uy = ball.vx / speed, ball.vy / speed
+    along = (me.x - ball.x) * ux + (me.y - ball.y) * uy
+    vx, vy = velocity_to(me, ball.x + along * ux, ball.y + along * uy, limits)
+    return drive(me, vx, vy, turn_rate(me, math.atan2(-uy, -ux), limits), limits)
