@@ -22,6 +22,8 @@ KEYS = (
     *("id", "pose", "targetPose", "velocity", "batteryLevel", "ballEngaged", "position", "confidence", "radius"),
 )
 """As the schema spells them (reference 9.4)."""
+REQUIRED = ("type", "teamName", "intention", "robots", "balls", "obstacles", "ageMs")
+"""Of a world state, by the schema."""
 _OTHER_NAMES = {
     "time": "timestamp",
     "timestampms": "timestamp",

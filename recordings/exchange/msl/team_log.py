@@ -12,7 +12,7 @@ from statistics import median
 from typing import Any
 
 from schemas.league.findings import Findings
-from schemas.league.lenient import fields_of, items_of, number, vector
+from schemas.league.lenient import REQUIRED, fields_of, items_of, number, vector
 
 GAP_S = 1.0
 """A team that says nothing for longer has a gap. Ours: ten times what the league asks for at least."""
@@ -22,8 +22,6 @@ _FAR_M = 40.0
 """A coordinate farther out is a mistake. Ours: the league's longest pitch is 22 m, so that 11 m are the goal line."""
 _OTHER_DAY_MS = 6 * 3600 * 1000
 """A record farther from the middle one has a clock of its own. Ours: no match lasts longer."""
-_REQUIRED = ("type", "teamName", "intention", "robots", "balls", "obstacles", "ageMs")
-"""Of a world state, by the league's schema."""
 _RECORD = re.compile(r'\{\s*"(?:team|time|game|world)\w*"\s*:', re.IGNORECASE)
 """How a record begins, to find the next one behind damage."""
 _BETWEEN = re.compile(r"[\s,\[\]\x00]*")
@@ -123,7 +121,7 @@ def _record(raw: Any, number_: int, findings: Findings) -> _Record | None:
     if not world:
         findings.note("record without a worldstate", lost=True)
         return None
-    for key in _REQUIRED:
+    for key in REQUIRED:
         if key not in world:
             findings.note(f"worldstate without {key}")
     robots: dict[int, RobotRow] = {}

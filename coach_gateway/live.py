@@ -1,0 +1,180 @@
+"""A running match for bridges that wait for many things at once: the newest of everything, and word of what changes.
+
+One task follows the bus; questions to the host wait in a thread, and hold up nobody.
+"""
+
+import asyncio
+import contextlib
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, TypeVar
+
+from coach_gateway.gateway import Gateway
+from coach_gateway.orders import OrderWatch
+from coach_gateway.presence import HostPresence
+from schemas.bus.contract import Bus, Received, Subscription
+from schemas.coach import CoachOrder
+from schemas.errors import TouchlineError
+from schemas.game import REFBOX, ActionReply, GameEvent, GameState, RefereeAction
+from schemas.host import Belief, Setup
+from schemas.message import BadMessageError
+from schemas.side import Side
+from schemas.topics import BELIEF, EVENT, STATE, WORLD
+from schemas.world import World
+
+_LOOK_S = 0.01
+"""s of wall time between two looks at the bus."""
+_ASK_S = 1.0
+"""s of wall time until a host that did not answer is asked again how its match is set up."""
+_QUESTIONS = 4
+"""At the same time; further ones wait."""
+_T = TypeVar("_T")
+
+
+class Live:
+    """One match, as it stands."""
+
+    def __init__(self, bus: Bus) -> None:
+        self._bus = bus
+        self._gateway = Gateway(bus)
+        self._states, self._events = bus.subscribe(STATE), bus.subscribe(EVENT)
+        self._worlds = bus.subscribe(WORLD, newest=True)
+        self._said = bus.subscribe(BELIEF, newest=True)
+        self._watch = bus.watch_alive()
+        self._presence = HostPresence(bus)
+        self._threads = ThreadPoolExecutor(_QUESTIONS, thread_name_prefix="question")
+        self._ordering = asyncio.Lock()
+        self._asked_at = -_ASK_S
+        self._asking: asyncio.Task[None] | None = None
+        self._stale = True
+        self._refboxes: dict[Side, bool] = {}
+        self._newest: dict[str, Received] = {}
+        self._world: Received | None = None
+        self.setup: Setup | None = None
+        """How the match is set up; nothing before the host has told."""
+        self.sides: dict[str, Side] = {}
+        """Robot → its side, of those that take part."""
+        self.state: GameState | None = None
+        self.events: list[GameEvent] = []
+        """All since this gateway began, in order."""
+        self.orders = OrderWatch(bus)
+        self.unreadable = 0
+        """Messages that could not be read; each was left out."""
+        self.on_state: list[Callable[[GameState], None]] = []
+        """Called for every state, in order."""
+        self.on_event: list[Callable[[GameEvent], None]] = []
+        """Called for every event, in order."""
+
+    async def serve(self, stop: asyncio.Event) -> None:
+        """Follow the match until `stop` is set."""
+        try:
+            while not stop.is_set():
+                self.update()
+                await pause(stop, _LOOK_S)
+        finally:
+            if self._asking is not None:
+                self._asking.cancel()
+            self._threads.shutdown(wait=False, cancel_futures=True)
+
+    def update(self) -> None:
+        """Take in what has come, without waiting, and ask for the setup where it is not known or has changed."""
+        while (presence := self._watch.receive()) is not None:
+            if presence.kind == REFBOX and presence.name in set(Side):
+                self._refboxes[Side(presence.name)] = presence.alive
+        self._stale = self._stale or self._presence.gone()
+        for event in self._messages(self._events):
+            self.events.append(event)
+            for tell in self.on_event:
+                tell(event)
+        for state in self._messages(self._states):
+            self._take(state)
+        self._world = self._worlds.receive() or self._world
+        for received in iter(self._said.receive, None):
+            self._newest[received.chunks["robot"]] = received
+        self.orders.update()
+        self._learn()
+
+    @property
+    def now(self) -> float:
+        """Wall time in s."""
+        return self._bus.clock.now()
+
+    @property
+    def world(self) -> World | None:
+        """The newest tick; nothing before the first."""
+        return self._read(self._world) if self._world is not None else None
+
+    @property
+    def refboxes(self) -> list[Side]:
+        """The sides whose base stations hear a league's referee box."""
+        return [side for side in Side if self._refboxes.get(side, False)]
+
+    def beliefs(self, sides: Iterable[Side]) -> dict[str, Belief]:
+        """Robot → what it said last, of these sides, in its team's frame."""
+        wanted = list(sides)
+        said = {name: self._read(one) for name, one in self._newest.items() if self.sides.get(name) in wanted}
+        return {name: belief for name, belief in sorted(said.items()) if belief is not None}
+
+    def connect_refbox(self, side: Side, *, connected: bool) -> None:
+        """Tell everybody whether this side's base station hears a referee box: then others may only stop the game."""
+        (self._bus.declare_alive if connected else self._bus.withdraw_alive)(REFBOX, side.value)
+
+    async def act(self, action: RefereeAction) -> ActionReply:
+        """Ask the referee; without a host the answer is a refusal that says so."""
+        try:
+            return await self._in_thread(lambda: self._gateway.act(action))
+        except TouchlineError as error:
+            return ActionReply(accepted=False, reason=str(error))
+
+    async def order(self, side: Side, **content: Any) -> CoachOrder:
+        """Give a side its new standing order.
+
+        Raises:
+            TouchlineError: no host answers, or the order may not be what it is.
+        """
+        async with self._ordering:
+            return await self._in_thread(lambda: self._gateway.order(side, **content))
+
+    async def _in_thread(self, ask: Callable[[], _T]) -> _T:
+        return await asyncio.get_running_loop().run_in_executor(self._threads, ask)
+
+    def _take(self, state: GameState) -> None:
+        if self.state is not None and state.episode != self.state.episode:
+            self._stale = True
+        self.state = state
+        for tell in self.on_state:
+            tell(state)
+
+    def _learn(self) -> None:
+        """Ask how the match is set up, one question at a time."""
+        asking = self._asking is not None and not self._asking.done()
+        if self._stale and not asking and self.now >= self._asked_at + _ASK_S:
+            self._asked_at = self.now
+            self._asking = asyncio.get_running_loop().create_task(self._ask_setup())
+
+    async def _ask_setup(self) -> None:
+        try:
+            setup = await self._in_thread(self._gateway.setup)
+        except TouchlineError:
+            return  # there is no host yet; it is asked again
+        self.setup = setup
+        self.sides = {name: side for side, team in setup.teams.items() for name in team.robots}
+        self._stale = False
+
+    def _messages(self, subscription: Subscription) -> list[Any]:
+        read = (self._read(received) for received in iter(subscription.receive, None))
+        return [message for message in read if message is not None]
+
+    def _read(self, received: Received) -> Any:
+        try:
+            return received.message()
+        except BadMessageError:
+            self.unreadable += 1
+            return None
+
+
+async def pause(stop: asyncio.Event, seconds: float) -> bool:
+    """Wait so long, or until `stop` is set; whether it is."""
+    with contextlib.suppress(TimeoutError):
+        await asyncio.wait_for(stop.wait(), seconds)
+    return stop.is_set()

@@ -1,0 +1,90 @@
+"""The audience feed on its way: over UDP, every 50 ms, to those who asked for it."""
+
+import asyncio
+import json
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from coach_gateway.live import Live, pause
+from coach_gateway.refbox.audience import Audience, event
+from coach_gateway.refbox.narration import Narrator
+from coach_gateway.refbox.own_view import own_view
+from coach_gateway.refbox.team_view import TeamView
+from schemas.errors import TouchlineError
+from schemas.game import GameState
+from schemas.league.numbers import numbers_of
+from schemas.side import Side
+
+EVERY_S = 0.05
+"""s of wall time (reference 9.1)."""
+_OLD_S = 1.0
+"""s of wall time after which a base station's world state no longer counts, and ours stands in."""
+
+
+class AudienceFeed:
+    """Sends to a list of addresses."""
+
+    def __init__(
+        self,
+        live: Live,
+        addresses: Sequence[tuple[str, int]],
+        say: Callable[[str], None],
+        views: Mapping[Side, TeamView] | None = None,
+    ) -> None:
+        """`views` is what base stations tell of the world, where there are some."""
+        self._live = live
+        self._addresses = addresses
+        self._say = say
+        self._views = views if views is not None else {}
+        self._audience = Audience()
+        self._narrator = Narrator()
+        self._transport: asyncio.DatagramTransport | None = None
+        live.on_state.append(self._narrate)
+
+    async def serve(self, stop: asyncio.Event) -> None:
+        """Send until `stop` is set.
+
+        Raises:
+            TouchlineError: an address that nothing can be sent to.
+        """
+        loop = asyncio.get_running_loop()
+        family = (await loop.getaddrinfo(*self._addresses[0]))[0][0]
+        try:
+            self._transport, _ = await loop.create_datagram_endpoint(asyncio.DatagramProtocol, family=family)
+        except OSError as error:
+            raise TouchlineError(f"--audience: nothing can be sent ({error.strerror})") from None
+        self._say(f"audience feed to {', '.join(f'{host}:{port}' for host, port in self._addresses)}")
+        due = self._live.now
+        try:
+            while not stop.is_set():
+                self._tell()
+                due = max(due + EVERY_S, self._live.now)
+                await pause(stop, due - self._live.now)
+        finally:
+            self._transport.close()
+
+    def _narrate(self, state: GameState) -> None:
+        setup = self._live.setup
+        numbers = numbers_of(self._live.sides)
+        for call in self._narrator.take(state, self._live.sides):
+            if setup is not None:
+                self._send(event(call, setup, numbers))
+
+    def _tell(self) -> None:
+        state, setup = self._live.state, self._live.setup
+        if state is not None and setup is not None:
+            self._send(self._audience.teams(state, setup, {side: self._world(side) for side in Side}))
+
+    def _world(self, side: Side) -> Mapping[str, Any]:
+        live, view = self._live, self._views.get(side)
+        if view is not None and view.newest is not None and live.now - view.newest_at < _OLD_S:
+            return view.newest
+        world, setup = live.world, live.setup
+        if world is None or setup is None:
+            return {}
+        return own_view(side, setup, live.sides, live.state, world, live.beliefs([side]))
+
+    def _send(self, content: Mapping[str, Any]) -> None:
+        if self._transport is not None and not self._transport.is_closing():
+            for address in self._addresses:
+                self._transport.sendto(json.dumps(content, separators=(",", ":")).encode() + b"\x00", address)

@@ -1,0 +1,242 @@
+"""A team's base station at a league's referee box: hears it, passes on what it says, tells it of the world.
+
+The link is made again whenever it breaks, after a pause that grows. While it is up the referee's actions are locked for
+everybody else: the host sees a token of this process, and nothing has to be unlocked when the process dies.
+"""
+
+import asyncio
+import json
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from coach_gateway.live import Live, pause
+from coach_gateway.refbox import DEFAULT_PORT, characters, commands
+from coach_gateway.refbox.forwarding import WAITS_FOR_START, Deeds, deeds, is_ours, speaks_for
+from coach_gateway.refbox.framing import Framer, Protocol
+from coach_gateway.refbox.own_view import own_view
+from schemas.coach import CoachMode
+from schemas.errors import TouchlineError
+from schemas.game import RefereeAction
+from schemas.league.numbers import numbers_of
+from schemas.league.signals import Signal
+from schemas.side import Side
+
+UPLOAD_S = 0.05
+"""s of wall time between two world states. Ours: the league asks for at least ten a second."""
+_FIRST_PAUSE_S, _LONGEST_PAUSE_S = 0.25, 5.0
+"""s of wall time before the link is tried again, doubled each time up to the longest."""
+_UNREAD = 262_144
+"""Bytes of world states that wait for a box that does not read; then newer ones are left out."""
+_DEAF_S = 10.0
+"""s of wall time that a box may go without reading before the link is given up."""
+_START_S = 10.0
+"""s of wall time that START is asked for again."""
+_START_AGAIN_S = 0.1
+
+
+@dataclass(frozen=True, slots=True)
+class BoxAddress:
+    """Where the box is, whose base station this is, and how the box speaks."""
+
+    team: Side
+    host: str
+    port: int = DEFAULT_PORT
+    protocol: Protocol = Protocol.AUTO
+
+
+class RefBoxClient:
+    """One base station."""
+
+    def __init__(self, live: Live, box: BoxAddress, say: Callable[[str], None]) -> None:
+        """`say` is given a line whenever people should know something."""
+        self._live = live
+        self._box = box
+        self._say = say
+        self._target: str | None = None
+        """By what the box calls this team; it says so in WELCOME."""
+        self._parked = False
+        self._signals: asyncio.Queue[tuple[Signal, Side | None, int | None]] = asyncio.Queue()
+        self.connected = False
+        self.counts: Counter[str] = Counter()
+        """`heard`, `forwarded`, `refused`, `untold`, `unreadable`, `uploaded`, `left out`, `connections`."""
+
+    async def serve(self, stop: asyncio.Event) -> None:
+        """Be connected whenever the box is there, until `stop` is set."""
+        wait = _FIRST_PAUSE_S
+        told = False
+        while not stop.is_set():
+            try:
+                reader, writer = await asyncio.open_connection(self._box.host, self._box.port)
+            except OSError as error:
+                if not told:
+                    told = True
+                    self._say(f"referee box {self._box.host}:{self._box.port} is not there ({error}); trying on")
+                await pause(stop, wait)
+                wait = min(2 * wait, _LONGEST_PAUSE_S)
+                continue
+            wait, told = _FIRST_PAUSE_S, False
+            await self._meet(reader, writer, stop)
+            await pause(stop, wait)
+
+    async def _meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, stop: asyncio.Event) -> None:
+        """One connection, from its beginning to its end."""
+        self.counts["connections"] += 1
+        self._target = None
+        self._signals = asyncio.Queue()
+        self._set_connected(True)
+        self._say(f"{self._box.team} is connected to the referee box {self._box.host}:{self._box.port}")
+        stopped = asyncio.create_task(stop.wait())
+        tasks = [stopped, *(asyncio.create_task(one) for one in (self._hear(reader), self._obey(), self._tell(writer)))]
+        try:
+            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in tasks:
+                task.cancel()
+            ends = await asyncio.gather(*tasks, return_exceptions=True)
+            writer.transport.abort()
+            self._set_connected(False)
+        for end in ends:
+            if isinstance(end, Exception) and not isinstance(end, OSError):
+                raise end
+        if not stop.is_set():
+            self._say(f"the referee box is gone; {self.summary()}")
+
+    def summary(self) -> str:
+        """What came of it so far, in words."""
+        return ", ".join(f"{count} {what}" for what, count in sorted(self.counts.items()))
+
+    def _set_connected(self, connected: bool) -> None:
+        self.connected = connected
+        self._live.connect_refbox(self._box.team, connected=connected)
+
+    async def _hear(self, reader: asyncio.StreamReader) -> None:
+        framer = Framer(self._box.protocol)
+        while data := await reader.read(4096):
+            for message in framer.feed(data):
+                self._take(message)
+            self.counts["unreadable"] += framer.garbage
+            framer.garbage = 0
+
+    def _take(self, message: dict[str, Any] | str) -> None:
+        """Note a signal; which team is meant is told apart here, in the order the box said it."""
+        if isinstance(message, str):
+            signal, side = characters.read(message)
+            self._note(signal, side, None)
+            return
+        try:
+            command = commands.read(message)
+        except commands.NoCommandError as error:
+            self.counts["unreadable"] += 1
+            self._say(f"referee box: {error}")
+            return
+        if command.signal.name == "WELCOME" and command.target:
+            self._target = command.target
+        self._note(command.signal, self._side_of(command.target), command.robot)
+
+    def _note(self, signal: Signal, side: Side | None, robot: int | None) -> None:
+        self.counts["heard"] += 1
+        self._signals.put_nowait((signal, side, robot))
+
+    def _side_of(self, target: str) -> Side | None:
+        """Which side is meant: by the address of the welcome, or else by colour or name."""
+        if not target:
+            return None
+        own = self._box.team
+        if self._target is not None:
+            return own if target == self._target else own.opponent
+        names = {side.value: side for side in Side}
+        if self._live.setup is not None:
+            names = {team.name.lower(): side for side, team in self._live.setup.teams.items()} | names
+        return names.get(target.lower())
+
+    async def _obey(self) -> None:
+        """Pass on the signals, one after the other."""
+        while True:
+            signal, side, number = await self._signals.get()
+            while self._live.state is None or self._live.setup is None:
+                await asyncio.sleep(UPLOAD_S)  # a match that nobody has heard of yet cannot be officiated
+            if not is_ours(signal, side, self._box.team, self._live.refboxes):
+                continue
+            wanted = deeds(signal, side, self._robot(side, number), self._live.state)
+            if wanted.reason:
+                self.counts["untold"] += 1
+                self._say(f"referee box: {wanted.reason}")
+            await self._order(wanted.order, signal)
+            await self._act(wanted)
+
+    def _robot(self, side: Side | None, number: int | None) -> str | None:
+        sides = self._live.sides
+        numbers = numbers_of(sides)
+        return next((name for name, its in numbers.items() if its == number and sides[name] is side), None)
+
+    async def _act(self, wanted: Deeds) -> None:
+        """Ask for the actions; those after one that is refused are asked for all the same, as the box did."""
+        for action in wanted.actions:
+            if wanted.until_running and action is wanted.actions[-1]:
+                await self._start(action)
+            else:
+                await self._ask(action)
+
+    async def _ask(self, action: RefereeAction) -> None:
+        reply = await self._live.act(action)
+        self.counts["forwarded" if reply.accepted else "refused"] += 1
+        if not reply.accepted:
+            self._say(f"referee box: {reply.reason}")
+
+    async def _start(self, action: RefereeAction) -> None:
+        """Bring the game on until it runs, unless the box says something else meanwhile."""
+        until = self._live.now + _START_S
+        reason = ""
+        while self._signals.empty() and self._live.now < until and self._waits_for_start():
+            reply = await self._live.act(action)
+            reason = reply.reason
+            await asyncio.sleep(_START_AGAIN_S)  # the state that follows is on its way
+        lost = bool(reason) and self._waits_for_start()
+        self.counts["refused" if lost else "forwarded"] += 1
+        if lost:
+            self._say(f"referee box: {reason}")
+
+    def _waits_for_start(self) -> bool:
+        state = self._live.state
+        return state is not None and state.phase in WAITS_FOR_START and not state.running
+
+    async def _order(self, mode: CoachMode | None, signal: Signal) -> None:
+        """Send the robots to their places, and have them play again when the game goes on."""
+        if mode is None and self._parked and signal.phase is not None:
+            mode = CoachMode.PLAY
+        if mode is None:
+            return
+        self._parked = mode is CoachMode.PARK
+        for side in speaks_for(self._box.team, self._live.refboxes):
+            try:
+                await self._live.order(side, mode=mode)
+                self.counts["forwarded"] += 1
+            except TouchlineError as error:
+                self.counts["refused"] += 1
+                self._say(f"referee box: {error}")
+
+    async def _tell(self, writer: asyncio.StreamWriter) -> None:
+        """Send the newest world state at a steady rate; a box that does not read misses some, and at last the link."""
+        due = read_at = self._live.now
+        while True:
+            waiting = writer.transport.get_write_buffer_size()
+            if waiting < _UNREAD:
+                read_at = self._live.now
+                self._upload(writer)
+            elif self._live.now - read_at > _DEAF_S:
+                return
+            else:
+                self.counts["left out"] += 1
+            due = max(due + UPLOAD_S, self._live.now)
+            await asyncio.sleep(due - self._live.now)
+
+    def _upload(self, writer: asyncio.StreamWriter) -> None:
+        live, team = self._live, self._box.team
+        world, setup = live.world, live.setup
+        if world is None or setup is None:
+            return
+        view = own_view(team, setup, live.sides, live.state, world, live.beliefs([team]))
+        writer.write(json.dumps(view, separators=(",", ":")).encode() + b"\x00")
+        self.counts["uploaded"] += 1

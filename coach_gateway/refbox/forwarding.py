@@ -1,0 +1,146 @@
+"""What a base station of ours does about a signal of the league's referee box: one table. Pure.
+
+Two base stations of ours may hear one box: then each passes on what is meant for its own side, and cyan's what is meant
+for both.
+"""
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+
+from schemas.coach import CoachMode
+from schemas.game import REFBOX, RESTARTS, ActionName, EventKind, GameState, Phase, RefereeAction, Stage
+from schemas.league.signals import SIGNALS, Signal
+from schemas.side import Side
+
+BREAKS = (Phase.HALF_TIME, Phase.PARKING)
+"""Phases after which START begins the next half."""
+WAITS_FOR_START = RESTARTS | {Phase.PRE_GAME, Phase.STOPPED, *BREAKS}
+"""Phases that START leads on from, one step at a time."""
+
+
+@dataclass(frozen=True, slots=True)
+class Deeds:
+    """What is to be done about one signal."""
+
+    actions: tuple[RefereeAction, ...] = ()
+    """For the referee, one after the other."""
+    until_running: bool = False
+    """The last action is asked for again until the game runs: the box's START lets play begin at once, ours brings the
+    game on by one step."""
+    order: CoachMode | None = None
+    """For the sides that this base station speaks for."""
+    reason: str = ""
+    """Why nothing is done, where our game has no word for it."""
+
+
+_NOTHING = Deeds()
+_Rule = Callable[[Signal, "Side | None", "str | None", GameState], Deeds]
+
+
+def _action(name: ActionName, side: Side | None = None, robot: str | None = None) -> RefereeAction:
+    return RefereeAction(action=name, side=side, robot=robot, source=REFBOX)
+
+
+def _plain(name: ActionName) -> _Rule:
+    return lambda _signal, side, _robot, _state: Deeds((_action(name, side),))
+
+
+def _for_robot(name: ActionName) -> _Rule:
+    def rule(signal: Signal, side: Side | None, robot: str | None, _state: GameState) -> Deeds:
+        if robot is None:
+            return Deeds(reason=f"{signal.name} for {side} names no robot that plays")
+        return Deeds((_action(name, robot=robot),))
+
+    return rule
+
+
+def _start(_signal: Signal, _side: Side | None, _robot: str | None, state: GameState) -> Deeds:
+    waits = state.phase in WAITS_FOR_START and not state.running
+    return Deeds((_action(ActionName.START),), until_running=waits)
+
+
+def _restart(signal: Signal, side: Side | None, _robot: str | None, state: GameState) -> Deeds:
+    """The restart itself; after a break the half has to begin first, which signals the kick-off of the right side."""
+    if signal.phase is None or (state.phase, state.side, state.running) == (signal.phase, side, False):
+        return _NOTHING
+    wanted = _action(ActionName(signal.phase.value), side)
+    return Deeds((_action(ActionName.START), wanted) if state.phase in BREAKS else (wanted,))
+
+
+def _next_half(_signal: Signal, _side: Side | None, _robot: str | None, state: GameState) -> Deeds:
+    return Deeds((_action(ActionName.START),)) if state.phase in BREAKS else _NOTHING
+
+
+def _end(_signal: Signal, _side: Side | None, _robot: str | None, state: GameState) -> Deeds:
+    """The box ends the second half with it, and overtime may follow."""
+    goes_on = state.half > 1 and state.stage is not Stage.SHOOT_OUT
+    return Deeds((_action(ActionName.END_HALF if goes_on else ActionName.END_GAME),))
+
+
+def _park(_signal: Signal, _side: Side | None, _robot: str | None, _state: GameState) -> Deeds:
+    return Deeds(order=CoachMode.PARK)
+
+
+def _known(_signal: Signal, _side: Side | None, _robot: str | None, _state: GameState) -> Deeds:
+    """Our game need not be told."""
+    return _NOTHING
+
+
+def _untold(why: str) -> _Rule:
+    return lambda signal, _side, _robot, _state: Deeds(reason=f"{signal.name} {why}")
+
+
+_TEAM_MATTER = _untold("has no action of our referee; coaches give orders in test mode")
+_OLD = _untold("belongs to a protocol older than the league's rules here")
+
+FORWARD: Mapping[str, _Rule] = {
+    **{signal.name: _restart for signal in SIGNALS if signal.kind is EventKind.RESTART},
+    "START": _start,
+    "STOP": _plain(ActionName.STOP),
+    "HALT": _plain(ActionName.STOP),
+    "GOAL": _plain(ActionName.GOAL),
+    "SUBGOAL": _plain(ActionName.CANCEL_GOAL),
+    "YELLOW_CARD": _for_robot(ActionName.YELLOW_CARD),
+    "DOUBLE_YELLOW": _for_robot(ActionName.YELLOW_CARD),
+    "RED_CARD": _for_robot(ActionName.RED_CARD),
+    "REPAIR": _for_robot(ActionName.REPAIR),
+    "REPAIR_END": _for_robot(ActionName.ENTER),
+    "SUBSTITUTION": _for_robot(ActionName.SUBSTITUTE),
+    "HALF_TIME": _plain(ActionName.END_HALF),
+    "END_PART": _plain(ActionName.END_HALF),
+    "END_GAME": _end,
+    "GAMEOVER": _plain(ActionName.END_GAME),
+    "FIRST_HALF": _known,
+    "SECOND_HALF": _next_half,
+    "FIRST_HALF_OVERTIME": _next_half,
+    "SECOND_HALF_OVERTIME": _next_half,
+    "PARK": _park,
+    "WELCOME": _known,
+    "IS_ALIVE": _known,
+    "RESET": _untold("would begin the simulation anew; touchline scene reset does"),
+    "TESTMODE_ON": _TEAM_MATTER,
+    "TESTMODE_OFF": _TEAM_MATTER,
+    "READY": _OLD,
+    "CANCEL": _OLD,
+    "RESTART": _OLD,
+}
+"""Name of each signal → what it leads to."""
+
+
+def deeds(signal: Signal, side: Side | None, robot: str | None, state: GameState) -> Deeds:
+    """What a signal leads to: `side` is whom it is meant for, `robot` the name of the robot, if it names one."""
+    if signal.sided and side is None:
+        return Deeds(reason=f"{signal.name} does not tell which team is meant")
+    return FORWARD[signal.name](signal, side, robot, state)
+
+
+def speaks_for(own: Side, connected: Collection[Side]) -> tuple[Side, ...]:
+    """The sides that a base station speaks for: its own, and the other while nobody else does."""
+    return (own,) if own.opponent in connected else (own, own.opponent)
+
+
+def is_ours(signal: Signal, side: Side | None, own: Side, connected: Collection[Side]) -> bool:
+    """Whether the base station of `own` passes a signal on; base stations of the sides `connected` hear a box."""
+    if signal.sided and side is not None:
+        return side in speaks_for(own, connected)
+    return own is Side.CYAN or own.opponent not in connected

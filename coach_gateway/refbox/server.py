@@ -1,0 +1,204 @@
+"""Our referee in place of the league's box: team software that connects hears its commands and tells it of the world.
+
+Each command goes to everybody, with the address of the team that it means; WELCOME tells each its own. Somebody who
+does not read is dropped before what waits for it becomes much; nobody waits for anybody.
+"""
+
+import asyncio
+import contextlib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from coach_gateway.live import Live
+from coach_gateway.refbox import DEFAULT_PORT, commands
+from coach_gateway.refbox.commands import Command
+from coach_gateway.refbox.framing import Framer, Protocol
+from coach_gateway.refbox.identity import Identity, StrangerError, identify, targets
+from coach_gateway.refbox.narration import Narrator
+from coach_gateway.refbox.team_view import TeamView
+from schemas.errors import TouchlineError
+from schemas.game import GameState
+from schemas.league.calls import Call
+from schemas.league.numbers import numbers_of
+from schemas.league.signals import BY_NAME, START, STOP
+from schemas.side import Side
+
+MOST = 16
+"""Base stations at the same time; more are turned away."""
+UNREAD = 65_536
+"""Bytes that may wait for one that does not read. Ours: some thousand commands."""
+_SILENCE_S = 1.0
+"""s of wall time after which one that has not said who it is is welcomed all the same, with no team's address: some
+software waits for that before it says anything."""
+_WELCOME = BY_NAME["WELCOME"]
+
+
+@dataclass(frozen=True, slots=True)
+class Door:
+    """Where to listen; whoever comes to the door of one side belongs to it."""
+
+    port: int = DEFAULT_PORT
+    side: Side | None = None
+    host: str = "127.0.0.1"
+
+
+@dataclass(eq=False)
+class _Peer:
+    """One base station."""
+
+    writer: asyncio.StreamWriter
+    name: str
+    side: Side | None = None
+    framer: Framer = field(default_factory=lambda: Framer(Protocol.JSON))
+
+
+class RefBoxServer:
+    """Everybody who is connected."""
+
+    def __init__(
+        self,
+        live: Live,
+        doors: Sequence[Door],
+        say: Callable[[str], None],
+        of_token: Callable[[str], Side | None] = lambda _token: None,
+    ) -> None:
+        """`say` is given a line whenever people should know something; `of_token` tells whose coach has a token."""
+        self._live = live
+        self._doors = doors
+        self._say = say
+        self._of_token = of_token
+        self._narrator = Narrator()
+        self._addresses: dict[Side, str] = {}
+        self._peers: list[_Peer] = []
+        self.ports: list[int] = []
+        """Where it listens, once it does."""
+        self.views: dict[Side, TeamView] = {side: TeamView() for side in Side}
+        """What each team tells of the world."""
+        live.on_state.append(self._narrate)
+
+    async def serve(self, stop: asyncio.Event) -> None:
+        """Listen until `stop` is set.
+
+        Raises:
+            TouchlineError: a port is taken.
+        """
+        async with contextlib.AsyncExitStack() as stack:
+            for door in self._doors:
+                server = await stack.enter_async_context(await self._open(door))
+                self.ports.append(server.sockets[0].getsockname()[1])
+                whom = f"{door.side}'s base station" if door.side is not None else "base stations"
+                self._say(f"referee box for {whom} on {door.host}:{self.ports[-1]}")
+            await stop.wait()
+            for peer in self._peers:
+                peer.writer.transport.abort()
+
+    async def _open(self, door: Door) -> asyncio.Server:
+        try:
+            return await asyncio.start_server(lambda r, w: self._meet(r, w, door), door.host, door.port)
+        except OSError as error:
+            raise TouchlineError(
+                f"--refbox-server {door.port} cannot be listened on ({error.strerror}); choose another port, or 0"
+            ) from None
+
+    def tell(self, calls: Sequence[Call]) -> None:
+        """Send these commands to everybody."""
+        if calls and self._live.setup is not None:
+            called = self._targets()
+            numbers = numbers_of(self._live.sides)
+            text = b"".join(
+                commands.write(
+                    Command(call.signal, called[call.side] if call.side else "", numbers.get(call.robot or ""))
+                )
+                for call in calls
+            )
+            for peer in tuple(self._peers):
+                self._send(peer, text)
+
+    def _narrate(self, state: GameState) -> None:
+        self.tell(self._narrator.take(state, self._live.sides))
+
+    def _targets(self) -> dict[Side, str]:
+        return targets(self._names(), self._addresses)
+
+    def _names(self) -> dict[Side, str]:
+        setup = self._live.setup
+        return {side: setup.teams[side].name if setup is not None else side.value for side in Side}
+
+    async def _meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, door: Door) -> None:
+        """One connection, from its beginning to its end."""
+        host, port = writer.get_extra_info("peername")[:2]
+        peer = _Peer(writer, f"{host}:{port}")
+        if len(self._peers) >= MOST:
+            self._say(f"base station {peer.name} turned away: {MOST} are connected")
+            writer.transport.abort()
+            return
+        self._peers.append(peer)
+        late = asyncio.get_running_loop().call_later(_SILENCE_S, self._welcome, peer)
+        try:
+            if door.side is not None:
+                self._settle(peer, Identity(door.side))
+            while data := await reader.read(16_384):
+                for said in peer.framer.feed(data):
+                    if isinstance(said, dict):
+                        self._take(peer, said)
+        except (OSError, StrangerError) as error:
+            self._say(f"base station {peer.name}: {error}")
+        finally:
+            late.cancel()
+            self._forget(peer)
+
+    def _take(self, peer: _Peer, said: dict[str, Any]) -> None:
+        """One object of a base station: who it is, or how it sees the world.
+
+        Raises:
+            StrangerError: it says that it is somebody whom nobody knows.
+        """
+        if peer.side is None or said.get("type") == "hello":
+            identity = identify(said, self._names(), self._of_token)
+            if identity is not None:
+                self._settle(peer, identity)
+        if peer.side is not None and said.get("type") != "hello":
+            self.views[peer.side].take(said, self._live.now)
+
+    def _settle(self, peer: _Peer, identity: Identity) -> None:
+        """It is known who this is; one who was there for the team is replaced, and each team is told its address."""
+        for other in [other for other in self._peers if other is not peer and other.side is identity.side]:
+            self._say(f"{identity.side}'s base station {other.name} is replaced by {peer.name}")
+            self._drop(other)
+        changed = peer.side is not identity.side
+        peer.side = identity.side
+        if identity.address is not None:
+            changed = changed or self._addresses.get(peer.side) != identity.address
+            self._addresses[peer.side] = identity.address
+        if changed:
+            self._say(f"{peer.side}'s base station has come from {peer.name}")
+            self._welcome(peer)
+
+    def _welcome(self, peer: _Peer) -> None:
+        """Its own address, and whether the game runs: nobody plays on because it came late."""
+        address = self._targets()[peer.side] if peer.side is not None else ""
+        state = self._live.state
+        stands = START if state is not None and state.running else STOP
+        self._send(peer, commands.write(Command(_WELCOME, address)) + commands.write(Command(stands)))
+
+    def _send(self, peer: _Peer, text: bytes) -> None:
+        transport = peer.writer.transport
+        if transport.is_closing():
+            return
+        peer.writer.write(text)
+        if transport.get_write_buffer_size() > UNREAD:
+            self._say(f"base station {peer.name} does not read and is dropped")
+            self._drop(peer)
+
+    def _drop(self, peer: _Peer) -> None:
+        if peer in self._peers:
+            self._peers.remove(peer)
+        peer.writer.transport.abort()
+
+    def _forget(self, peer: _Peer) -> None:
+        self._drop(peer)
+        who = f"{peer.side}'s base station {peer.name}" if peer.side is not None else f"base station {peer.name}"
+        told = f"; {self.views[peer.side].summary()}" if peer.side is not None else ""
+        odd = f"; {peer.framer.garbage} pieces that were no message" if peer.framer.garbage else ""
+        self._say(f"{who} is gone{told}{odd}")
