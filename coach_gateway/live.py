@@ -37,7 +37,7 @@ class Live:
     def __init__(self, bus: Bus) -> None:
         self._bus = bus
         self._gateway = Gateway(bus)
-        self._states, self._events = bus.subscribe(STATE), bus.subscribe(EVENT)
+        self._states, self._events = bus.subscribe(STATE), bus.subscribe(EVENT, past=True)
         self._worlds = bus.subscribe(WORLD, newest=True)
         self._said = bus.subscribe(BELIEF, newest=True)
         self._watch = bus.watch_alive()
@@ -56,14 +56,11 @@ class Live:
         """Robot → its side, of those that take part."""
         self.state: GameState | None = None
         self.events: list[GameEvent] = []
-        """All since this gateway began, in order."""
+        """All that the host remembers, in order."""
         self.orders = OrderWatch(bus)
         self.unreadable = 0
         """Messages that could not be read; each was left out."""
-        self.on_state: list[Callable[[GameState], None]] = []
-        """Called for every state, in order."""
-        self.on_event: list[Callable[[GameEvent], None]] = []
-        """Called for every event, in order."""
+        self._followers: list[Callable[[GameState], None]] = []
 
     async def serve(self, stop: asyncio.Event) -> None:
         """Follow the match until `stop` is set."""
@@ -84,8 +81,6 @@ class Live:
         self._stale = self._stale or self._presence.gone()
         for event in self._messages(self._events):
             self.events.append(event)
-            for tell in self.on_event:
-                tell(event)
         for state in self._messages(self._states):
             self._take(state)
         self._world = self._worlds.receive() or self._world
@@ -115,6 +110,12 @@ class Live:
         said = {name: self._read(one) for name, one in self._newest.items() if self.sides.get(name) in wanted}
         return {name: belief for name, belief in sorted(said.items()) if belief is not None}
 
+    def follow(self, tell: Callable[[GameState], None]) -> None:
+        """Have every state told from now on, in order, beginning with the one that stands."""
+        self._followers.append(tell)
+        if self.state is not None:
+            tell(self.state)
+
     def connect_refbox(self, side: Side, *, connected: bool) -> None:
         """Tell everybody whether this side's base station hears a referee box: then others may only stop the game."""
         (self._bus.declare_alive if connected else self._bus.withdraw_alive)(REFBOX, side.value)
@@ -142,7 +143,7 @@ class Live:
         if self.state is not None and state.episode != self.state.episode:
             self._stale = True
         self.state = state
-        for tell in self.on_state:
+        for tell in self._followers:
             tell(state)
 
     def _learn(self) -> None:

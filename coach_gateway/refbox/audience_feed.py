@@ -39,7 +39,7 @@ class AudienceFeed:
         self._audience = Audience()
         self._narrator = Narrator()
         self._transport: asyncio.DatagramTransport | None = None
-        live.on_state.append(self._narrate)
+        live.follow(self._narrate)
 
     async def serve(self, stop: asyncio.Event) -> None:
         """Send until `stop` is set.

@@ -72,4 +72,4 @@ def _robot(value: Any) -> int | None:
         value = int(value) if value.isascii() and value.isdigit() and len(value) < 4 else None
     if isinstance(value, float) and value.is_integer():
         value = int(value)
-    return value if isinstance(value, int) and not isinstance(value, bool) and value >= 0 else None
+    return value if isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 1000 else None

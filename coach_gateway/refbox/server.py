@@ -75,7 +75,7 @@ class RefBoxServer:
         """Where it listens, once it does."""
         self.views: dict[Side, TeamView] = {side: TeamView() for side in Side}
         """What each team tells of the world."""
-        live.on_state.append(self._narrate)
+        live.follow(self._narrate)
 
     async def serve(self, stop: asyncio.Event) -> None:
         """Listen until `stop` is set.
@@ -134,7 +134,7 @@ class RefBoxServer:
             writer.transport.abort()
             return
         self._peers.append(peer)
-        late = asyncio.get_running_loop().call_later(_SILENCE_S, self._welcome, peer)
+        late = asyncio.get_running_loop().call_later(_SILENCE_S, self._welcome_stranger, peer)
         try:
             if door.side is not None:
                 self._settle(peer, Identity(door.side))
@@ -173,6 +173,10 @@ class RefBoxServer:
             self._addresses[peer.side] = identity.address
         if changed:
             self._say(f"{peer.side}'s base station has come from {peer.name}")
+            self._welcome(peer)
+
+    def _welcome_stranger(self, peer: _Peer) -> None:
+        if peer.side is None:
             self._welcome(peer)
 
     def _welcome(self, peer: _Peer) -> None:

@@ -1,0 +1,160 @@
+"""A match for bridges: a host that says what the test wants, or a real one that is stepped, on the in-process bus."""
+
+import asyncio
+from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine
+from contextlib import asynccontextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+import pytest
+
+from coach_gateway.live import Live
+from schemas.bus.contract import Bus
+from schemas.bus.in_process import Medium
+from schemas.clock import WallClock
+from schemas.coach import CoachOrder
+from schemas.command import Radio
+from schemas.game import ActionReply, EventKind, GameEvent, GameState, Phase, RefereeAction
+from schemas.host import Belief, Setup
+from schemas.match_config import MatchConfig, load_match
+from schemas.profile import load_profile
+from schemas.rule_book import load_rule_book
+from schemas.side import Side
+from schemas.topics import ACTION, BELIEF, EVENT, ORDER, SETUP, STATE, WORLD
+from schemas.world import BallTruth, RobotTruth, World
+
+LIMIT_S = 30.0
+"""No condition on loopback takes so long: only what never comes fails."""
+MATCH = "friendly"
+
+
+async def until(condition: Callable[[], Any], what: str = "") -> None:
+    """Wait for a condition."""
+    deadline = asyncio.get_running_loop().time() + LIMIT_S
+    while not condition():
+        assert asyncio.get_running_loop().time() < deadline, f"never came: {what or condition}"
+        await asyncio.sleep(0.005)
+
+
+class Stage:
+    """A host that says what it is told to say, answers how the match is set up, and notes what it is asked for."""
+
+    def __init__(self, medium: Medium, config: MatchConfig) -> None:
+        self.medium = medium
+        self.config = config
+        self.bus: Bus = medium.seat(MATCH, WallClock())
+        self._setups, self._actions = self.bus.serve(SETUP), self.bus.serve(ACTION)
+        self._states, self._events = self.bus.publisher(STATE), self.bus.publisher(EVENT)
+        self._worlds = self.bus.publisher(WORLD)
+        self._orders = self.bus.subscribe(ORDER)
+        self.setup = Setup.of(config, load_profile("msl"), load_rule_book("friendly"))
+        self.state = GameState(tick=0, time=0.0, phase=Phase.PRE_GAME)
+        self.asked: list[RefereeAction] = []
+        self.orders: list[tuple[Side, CoachOrder]] = []
+        self.answer: Callable[[RefereeAction], ActionReply] = lambda _action: ActionReply(accepted=True)
+        self.bus.declare_alive("host", "host")
+
+    def say(self, **changes: Any) -> None:
+        """The game goes on to another state."""
+        tick = self.state.tick + 1
+        self.state = self.state.model_copy(update={"tick": tick, "time": tick * 0.02, **changes})
+        self._states.put(self.state)
+
+    def tell(self, text: str) -> None:
+        """Something happens."""
+        moment = {"tick": self.state.tick, "time": self.state.time, "clock": 0.0}
+        self._events.put(GameEvent(**moment, kind=EventKind.ACTION, rule="test", text=text))
+
+    def show(self, **changes: Any) -> World:
+        """A tick of the world: every robot on a spot of its own, facing its opponents' goal."""
+        robots = {
+            name: RobotTruth(
+                x=-side.attack(1) * (1.0 + number),
+                y=0.5 * number,
+                z=0.4,
+                heading=0.0 if side is Side.CYAN else 3.0,
+                vx=1.0,
+                vy=0.0,
+                omega=0.5,
+                holding=name == "cyan2",
+            )
+            for side in Side
+            for number, name in enumerate(self.config.robots(side))
+        }
+        ball = BallTruth(x=2.0, y=-1.0, z=0.11, vx=3.0, vy=0.0, vz=0.0)
+        content = {"tick": self.state.tick, "time": self.state.time, "robots": robots, "ball": ball}
+        world = World(**{**content, **changes})
+        self._worlds.put(world)
+        return world
+
+    def believe(self, robot: str, radio: Radio) -> None:
+        """A robot says a word."""
+        side = next(side for side in Side if robot in self.config.robots(side))
+        word = Belief(tick=self.state.tick, time=self.state.time, robot=robot, radio=radio)
+        self.bus.publisher(BELIEF, side=side.value, robot=robot).put(word)
+
+    async def serve(self, stop: asyncio.Event) -> None:
+        while not stop.is_set():
+            while (question := self._setups.receive()) is not None:
+                question.answer(self.setup)
+            while (question := self._actions.receive()) is not None:
+                action = question.message()
+                self.asked.append(action)
+                question.answer(self.answer(action))
+            while (received := self._orders.receive()) is not None:
+                self.orders.append((Side(received.chunks["side"]), received.message()))
+            await asyncio.sleep(0.002)
+
+
+@dataclass
+class Bench:
+    """Services beside a host, all in one event loop."""
+
+    stage: Stage
+    live: Live
+    stop: asyncio.Event = field(default_factory=asyncio.Event)
+    tasks: list[asyncio.Task[None]] = field(default_factory=list)
+    said: list[str] = field(default_factory=list)
+    """What services said to people."""
+
+    def start(self, service: Any) -> asyncio.Task[None]:
+        self.tasks.append(asyncio.create_task(service.serve(self.stop)))
+        return self.tasks[-1]
+
+    async def end(self) -> None:
+        self.stop.set()
+        await asyncio.gather(*self.tasks)
+
+
+@asynccontextmanager
+async def opened(**teams: Any) -> AsyncIterator[Bench]:
+    """A bench whose gateway knows the match; the words are the match file's."""
+    medium = Medium()
+    sizes = {f"teams.{side}.size": 3 for side in Side}
+    stage = Stage(medium, load_match(None, {**sizes, **teams}))
+    bench = Bench(stage, Live(medium.seat(MATCH, WallClock())))
+    bench.start(stage)
+    bench.start(bench.live)
+    try:
+        await until(lambda: bench.live.setup is not None, "the setup")
+        stage.say()
+        await until(lambda: bench.live.state is not None, "the state")
+        yield bench
+    finally:
+        await bench.end()
+        await asyncio.sleep(0)  # transports that were closed are gone only now
+
+
+Opened = Callable[..., Any]
+Run = Callable[[Coroutine[Any, Any, None]], None]
+Until = Callable[..., Awaitable[None]]
+
+
+@pytest.fixture(name="opened")
+def _opened() -> Opened:
+    return opened
+
+
+@pytest.fixture(name="until")
+def _until() -> Until:
+    return until

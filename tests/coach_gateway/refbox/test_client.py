@@ -1,0 +1,342 @@
+"""Our base station at a small referee box, written from the protocol's tables, over real sockets."""
+
+import asyncio
+import json
+from collections.abc import Callable
+from contextlib import asynccontextmanager
+from typing import Any
+
+import pytest
+
+from coach_gateway.refbox.client import BoxAddress, RefBoxClient
+from coach_gateway.refbox.framing import Protocol
+from schemas.coach import CoachMode
+from schemas.game import REFBOX, ActionName, ActionReply, Phase, RefereeAction
+from schemas.side import Side
+
+CYAN_AT, MAGENTA_AT = "224.16.32.44", "224.16.32.55"
+RESTARTS = {"KICKOFF": "kick_off", "FREEKICK": "free_kick", "GOALKICK": "goal_kick", "THROWIN": "throw_in"}
+RESTARTS |= {"CORNER": "corner", "PENALTY": "penalty"}
+
+
+class Box:
+    """A referee box: whoever connects is welcomed with its address, and everybody hears everything."""
+
+    def __init__(self, greets: bool = True, reads: bool = True) -> None:
+        self.greets = greets
+        self.reads = reads
+        self.links: list[asyncio.StreamWriter] = []
+        self.came = 0
+        self.states: list[Any] = []
+        """World states that came."""
+
+    async def open(self, port: int = 0) -> int:
+        self._server = await asyncio.start_server(self._meet, "127.0.0.1", port, limit=2**20)
+        return int(self._server.sockets[0].getsockname()[1])
+
+    async def close(self) -> None:
+        self._server.close()
+        self.hang_up()
+        await asyncio.sleep(0)
+
+    def hang_up(self) -> None:
+        for link in self.links:
+            link.transport.abort()
+        self.links.clear()
+
+    def send(self, data: bytes) -> None:
+        for link in self.links:
+            link.write(data)
+
+    def say(self, command: str, target: str = "", **more: Any) -> None:
+        self.send(json.dumps({"command": command, "targetTeam": target, **more}).encode() + b"\x00")
+
+    async def _meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        if self.greets:
+            target = (CYAN_AT, MAGENTA_AT)[self.came % 2]
+            writer.write(json.dumps({"command": "WELCOME", "targetTeam": target}).encode() + b"\x00")
+        self.links.append(writer)
+        self.came += 1
+        try:
+            while self.reads:
+                self.states.append(json.loads((await reader.readuntil(b"\x00"))[:-1]))
+            await asyncio.Event().wait()
+        except (OSError, asyncio.IncompleteReadError):
+            writer.transport.abort()
+
+
+@pytest.fixture
+def met(opened: Callable[..., Any], until: Any) -> Callable[..., Any]:
+    """A box, and a base station of ours that is connected to it, beside a host."""
+
+    @asynccontextmanager
+    async def make(protocol: Protocol = Protocol.AUTO, team: Side = Side.CYAN, **box_is: Any) -> Any:
+        async with opened() as bench:
+            box = Box(**box_is)
+            port = await box.open()
+            client = RefBoxClient(bench.live, BoxAddress(team, "127.0.0.1", port, protocol), bench.said.append)
+            bench.start(client)
+            try:
+                await until(lambda: box.links, "the connection")
+                yield bench, box, client
+            finally:
+                bench.stop.set()
+                await box.close()
+
+    return make
+
+
+def asked(bench: Any) -> list[str]:
+    """What the referee was asked for: `corner cyan`, `repair cyan2`."""
+    assert all(action.source == REFBOX for action in bench.stage.asked)
+    return [" ".join(filter(None, (action.action, action.side, action.robot))) for action in bench.stage.asked]
+
+
+def test_every_restart_in_json_reaches_the_referee_for_the_right_side(met: Any, until: Any) -> None:
+    """Reference 13, row 33: with the addresses of the box, of which the first welcomed is ours."""
+
+    async def play() -> None:
+        async with met() as (bench, box, _):
+            bench.stage.say(phase=Phase.STOPPED)
+            for name in RESTARTS:
+                box.say(name, CYAN_AT)
+                box.say(name, MAGENTA_AT, robotID=-1)
+            await until(lambda: len(bench.stage.asked) == 2 * len(RESTARTS))
+            assert asked(bench) == [f"{word} {side}" for word in RESTARTS.values() for side in Side]
+
+    asyncio.run(play())
+
+
+def test_every_restart_as_a_character_reaches_the_referee_for_the_right_side(met: Any, until: Any) -> None:
+    async def play() -> None:
+        async with met(greets=False) as (bench, box, client):
+            bench.stage.say(phase=Phase.STOPPED)
+            box.send(b"WKkFfGgTtCcPpN")
+            await until(lambda: len(bench.stage.asked) == 2 * len(RESTARTS) + 1)
+            expected = [f"{word} {side}" for word in RESTARTS.values() for side in Side]
+            assert asked(bench) == [*expected, "drop_ball"]
+            assert client.counts["unreadable"] == 0
+
+    asyncio.run(play())
+
+
+@pytest.mark.parametrize("protocol", [Protocol.AUTO, Protocol.JSON])
+def test_fragments_and_several_commands_in_one_packet_are_all_heard(protocol: Protocol, met: Any, until: Any) -> None:
+    async def play() -> None:
+        async with met(protocol) as (bench, box, _):
+            bench.stage.say(phase=Phase.STOPPED)
+            text = b"".join(
+                json.dumps({"command": name, "targetTeam": CYAN_AT}).encode() + b"\x00" for name in RESTARTS
+            )
+            for at in range(0, len(text), 7):
+                box.send(text[at : at + 7])
+                await asyncio.sleep(0.002)
+            box.send(text)
+            await until(lambda: len(bench.stage.asked) == 2 * len(RESTARTS))
+            assert asked(bench) == [f"{word} cyan" for word in RESTARTS.values()] * 2
+
+    asyncio.run(play())
+
+
+def test_garbage_between_commands_is_counted_and_the_next_one_heard(met: Any, until: Any) -> None:
+    async def play() -> None:
+        async with met() as (bench, box, client):
+            bench.stage.say(phase=Phase.STOPPED)
+            box.send(b"\xff\xfe{{{\x00[1]\x00" + b"x" * 100_000 + b"\x00")
+            box.say("DANCE")
+            box.say("CORNER", MAGENTA_AT)
+            await until(lambda: bench.stage.asked)
+            assert asked(bench) == ["corner magenta"]
+            await until(lambda: client.counts["unreadable"] == 5)  # a broken piece counts what is before its brace, too
+            assert any('"DANCE" is no command' in line for line in bench.said)
+
+    asyncio.run(play())
+
+
+def test_cards_repairs_and_substitutions_find_their_robot_by_its_number(met: Any, until: Any) -> None:
+    async def play() -> None:
+        async with met() as (bench, box, client):
+            bench.stage.say(phase=Phase.STOPPED)
+            box.say("YELLOW_CARD", CYAN_AT, robotID=2)
+            box.say("REPAIR", MAGENTA_AT, robotID="3")
+            box.say("RED_CARD", MAGENTA_AT, robotID=-1)
+            box.say("SUBSTITUTION", CYAN_AT, robotID=9)
+            box.say("REPAIR_END", MAGENTA_AT, robotID=3)
+            await until(lambda: len(bench.stage.asked) == 3)
+            assert asked(bench) == ["yellow_card cyan2", "repair magenta3", "enter magenta3"]
+            assert client.counts["untold"] == 2
+            assert any("RED_CARD for magenta names no robot" in line for line in bench.said)
+
+    asyncio.run(play())
+
+
+def test_start_lets_the_game_run_though_our_referee_takes_it_in_steps(met: Any, until: Any) -> None:
+    """The box's START after its kick-off lets play begin; ours first signals, waits for the ball, then starts."""
+
+    async def play() -> None:
+        async with met() as (bench, box, _):
+            bench.stage.say(phase=Phase.STOPPED)
+            steps: list[dict[str, Any] | str] = [
+                {"phase": Phase.KICK_OFF, "side": Side.CYAN},
+                "the ball is being put back",
+                {"running": True},
+            ]
+
+            def answer(action: RefereeAction) -> ActionReply:
+                step = steps.pop(0)
+                if isinstance(step, str):
+                    return ActionReply(accepted=False, reason=step)
+                bench.stage.say(**step)
+                return ActionReply(accepted=True)
+
+            bench.stage.answer = answer
+            box.say("START")
+            await until(lambda: bench.live.state.running)
+            await asyncio.sleep(0.2)
+            assert asked(bench) == ["start", "start", "start"]
+            assert not any("put back" in line for line in bench.said)
+
+    asyncio.run(play())
+
+
+def test_a_stop_is_not_held_up_by_a_start_that_leads_nowhere(met: Any, until: Any) -> None:
+    async def play() -> None:
+        async with met() as (bench, box, client):
+            bench.stage.say(phase=Phase.STOPPED)
+            bench.stage.answer = lambda action: ActionReply(
+                accepted=action.action is not ActionName.START, reason="not now"
+            )
+            box.say("START")
+            await until(lambda: len(bench.stage.asked) > 1)
+            box.say("STOP")
+            await until(lambda: asked(bench)[-1] == "stop")
+            assert client.counts["refused"] == 1
+            assert "referee box: not now" in bench.said
+
+    asyncio.run(play())
+
+
+def test_park_is_ordered_to_the_robots_and_the_next_command_has_them_play(met: Any, until: Any) -> None:
+    async def play() -> None:
+        async with met() as (bench, box, _):
+            bench.stage.say(phase=Phase.HALF_TIME)
+            box.say("PARK")
+            await until(lambda: len(bench.stage.orders) == 2)
+            bench.stage.say(phase=Phase.STOPPED, half=2)
+            await until(lambda: bench.live.state.half == 2)
+            box.say("KICKOFF", MAGENTA_AT)
+            await until(lambda: len(bench.stage.orders) == 4)
+            modes = [(side, order.mode) for side, order in bench.stage.orders]
+            assert modes == [(side, mode) for mode in (CoachMode.PARK, CoachMode.PLAY) for side in Side]
+
+    asyncio.run(play())
+
+
+def test_the_world_is_uploaded_at_ten_hertz_or_more_in_the_leagues_schema(
+    met: Any, until: Any, check_world_state: Callable[[Any], None]
+) -> None:
+    """Reference 13, row 35."""
+
+    async def play() -> None:
+        async with met(team=Side.MAGENTA) as (bench, box, client):
+            bench.stage.show()
+            began = bench.live.now
+            await until(lambda: len(box.states) >= 30)
+            asked_for = (bench.live.now - began) * 10
+            assert client.counts["uploaded"] + client.counts["left out"] >= min(30, asked_for)
+            for state in box.states:
+                check_world_state(state)
+            assert [robot["id"] for robot in box.states[-1]["robots"]] == [1, 2, 3]
+            assert box.states[-1]["robots"][0]["pose"][:2] == [0.0, -1.0]  # behind the centre, on its own half
+            assert box.states[-1]["balls"][0]["position"] == [-1.0, -2.0, 0.11]
+
+    asyncio.run(play())
+
+
+def test_manual_actions_are_locked_while_the_link_is_up_and_not_after(met: Any, until: Any) -> None:
+    async def play() -> None:
+        async with met() as (bench, box, _):
+            watch = bench.stage.bus.watch_alive()
+            seen = [presence for presence in iter(watch.receive, None) if presence.kind == REFBOX]
+            assert [(one.name, one.alive) for one in seen] == [("cyan", True)]
+            await until(lambda: bench.live.refboxes == [Side.CYAN])
+            await box.close()
+            await until(lambda: bench.live.refboxes == [])
+            gone = [presence for presence in iter(watch.receive, None) if presence.kind == REFBOX]
+            assert [(one.name, one.alive) for one in gone] == [("cyan", False)]
+
+    asyncio.run(play())
+
+
+def test_a_link_that_breaks_in_the_middle_of_a_command_is_made_again(met: Any, until: Any) -> None:
+    async def play() -> None:
+        async with met() as (bench, box, client):
+            bench.stage.say(phase=Phase.STOPPED)
+            box.came = 0  # whoever comes next is welcomed as the first one was
+            box.send(b'{"command": "CORNER", "targetTe')
+            await asyncio.sleep(0.02)
+            box.hang_up()
+            await until(lambda: client.counts["connections"] == 2 and box.links)
+            box.say("THROWIN", CYAN_AT)
+            await until(lambda: bench.stage.asked)
+            assert asked(bench) == ["throw_in cyan"]
+
+    asyncio.run(play())
+
+
+def test_a_box_that_comes_late_is_met(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            box = Box()
+            port = await box.open()
+            await box.close()
+            client = RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append)
+            bench.start(client)
+            await until(lambda: any("is not there" in line for line in bench.said))
+            await box.open(port)
+            await until(lambda: client.connected)
+            assert sum("is not there" in line for line in bench.said) == 1
+            bench.stop.set()
+            await box.close()
+
+    asyncio.run(play())
+
+
+def test_a_box_that_never_reads_misses_world_states_and_holds_nobody_up(
+    met: Any, until: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("coach_gateway.refbox.client._UNREAD", 20_000)
+    monkeypatch.setattr("coach_gateway.refbox.client.UPLOAD_S", 0.0005)
+
+    async def play() -> None:
+        async with met(reads=False) as (bench, box, client):
+            bench.stage.say(phase=Phase.STOPPED)
+            bench.stage.show()
+            await until(lambda: client.counts["left out"] > 20, "a full pipe")
+            box.say("CORNER", CYAN_AT)
+            await until(lambda: bench.stage.asked)
+            assert asked(bench) == ["corner cyan"]
+
+    asyncio.run(play())
+
+
+def test_two_base_stations_of_ours_at_one_box_pass_each_command_on_once(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            box = Box()
+            port = await box.open()
+            for number, team in enumerate(Side, 1):
+                bench.start(RefBoxClient(bench.live, BoxAddress(team, "127.0.0.1", port), bench.said.append))
+                await until(lambda number=number: len(box.links) == number)
+            await until(lambda: bench.live.refboxes == list(Side))
+            bench.stage.say(phase=Phase.STOPPED)
+            box.say("GOAL", CYAN_AT)
+            box.say("GOAL", MAGENTA_AT)
+            box.say("DROP_BALL")
+            await until(lambda: len(bench.stage.asked) == 3)
+            await asyncio.sleep(0.1)
+            assert sorted(asked(bench)) == ["drop_ball", "goal cyan", "goal magenta"]
+            bench.stop.set()
+            await box.close()
+
+    asyncio.run(play())

@@ -1,0 +1,360 @@
+"""Our referee as a referee box: small base stations, written from the protocol's tables, over real sockets."""
+
+import asyncio
+import json
+import socket
+from collections.abc import Callable
+from contextlib import asynccontextmanager
+from typing import Any
+
+import pytest
+
+from coach_gateway.refbox import server as server_module
+from coach_gateway.refbox.audience_feed import AudienceFeed
+from coach_gateway.refbox.server import Door, RefBoxServer
+from schemas.errors import TouchlineError
+from schemas.game import OffField, Phase, Score, Standing
+from schemas.league.calls import Call
+from schemas.league.signals import BY_NAME
+from schemas.side import Side
+
+
+class Team:
+    """A base station: hears commands, and may say something."""
+
+    def __init__(self, port: int) -> None:
+        self.port = port
+        self.heard: list[dict[str, Any]] = []
+        self.gone = False
+
+    async def come(self) -> "Team":
+        self._reader, self.writer = await asyncio.open_connection("127.0.0.1", self.port)
+        self._task = asyncio.create_task(self._hear())
+        return self
+
+    def say(self, **said: Any) -> None:
+        self.writer.write(json.dumps(said).encode() + b"\x00")
+
+    async def leave(self) -> None:
+        self.writer.transport.abort()
+        await self._task
+
+    async def _hear(self) -> None:
+        try:
+            while True:
+                self.heard.append(json.loads((await self._reader.readuntil(b"\x00"))[:-1]))
+        except (OSError, asyncio.IncompleteReadError):
+            self.gone = True
+            self.writer.transport.abort()
+
+    def commands(self) -> list[str]:
+        """`KICKOFF SAPPHIRE`, `REPAIR RUBY 3`."""
+        return [" ".join(str(word) for word in one.values() if word != "") for one in self.heard]
+
+
+@pytest.fixture
+def boxed(opened: Callable[..., Any], until: Any) -> Callable[..., Any]:
+    """Our box beside a host, and a way to have base stations come."""
+
+    @asynccontextmanager
+    async def make(*doors: Door, **settings: Any) -> Any:
+        names = {"teams.cyan.name": "Sapphire", "teams.magenta.name": "Ruby"} | settings.pop("names", {})
+        async with opened(**names) as bench:
+            box = RefBoxServer(bench.live, doors or (Door(0),), bench.said.append, **settings)
+            bench.start(box)
+            await until(lambda: len(box.ports) == max(1, len(doors)))
+            teams: list[Team] = []
+
+            async def come(port: int | None = None, **hello: Any) -> Team:
+                teams.append(await Team(port or box.ports[0]).come())
+                if hello:
+                    teams[-1].say(type="hello", **hello)
+                    await until(lambda: teams[-1].heard or teams[-1].gone)
+                return teams[-1]
+
+            try:
+                yield bench, box, come
+            finally:
+                for team in teams:
+                    await team.leave()
+                await bench.end()
+
+    return make
+
+
+def world_state(team: str, **more: Any) -> dict[str, Any]:
+    return {
+        "type": "worldstate",
+        "teamName": team,
+        "intention": "",
+        "robots": [],
+        "balls": [],
+        "obstacles": [],
+        "ageMs": 0,
+        **more,
+    }
+
+
+def test_a_whole_game_is_told_to_both_teams_in_the_leagues_words(boxed: Any, until: Any) -> None:
+    """Reference 13, row 34; cards and repairs follow at the next change of the game (reference 9.3)."""
+
+    async def play() -> None:
+        async with boxed() as (bench, _, come):
+            cyan, magenta = await come(team="cyan"), await come(team="Ruby")
+            say = bench.stage.say
+            say(phase=Phase.KICK_OFF, side=Side.CYAN)
+            say(running=True)
+            say(phase=Phase.PLAY, side=None)
+            say(robots={"magenta2": Standing(yellow=1), "cyan3": Standing(off_field=OffField.REPAIR)})
+            say(phase=Phase.STOPPED, running=False, score=Score(magenta=1))
+            say(robots={"magenta2": Standing(yellow=1), "cyan1": Standing(off_field=OffField.SUBSTITUTION)})
+            say(phase=Phase.CORNER, side=Side.MAGENTA)
+            say(running=True)
+            say(phase=Phase.HALF_TIME, side=None, running=False)
+            say(phase=Phase.KICK_OFF, side=Side.MAGENTA, half=2)
+            say(phase=Phase.FULL_TIME, side=None)
+            await until(lambda: "END_GAME" in cyan.commands() and "END_GAME" in magenta.commands())
+            game = [
+                *("FIRST_HALF", "KICKOFF Sapphire", "START"),
+                *("STOP", "GOAL Ruby", "REPAIR Sapphire 3", "YELLOW_CARD Ruby 2"),
+                *("SUBSTITUTION Sapphire 1", "CORNER Ruby", "REPAIR_END Sapphire 3", "START", "HALF_TIME"),
+                *("SECOND_HALF", "KICKOFF Ruby", "END_GAME"),
+            ]
+            assert cyan.commands() == ["WELCOME Sapphire", "STOP", *game]
+            assert magenta.commands() == ["WELCOME Ruby", "STOP", *game]
+
+    asyncio.run(play())
+
+
+def test_a_team_may_be_called_by_an_address_of_its_own(boxed: Any, until: Any) -> None:
+    async def play() -> None:
+        async with boxed() as (bench, _, come):
+            cyan = await come(team="Sapphire", address="224.16.32.44")
+            assert cyan.commands()[0] == "WELCOME 224.16.32.44"
+            bench.stage.say(phase=Phase.CORNER, side=Side.CYAN)
+            await until(lambda: "CORNER 224.16.32.44" in cyan.commands())
+
+    asyncio.run(play())
+
+
+def test_a_team_against_itself_is_told_apart_by_its_suffix(boxed: Any) -> None:
+    """Reference 14, defect 18: nothing hangs on the address that a base station comes from."""
+
+    async def play() -> None:
+        async with boxed(names={"teams.cyan.name": "Twins", "teams.magenta.name": "Twins"}) as (_, _, come):
+            cyan, magenta = await come(team="cyan"), await come(team="magenta")
+            assert cyan.commands()[0] == "WELCOME Twins"
+            assert magenta.commands()[0] == "WELCOME Twins:1"
+            assert (await come(team="Twins")).gone
+
+    asyncio.run(play())
+
+
+def test_a_token_tells_the_side_and_a_wrong_one_is_turned_away(boxed: Any) -> None:
+    async def play() -> None:
+        tokens = {"secret-of-magenta": Side.MAGENTA}
+        async with boxed(of_token=tokens.get) as (bench, _, come):
+            right = await come(token="secret-of-magenta")
+            assert right.commands()[0] == "WELCOME Ruby"
+            assert (await come(token="guessed", team="cyan")).gone
+            assert any("the token is nobody's" in line for line in bench.said)
+
+    asyncio.run(play())
+
+
+def test_software_that_knows_no_hello_is_known_by_its_world_states_or_by_its_port(boxed: Any, until: Any) -> None:
+    async def play() -> None:
+        async with boxed(Door(0), Door(0, Side.CYAN)) as (_, box, come):
+            by_state = await come()
+            by_state.say(**world_state("ruby"))
+            await until(lambda: by_state.heard)
+            assert by_state.commands()[0] == "WELCOME Ruby"
+            by_port = await come(box.ports[1])
+            await until(lambda: by_port.heard)
+            assert by_port.commands()[0] == "WELCOME Sapphire"
+
+    asyncio.run(play())
+
+
+def test_who_says_nothing_is_welcomed_as_nobody_and_hears_the_game(
+    boxed: Any, until: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(server_module, "_SILENCE_S", 0.02)
+
+    async def play() -> None:
+        async with boxed() as (bench, _, come):
+            shy = await come()
+            await until(lambda: shy.heard)
+            bench.stage.say(phase=Phase.CORNER, side=Side.CYAN)
+            await until(lambda: len(shy.heard) == 4)
+            assert shy.commands() == ["WELCOME", "STOP", "FIRST_HALF", "CORNER Sapphire"]
+
+    asyncio.run(play())
+
+
+def test_who_comes_while_the_game_runs_is_told_that_it_runs(boxed: Any, until: Any) -> None:
+    async def play() -> None:
+        async with boxed() as (bench, _, come):
+            bench.stage.say(phase=Phase.PLAY, running=True)
+            await until(lambda: bench.live.state.running)
+            late = await come(team="cyan")
+            await until(lambda: len(late.heard) == 2)
+            assert late.commands() == ["WELCOME Sapphire", "START"]
+
+    asyncio.run(play())
+
+
+def test_a_base_station_that_comes_again_replaces_the_one_before(boxed: Any, until: Any) -> None:
+    async def play() -> None:
+        async with boxed() as (bench, _, come):
+            first = await come(team="cyan")
+            second = await come(team="cyan")
+            await until(lambda: first.gone)
+            bench.stage.say(phase=Phase.CORNER, side=Side.CYAN)
+            await until(lambda: "CORNER Sapphire" in second.commands())
+
+    asyncio.run(play())
+
+
+def test_world_states_are_read_leniently_and_counted(boxed: Any, until: Any) -> None:
+    """Reference 9.6; reference 13, row 35."""
+
+    async def play() -> None:
+        async with boxed() as (bench, box, come):
+            team = await come(team="cyan")
+            team.say(**world_state("Sapphire", robots=[{"id": 1, "pose": [0.1, -8.0, 0.0]}]))
+            team.say(**world_state("Sapphire", robots=[{"ID": 2.0, "Pose": [0.1, None]}]))
+            team.say(type="worldstate", TeamName="Sapphire", robots=[])
+            team.writer.write(b'{"half a state": [1, 2\x00')
+            team.say(hello="world")
+            view = box.views[Side.CYAN]
+            await until(lambda: view.states == 3 and view.others == 1)
+            found = {finding.what: finding.count for finding in [*view.findings.coped, *view.findings.lost]}
+            assert found["robot without a position"] == 1
+            assert found["worldstate without balls"] == 1
+            await team.leave()
+            await until(lambda: any("3 world states" in line and "1 pieces" in line for line in bench.said))
+
+    asyncio.run(play())
+
+
+def test_a_base_station_that_never_reads_is_dropped_and_the_others_hear_everything(
+    boxed: Any, until: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def play() -> None:
+        async with boxed() as (bench, box, come):
+            deaf = socket.socket()
+            deaf.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 2048)
+            deaf.setblocking(False)
+            await asyncio.get_running_loop().sock_connect(deaf, ("127.0.0.1", box.ports[0]))
+            await asyncio.get_running_loop().sock_sendall(deaf, b'{"type": "hello", "team": "magenta"}\x00')
+            cyan = await come(team="cyan")
+            told = 0
+            while not any("does not read and is dropped" in line for line in bench.said):
+                box.tell([Call(BY_NAME["CORNER"], Side.CYAN)] * 1000)
+                told += 1000
+                assert told < 1_000_000
+                await until(lambda told=told: len(cyan.heard) == told + 2)
+            assert not cyan.gone
+            deaf.close()
+
+    asyncio.run(play())
+
+
+def test_a_base_station_that_goes_in_the_middle_of_a_word_stops_nobody(boxed: Any, until: Any) -> None:
+    async def play() -> None:
+        async with boxed() as (bench, _, come):
+            cyan, magenta = await come(team="cyan"), await come(team="magenta")
+            magenta.writer.write(b'{"type": "worldst')
+            await magenta.leave()
+            bench.stage.say(phase=Phase.CORNER, side=Side.MAGENTA)
+            await until(lambda: "CORNER Ruby" in cyan.commands())
+
+    asyncio.run(play())
+
+
+def test_more_base_stations_than_there_is_room_for_are_turned_away(
+    boxed: Any, until: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(server_module, "MOST", 2)
+
+    async def play() -> None:
+        async with boxed() as (_, _, come):
+            await come(team="cyan")
+            await come(team="magenta")
+            third = await come()
+            await until(lambda: third.gone)
+
+    asyncio.run(play())
+
+
+def test_a_port_that_is_taken_is_an_error_of_one_line(opened: Any) -> None:
+    async def play() -> None:
+        with socket.socket() as taken:
+            taken.bind(("127.0.0.1", 0))
+            taken.listen()
+            async with opened() as bench:
+                box = RefBoxServer(bench.live, [Door(taken.getsockname()[1])], bench.said.append)
+                with pytest.raises(TouchlineError, match=r"--refbox-server \d+ cannot be listened on"):
+                    await box.serve(bench.stop)
+
+    asyncio.run(play())
+
+
+class Display(asyncio.DatagramProtocol):
+    """An audience display."""
+
+    def __init__(self) -> None:
+        self.said: list[dict[str, Any]] = []
+
+    def datagram_received(self, data: bytes, addr: Any) -> None:
+        assert data.endswith(b"\x00")
+        self.said.append(json.loads(data[:-1]))
+
+
+def test_the_audience_hears_of_teams_and_events(boxed: Any, until: Any, check_world_state: Any) -> None:
+    """Reference 9.5: a base station's own world state, and where none comes, what our robots say."""
+
+    async def play() -> None:
+        async with boxed() as (bench, box, come):
+            loop = asyncio.get_running_loop()
+            transport, display = await loop.create_datagram_endpoint(Display, local_addr=("127.0.0.1", 0))
+            address = transport.get_extra_info("sockname")[:2]
+            bench.start(AudienceFeed(bench.live, [address], bench.said.append, box.views))
+            bench.stage.show()
+            cyan = await come(team="cyan")
+            mine = world_state("Sapphire", intention="win")
+            cyan.say(**mine)
+            await until(lambda: box.views[Side.CYAN].states)
+            bench.stage.say(phase=Phase.KICK_OFF, side=Side.MAGENTA)
+            bench.stage.say(
+                phase=Phase.PLAY,
+                side=None,
+                running=True,
+                clock=61.0,
+                effective=42.0,
+                score=Score(cyan=2),
+                robots={"cyan2": Standing(off_field=OffField.SECOND_YELLOW, yellow=2, left=33.4)},
+            )
+            shown = lambda: [one for one in display.said if one["type"] == "teams" and one["gameTime"] == "01:01"]  # noqa: E731
+            await until(lambda: len(shown()) > 3)
+            teams = shown()[0]
+            assert (teams["version"], teams["gameState"], teams["gameStateString"]) == ("1.2.0", 2, "1st Half")
+            assert teams["gameRunTime"] == "00:42"
+            first, second = teams["teamA"], teams["teamB"]
+            assert (first["shortName"], first["color"], first["score"]) == ("Sapphire", "00FFFF", "2")
+            assert first["robotState"] == ["play", "doubleyellow", "play", "play", "play"]
+            assert first["robotWaitTime"] == [0, 33, 0, 0, 0]
+            assert first["worldState"] == mine
+            check_world_state(second["worldState"])
+            events = [one for one in display.said if one["type"] == "event"]
+            assert events[1] == {
+                "type": "event",
+                "eventCode": "KICKOFF",
+                "eventDesc": "Kickoff",
+                "team": "Ruby",
+                "robotID": -1,
+            }
+            transport.close()
+
+    asyncio.run(play())
