@@ -54,13 +54,13 @@ def main() -> None:
     for _ in range(ROUNDS):
         raw.rebuild(simulation.world.snapshot().robots, simulation.world.snapshot().ball)
         sense, bare = Timed(perception.at), Timed(physics)
-        write, advance = Timed(simulation._sights.at), Timed(simulation.world.advance)
-        simulation._sights.at, simulation.world.advance = write, advance  # type: ignore[method-assign, assignment]
+        write, advance = Timed(simulation._crew.sights.at), Timed(simulation.world.advance)
+        simulation._crew.sights.at, simulation.world.advance = write, advance  # type: ignore[method-assign, assignment]
         for _ in range(TICKS):
             simulation.step(commands(simulation))
             sense(simulation.world.snapshot(), simulation.state.cyan_attacks)
             bare()
-        del simulation._sights.at, simulation.world.advance
+        del simulation._crew.sights.at, simulation.world.advance
         rows.append([timed.seconds / TICKS * 1e6 for timed in (sense, write, bare, advance)])
     sensing, sights, physics_us, world = (statistics.median(column) for column in zip(*rows, strict=True))
     print(

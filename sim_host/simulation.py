@@ -22,18 +22,15 @@ from schemas.profile import STANDARD, Profile
 from schemas.rule_book import RuleBook, load_rule_book
 from schemas.scene import Scene, SceneReply, SceneRequest, load_scene
 from schemas.side import Side
-from sim_host.actuation.commands import Commands
+from sim_host.crew import Crew
 from sim_host.due import Due
-from sim_host.radio import RadioAir
 from sim_host.referee.core import Referee, Ruling
 from sim_host.referee.evidence import NOTHING
-from sim_host.sensing.perception import Perception
-from sim_host.sensing.streams import Streams
-from sim_host.sights import Send, Sights
+from sim_host.sights import Send
 from sim_host.snapshot import Roster, Snapshot
 from sim_host.staging.deeds import Scenes, do
 from sim_host.staging.stage import BALL, Rig, Stage, Staged, check, opened
-from sim_host.start import start_poses, start_scene
+from sim_host.start import start_scene
 from sim_host.truth import Fields, world_fields
 from sim_host.tuning import Tuning
 from sim_host.world.engine import fingerprint
@@ -79,7 +76,6 @@ class Simulation:
         self.tuning = Tuning.of(config)
         """The numbers in force from the next tick on."""
         self.book: RuleBook = load_rule_book(config.rules)
-        self._streams = Streams(config.seed)
         self._engine = fingerprint()
         start = self._start_scene()
         self._scenes = Scenes(start, start)
@@ -89,18 +85,12 @@ class Simulation:
         self._stage = began.stage
         self.episode = 1
         """Counts the starts: the match's own, each scene that is loaded, each reset."""
-        self.roster = Roster.cast(self._stage.robots, self.tuning.types)
-        """Who takes part from the next tick on."""
-        self.referee = self._make_referee()
+        self._crew = Crew(config, self.book, self.tuning, self._stage.robots)
         self.state = self.referee.begin_at(start.game, began.ball)
         self.world = World(self.profile, self.roster)
         for obstacle in self._stage.obstacles:
             self.world.put_obstacle(obstacle)
         self.orders: dict[Side, CoachOrder] = {}
-        self._commands = Commands(self.roster.names, self._watchdog, self.roster.still)
-        self._radio = self._new_radio()
-        self._perception = self._new_perception()
-        self._sights = Sights(self.roster, self._perception, self._radio)
         self._due = Due(began.placements, recast=True, rebuilt=bool(self._stage.obstacles))
         self.now = self._begin()
 
@@ -113,6 +103,16 @@ class Simulation:
     def profile(self) -> Profile:
         """The numbers in force from the next tick on."""
         return self.tuning.profile
+
+    @property
+    def roster(self) -> Roster:
+        """Who takes part from the next tick on."""
+        return self._crew.roster
+
+    @property
+    def referee(self) -> Referee:
+        """Who judges from the next tick on."""
+        return self._crew.referee
 
     @property
     def over(self) -> bool:
@@ -138,7 +138,7 @@ class Simulation:
         done = self._change_world()
         if done.begins_anew:
             commands = {}
-        inputs = self._commands.inputs(self.world.tick, commands, self.state.people.away)
+        inputs = self._crew.commands.inputs(self.world.tick, commands, self.state.people.away)
         advance = self.world.advance(inputs)
         snapshot = advance.snapshot
         refusals = {name: [reason] for name, reason in advance.refused.items()}
@@ -151,7 +151,7 @@ class Simulation:
             snapshot = replace(snapshot, silent=gone)
         ruling = self.referee.step(self.state, snapshot, actions, self.profile.time.tick)
         self._follow(ruling)
-        sights = self._sights.at(
+        sights = self._crew.sights.at(
             snapshot, self.state, self.episode, advance.stuck, self.orders, commands, refusals, send
         )
         self.now = Tick(
@@ -181,7 +181,8 @@ class Simulation:
             return ParametersReply(accepted=False, reason=str(error))
         changed = self.tuning.since(before)
         if changed:
-            self._take(before)
+            if self._crew.take(self.tuning):
+                self._due.remake = self._due.is_checkpoint = True
             self._due.parameters.update(changed)
             values = ", ".join(f"{name} = {_in_words(value)}" for name, value in changed.items())
             text = f"{request.source} sets {values}"
@@ -226,7 +227,7 @@ class Simulation:
             tick=snapshot.tick,
             time=snapshot.time,
             world=world_fields(snapshot, stuck, self.state, self.episode),
-            sights=self._sights.at(snapshot, self.state, self.episode, stuck, self.orders, {}, {}, _keep),
+            sights=self._crew.sights.at(snapshot, self.state, self.episode, stuck, self.orders, {}, {}, _keep),
             **self._applied(snapshot, {}, done),
         )
 
@@ -239,18 +240,6 @@ class Simulation:
         if done.is_checkpoint:
             self.world.rebuild()
         return done
-
-    def _take(self, before: Tuning) -> None:
-        """Let everything that works with numbers take those in force now."""
-        old, new = before.profile, self.profile
-        if new.radio != old.radio:
-            self._radio.change(new.radio)
-        if self.tuning.sensing != before.sensing:
-            self._perception.change(self.tuning.sensing)
-        if replace(new, radio=old.radio, safety=old.safety, sensing=old.sensing) != old:
-            self.roster = Roster.cast(self._stage.robots, self.tuning.types)
-            self._due.remake = self._due.is_checkpoint = True
-        self._commands = self._commands.handed_on(self.roster.names, self._watchdog, self.roster.still)
 
     def _stage_now(self) -> Stage:
         """The stage, with bodies where they are or are about to be set down."""
@@ -271,55 +260,16 @@ class Simulation:
         due.rebuilt = due.rebuilt or self._stage.obstacles != before.obstacles
         due.remake = due.remake or due.recast or due.rebuilt or anew
         due.begins_anew = due.begins_anew or anew
-        self.roster = Roster.cast(self._stage.robots, self.tuning.types)
-        self.referee = self._make_referee()
+        self._crew.serve(self._stage.robots, anew=anew)
         if staged.game is not None:
             self.episode += 1
             self.state = self.referee.begin_at(staged.game, staged.ball)
         elif staged.placements or self._stage.robots != before.robots:
             people = self.state.people.among(self.roster.names)
             self.state = replace(self.state, people=people, evidence=NOTHING)  # nobody ran or dribbled there
-        if anew:
-            self._radio, self._perception = self._new_radio(), self._new_perception()
-        elif self._stage.robots != before.robots:
-            self._radio = self._radio.handed_on(self.roster)
-            self._perception = self._perception.handed_on(self.tuning.sensing, self.roster)
-        self._sights = Sights(self.roster, self._perception, self._radio)
-        told = Commands((), self._watchdog) if anew else self._commands
-        self._commands = told.handed_on(self.roster.names, self._watchdog, self.roster.still)
 
     def _rig(self) -> Rig:
         return Rig(self.profile.field, self.profile.ball, self.tuning.types)
-
-    @property
-    def _watchdog(self) -> float:
-        """Ticks."""
-        return self.profile.safety.watchdog / self.profile.time.tick
-
-    def _new_radio(self) -> RadioAir:
-        """The radio of those who take part now, with nothing said yet."""
-        return RadioAir(self.profile.radio, self.roster, self.profile.time.tick, self._streams)
-
-    def _new_perception(self) -> Perception:
-        """The sensors of those who take part now, who have seen nothing yet."""
-        return Perception(self.tuning.sensing, self.roster, self._streams, self.profile.time.tick)
-
-    def _make_referee(self) -> Referee:
-        """The referee of those who take part now; what happened so far is in its state."""
-        p, config = self.profile, self.config
-        return Referee(
-            self.book,
-            p.field,
-            p.ball,
-            self.roster,
-            duration=config.duration,
-            kick_off=config.referee.kick_off,
-            automatic=config.referee.automatic,
-            starts=start_poses(self.roster, p.field, self.book.restarts),
-            mode=config.referee.mode,
-            proposal=config.referee.proposal,
-            winner=config.referee.winner,
-        )
 
     def _told(self, done: Due, snapshot: Snapshot) -> Iterator[GameEvent]:
         """The events of what was done between the ticks."""
@@ -341,7 +291,7 @@ class Simulation:
             command = commands.get(name)
             if command is None or command.radio is None:
                 continue
-            refusal = self._radio.say(snapshot.tick, name, command.radio)
+            refusal = self._crew.radio.say(snapshot.tick, name, command.radio)
             if refusal is not None:
                 refusals.setdefault(name, []).append(refusal)
                 continue

@@ -87,9 +87,11 @@ def test_who_is_off_comes_back_and_is_obeyed_again(simulation: Simulation) -> No
 def test_a_robot_without_a_program_is_out_until_it_is_heard_again(
     simulation: Simulation,
 ) -> None:
-    run(simulation, 10.5, silent=("magenta5",))
+    """It comes back in a stoppage only."""
+    run(simulation, simulation.book.people.silent_limit + 0.5, silent=("magenta5",))
     assert truth(simulation.now).robots["magenta5"].off_field is OffField.SILENT
-    assert not simulation.state.running
+    step(simulation, RefereeAction(action=ActionName.STOP), silent=("magenta5",))
+    assert truth(simulation.now).robots["magenta5"].off_field is OffField.SILENT
     assert truth(run(simulation, 0.1)).robots["magenta5"].off_field is None
 
 
