@@ -55,6 +55,9 @@ Snapshot = Annotated[
     float | None,
     typer.Option(min=0.1, help="Write the last so many simulated s at each goal and on request, and nothing else."),
 ]
+Web = Annotated[bool, typer.Option("--web", help="Serve a page to watch and command from, and say where.")]
+WebPort = Annotated[int, typer.Option(help="Port of the page; 0 takes a free one.")]
+ListenWeb = Annotated[str, typer.Option(help="Address to serve the page on; 0.0.0.0 lets other machines see it.")]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")]
 
 NO_PYBULLET = "the simulation needs PyBullet, which is not installed; pip install 'touchline[sim]'"

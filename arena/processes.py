@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
 
-from schemas.bus.endpoint import is_loopback, parse_endpoint
+from schemas.bus.endpoint import is_loopback, near
 from schemas.match_config import MatchConfig, Recording
 from schemas.side import Side
 
@@ -16,6 +16,8 @@ class Kind(StrEnum):
     HOST = "host"
     RECORDER = "recorder"
     AGENT = "agent"
+    PAGE = "page"
+    """The coach gateway that serves the match's page."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +48,13 @@ PROCESSES: dict[Kind, Row] = {
         },
         restarts=3,
     ),
+    Kind.PAGE: Row(
+        (
+            *(*_PYTHON_MODULE, "coach_gateway", *_MEETING, "--web"),
+            *("--listen-web", "{address}", "--port", "{port}", "--tokens", "{tokens}"),
+        ),
+        restarts=3,
+    ),
 }
 """Kind → its row, in the order they are launched."""
 
@@ -72,6 +81,16 @@ class Process:
 
 
 @dataclass(frozen=True, slots=True)
+class Page:
+    """Where a page is served, and where its tokens stand."""
+
+    address: str
+    """That it is served on, without a port."""
+    port: int
+    tokens: Path
+
+
+@dataclass(frozen=True, slots=True)
 class Plan:
     """A match that is ready to be launched."""
 
@@ -83,13 +102,13 @@ class Plan:
     """Where the recording goes, or nothing when none was wanted."""
     warning: str = ""
     """What people should know before the match begins."""
+    page: Page | None = None
+    """Where the match's page is served; nothing when none was wanted."""
 
     @property
     def connect(self) -> str:
-        """Where the processes of this machine reach the host: loopback where it listens on every address."""
-        protocol, host, port = parse_endpoint(self.listen)
-        near = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
-        return f"{protocol}/{near}:{port}"
+        """Where the processes of this machine reach the host."""
+        return near(self.listen)
 
     @property
     def recording_files(self) -> list[Path]:
@@ -123,7 +142,16 @@ def processes_of(plan: Plan) -> list[Process]:
         for robot in plan.config.robots(side):
             own = {**words, "robot": robot, "side": side.value, "brain": team.brain or ""}
             processes.append(_process(robot, Kind.AGENT, own, instead=tuple(team.command or ())))
+    if plan.page is not None:
+        processes.append(page_process(plan.page, plan.connect, plan.config.name))
     return processes
+
+
+def page_process(page: Page, connect: str, match: str) -> Process:
+    """The program that serves the page of a match, or of a replay."""
+    words = {"python": sys.executable, "connect": connect, "match": match}
+    where = {"address": page.address, "port": str(page.port), "tokens": str(page.tokens)}
+    return _process("page", Kind.PAGE, {**words, **where})
 
 
 def _recorder_words(wanted: Recording) -> tuple[str, ...]:

@@ -45,17 +45,20 @@ class Step:
 
 _ALL = frozenset(Kind)
 
+_WAITERS = frozenset({Kind.AGENT, Kind.PAGE})
+"""Who would wait for a host that has gone to come back."""
+
 AFTER_THE_MATCH = (
-    Step(0.0, frozenset({Kind.AGENT}), signal.SIGTERM),
-    Step(1.5, frozenset({Kind.AGENT}), signal.SIGKILL),
+    Step(0.0, _WAITERS, signal.SIGTERM),
+    Step(1.5, _WAITERS, signal.SIGKILL),
     Step(30.0, frozenset({Kind.RECORDER}), signal.SIGTERM),
     Step(35.0, _ALL, signal.SIGKILL),
 )
-"""The host has ended by itself: agents, who would wait for it to come back, are told; the recorder may finish."""
+"""The host has ended by itself: who would wait for it to come back is told; the recorder may finish."""
 
 AT_ONCE = (
     Step(0.0, frozenset({Kind.HOST}), signal.SIGTERM),
-    Step(0.2, frozenset({Kind.AGENT}), signal.SIGTERM),
+    Step(0.2, _WAITERS, signal.SIGTERM),
     Step(0.4, frozenset({Kind.RECORDER}), signal.SIGTERM),
     Step(1.8, _ALL, signal.SIGKILL),
 )

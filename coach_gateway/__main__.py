@@ -1,7 +1,6 @@
 """`python -m coach_gateway`: serves the match's page and other bridges, or shows the match as plain lines."""
 
 import argparse
-import importlib.util
 import os
 import signal
 import sys
@@ -12,14 +11,12 @@ from pathlib import Path
 from coach_gateway.service import Service
 from coach_gateway.service import run as run_services
 from coach_gateway.watching import watch
-from coach_gateway.web.settings import DEFAULT_PAGES, DEFAULT_PORT, BeliefsFor, WebSettings
+from coach_gateway.web.settings import DEFAULT_PAGES, DEFAULT_PORT, LOOPBACK, BeliefsFor, WebSettings, need_web
 from schemas.bus.contract import Bus
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.zenoh_bus import open_client
 from schemas.clock import WallClock
 from schemas.errors import TouchlineError
-
-NO_WEB = "the page needs starlette, uvicorn and websockets; pip install 'touchline[coach]'"
 
 
 def run(connect: str, match: str, patience: float = 3.0) -> None:
@@ -53,16 +50,6 @@ def serve(connect: str, match: str, web: WebSettings | None) -> None:
         return made
 
     run_services(connect, match, services, say)
-
-
-def need_web() -> None:
-    """Make sure that a page can be served.
-
-    Raises:
-        TouchlineError: with the line that brings what is missing.
-    """
-    if any(importlib.util.find_spec(name) is None for name in ("starlette", "uvicorn", "websockets")):
-        raise TouchlineError(NO_WEB)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -99,7 +86,7 @@ def _parser() -> argparse.ArgumentParser:
     page = parser.add_argument_group("the page")
     page.add_argument("--web", action="store_true", help="serve it")
     page.add_argument("--port", type=int, default=DEFAULT_PORT, help="port of the page; 0 takes a free one")
-    page.add_argument("--listen-web", default="127.0.0.1", help="address to serve it on")
+    page.add_argument("--listen-web", default=LOOPBACK, help="address to serve it on")
     page.add_argument(
         "--tokens",
         type=Path,

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 import typer
 
 from arena import options
+from arena.commands.serve import serve
 from arena.seat import PATIENCE
 from arena.seat import seat as _seat
 from schemas.coach import CoachMode, CoachOrder
@@ -176,6 +177,9 @@ def state(
     if found is None:
         raise TouchlineError(f'match "{match}": the host says nothing of it; name the match it plays with --match')
     typer.echo(found.model_dump_json(exclude={"version"}) if json else state_line(found))
+
+
+app.command("serve")(serve)
 
 
 @app.command("watch")

@@ -2,12 +2,14 @@
 
 import sys
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from arena import options
+from coach_gateway.web.settings import DEFAULT_PORT, LOOPBACK
 
 if TYPE_CHECKING:
     from arena.processes import Plan
@@ -41,16 +43,21 @@ def match(
     ghost: Annotated[
         list[str] | None, typer.Option(help="A side played by its recorded commands: magenta=RECORDING.mcap.")
     ] = None,
+    web: options.Web = False,
+    web_port: options.WebPort = DEFAULT_PORT,
+    listen_web: options.ListenWeb = LOOPBACK,
     json: options.Json = False,
 ) -> None:
     """Play a match: launch host, recorder and robots, show it, and leave a recording and a result.
 
     Logs and recording go to ./runs/. Ctrl-C ends everything; the recording stays readable.
+    With --web people watch and command in their browsers, and the match is played in real time unless --pace says else.
 
     Example: touchline match --seed 7 --duration 60 --pace realtime
     """
     from arena.brains import check_teams
     from arena.ghost import check, teams_of
+    from arena.page import invitation, page_in, page_port
     from arena.runs import prepare
     from schemas.clock import WallClock
 
@@ -59,7 +66,7 @@ def match(
         file,
         **{f"teams__{side}": team for side, team in teams.items()},
         seed=seed,
-        pace=pace,
+        pace=pace or ("realtime" if web else None),
         duration=duration,
         scene=scene,
         profile=profile,
@@ -79,7 +86,13 @@ def match(
     check_teams(config)
     endpoint = options.listening(listen, insecure=insecure)
     clock = WallClock()
+    port = page_port(listen_web, web_port) if web else None
     plan = prepare(config, endpoint, record, clock, recorded=not no_record)
+    if port is not None:
+        page = page_in(plan.folder, listen_web, port)
+        plan = replace(plan, page=page)
+        for line in invitation(page):
+            typer.echo(line, err=json)
     if plan.warning:
         typer.echo(f"touchline: {plan.warning}", err=True)
     result = _play(plan, clock, quiet=json)

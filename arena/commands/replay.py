@@ -2,17 +2,21 @@
 
 import json as json_text
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, nullcontext
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from arena import options
+from coach_gateway.web.settings import DEFAULT_PORT, LOOPBACK
+from schemas.bus.endpoint import near, parse_endpoint
 from schemas.errors import TouchlineError
 
 if TYPE_CHECKING:
+    from arena.supervisor import Notice
     from recordings.replay.player import Player
     from recordings.replay.programme import Replay
     from schemas.bus.contract import Bus
@@ -50,22 +54,27 @@ def replay(
     agent: Annotated[
         str | None, typer.Option(help="Show a brain what a robot saw, and compare: cyan2=module:Class; no bus.")
     ] = None,
+    web: options.Web = False,
+    web_port: options.WebPort = DEFAULT_PORT,
+    listen_web: options.ListenWeb = LOOPBACK,
     json: options.Json = False,
 ) -> None:
     """Replay a recording on the bus, with the keys, order and spacing of the match.
 
     Space pauses, "." steps, arrows wind and change the rate, n and b go from event to event, q leaves; from elsewhere,
-    `touchline player` does the same.
+    `touchline player` does the same. With --web a page in the browser does, and the replay stays at its end.
 
     Example: touchline replay runs/friendly-20260101T120000Z-seed1/match.mcap --from goal:1-5 --rate 2
     """
     if agent is not None:
         _compare(file, agent, json=json)
         return
+    from arena.page import page_beside, page_port
     from recordings.replay.programme import Programme, Replay
     from recordings.selection import Selection
     from schemas.clock import WallClock
 
+    port = page_port(listen_web, web_port) if web else None
     programme = Programme(
         file,
         start=start,
@@ -73,7 +82,7 @@ def replay(
         rate=None if fast else rate,
         loop=loop,
         paused=paused,
-        stay=stay,
+        stay=stay or web,
         selection=Selection(tuple(include or ()), tuple(exclude or ())),
         follow=follow,
         behind=behind,
@@ -81,9 +90,15 @@ def replay(
     opened = Replay(programme)
     clock = WallClock()
     name = options.match_name(prefix + (match or opened.recording.manifest.match))
-    with _seat(name, clock, listen, connect, insecure=insecure) as bus:
+    endpoint = connect or options.listening(listen, insecure=insecure)
+    with ExitStack() as stack:
+        bus = stack.enter_context(_seat(name, clock, endpoint, is_host=connect is None))
+        look_after: Callable[[], list[Notice]] = list
+        if port is not None:
+            tell = partial(typer.echo, err=True)
+            look_after = stack.enter_context(page_beside(name, near(endpoint), listen_web, port, clock, tell))
         began = clock.now()
-        player = _play(opened, bus, clock, quiet=json)
+        player = _play(opened, bus, clock, look_after, quiet=json)
         wall = clock.now() - began
     status = player.status()
     if json:
@@ -106,24 +121,19 @@ def _compare(file: Path, agent: str, *, json: bool) -> None:
 
 
 @contextmanager
-def _seat(match: str, clock: "Clock", listen: str, connect: str | None, *, insecure: bool) -> "Iterator[Bus]":
+def _seat(match: str, clock: "Clock", endpoint: str, *, is_host: bool) -> "Iterator[Bus]":
     """A host's seat, or a client's beside a running host."""
-    from schemas.bus.endpoint import parse_endpoint
     from schemas.bus.zenoh_bus import open_client, open_host
 
-    if connect is not None:
-        parse_endpoint(connect)
-        with open_client(match, clock, connect) as bus:
-            typer.echo(f'match "{match}" at {connect}', err=True)
-            yield bus
-        return
-    endpoint = options.listening(listen, insecure=insecure)
-    with open_host(match, clock, endpoint) as bus:
-        typer.echo(f'match "{match}" on {endpoint}', err=True)
+    parse_endpoint(endpoint)
+    with open_host(match, clock, endpoint) if is_host else open_client(match, clock, endpoint) as bus:
+        typer.echo(f'match "{match}" {"on" if is_host else "at"} {endpoint}', err=True)
         yield bus
 
 
-def _play(opened: "Replay", bus: "Bus", clock: "Clock", *, quiet: bool) -> "Player":
+def _play(
+    opened: "Replay", bus: "Bus", clock: "Clock", look_after: "Callable[[], list[Notice]]", *, quiet: bool
+) -> "Player":
     """Play it on the screen that suits, by keys where there is a terminal; Ctrl-C and SIGTERM end it."""
     from arena.match_run import StopSignals
     from arena.replay_keys import asks, legend
@@ -148,6 +158,8 @@ def _play(opened: "Replay", bus: "Bus", clock: "Clock", *, quiet: bool) -> "Play
             if stop.received is not None:
                 player.control(ReplayRequest(deed=ReplayDeed.LEAVE))
             show(player.status())
+            for notice in look_after():
+                typer.echo(f"touchline: {notice.sentence}", err=True)
 
         host.run(meanwhile)
     if host.foreign:

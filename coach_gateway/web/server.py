@@ -3,22 +3,21 @@
 import asyncio
 import contextlib
 import logging
-import socket
 from collections.abc import Callable, Iterator
 
 import uvicorn
 
 from coach_gateway.web.desk import Desk
 from coach_gateway.web.door import Door
+from coach_gateway.web.listening import listen, origin_of
 from coach_gateway.web.origins import Origins
-from coach_gateway.web.pages import STUCK_S, Pages
+from coach_gateway.web.pages import Pages
 from coach_gateway.web.protocol import MAX_BYTES, Role
 from coach_gateway.web.settings import WebSettings
 from coach_gateway.web.site import site
 from coach_gateway.web.stage import Stage
 from coach_gateway.web.tokens import Tokens, address, read_or_make
 from schemas.bus.contract import Bus
-from schemas.errors import TouchlineError
 
 _SPARE = 100
 """Connections beside those of open pages: who fetches files, and who is refused."""
@@ -38,7 +37,7 @@ class WebServer:
         self._bus, self._settings = bus, settings
         origins = Origins(settings.origins)
         tokens = read_or_make(settings.tokens) if settings.tokens is not None else Tokens.random()
-        self._socket = _listen(settings.listen, settings.port)
+        self._socket = listen(settings.listen, settings.port)
         self.pages = Pages(settings.pages)
         desk = Desk(bus)
         self.stage = Stage(bus, self.pages, desk, settings.beliefs)
@@ -49,9 +48,7 @@ class WebServer:
     @property
     def origin(self) -> str:
         """Where a browser on this machine finds the page."""
-        host, port = self._socket.getsockname()[:2]
-        near = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
-        return f"http://[{near}]:{port}" if ":" in near else f"http://{near}:{port}"
+        return origin_of(*self._socket.getsockname()[:2])
 
     async def serve(self, stop: asyncio.Event) -> None:
         """Serve until `stop` is set; pages are told to come again later."""
@@ -104,26 +101,3 @@ class _Server(uvicorn.Server):
     def capture_signals(self) -> Iterator[None]:
         """Capture none."""
         yield
-
-
-def _listen(host: str, port: int) -> socket.socket:
-    """A socket that is bound; what it accepts is cut when the other side reads nothing.
-
-    Raises:
-        TouchlineError: it cannot be had.
-    """
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    listener = socket.socket(family, socket.SOCK_STREAM)
-    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    if hasattr(socket, "TCP_USER_TIMEOUT"):
-        listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, round(2 * STUCK_S * 1000))
-    try:
-        listener.bind((host, port))
-        listener.listen()  # who comes before the server serves is not turned away
-    except (OSError, OverflowError) as error:
-        listener.close()
-        why = error.strerror if isinstance(error, OSError) else "a port is 0 to 65535"
-        raise TouchlineError(
-            f"the page cannot be served on {host} port {port} ({why}); choose another port, or 0 for a free one"
-        ) from None
-    return listener

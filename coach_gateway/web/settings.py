@@ -1,10 +1,14 @@
 """How the page is served: where, to whom, with which tokens."""
 
+import importlib.util
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
+from schemas.errors import TouchlineError
+
 DEFAULT_PORT = 8080
+LOOPBACK = "127.0.0.1"
 DEFAULT_PAGES = 300
 
 
@@ -21,7 +25,7 @@ class WebSettings:
 
     port: int = DEFAULT_PORT
     """0 takes a free one."""
-    listen: str = "127.0.0.1"
+    listen: str = LOOPBACK
     """Address to listen on."""
     tokens: Path | None = None
     """File with the tokens, made when it is not there; without one they last as long as the process."""
@@ -31,3 +35,13 @@ class WebSettings:
     """Without a word: for all in a friendly and in a replay, otherwise for the teams."""
     pages: int = DEFAULT_PAGES
     """How many pages may be open at once."""
+
+
+def need_web() -> None:
+    """Make sure that a page can be served by this installation.
+
+    Raises:
+        TouchlineError: with the line that brings what is missing.
+    """
+    if any(importlib.util.find_spec(name) is None for name in ("starlette", "uvicorn", "websockets")):
+        raise TouchlineError("the page needs starlette, uvicorn and websockets; pip install 'touchline[coach]'")

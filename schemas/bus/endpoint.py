@@ -33,6 +33,13 @@ def is_loopback(endpoint: str) -> bool:
         return False
 
 
+def near(listen: str) -> str:
+    """Where this machine reaches who listens there: on loopback where that is every address."""
+    protocol, host, port = parse_endpoint(listen)
+    here = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
+    return f"{protocol}/{here}:{port}"
+
+
 def with_port(endpoint: str) -> str:
     """The endpoint itself, or with a port that is free just now where it says `:0`."""
     protocol, host, port = parse_endpoint(endpoint)

@@ -1,9 +1,10 @@
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from arena.processes import PROCESSES, Kind, Plan, Process, processes_of
+from arena.processes import PROCESSES, Kind, Page, Plan, Process, processes_of
 from arena.runs import prepare
 from schemas.clock import SteppedClock
 from schemas.match_config import MatchConfig, load_match
@@ -46,6 +47,17 @@ def test_a_team_with_a_command_is_told_who_it_is_by_its_environment() -> None:
         "ROBOT": "cyan1",
         "SIDE": "cyan",
     }
+
+
+def test_a_page_is_launched_where_one_is_wanted_with_its_tokens_in_a_file() -> None:
+    assert "page" not in by_name(plan())
+    wanted = replace(plan(), page=Page("127.0.0.1", 8080, Path("runs/one/tokens.json")))
+    page = by_name(wanted)["page"]
+    assert page.command[1:] == (
+        *("-m", "coach_gateway", "--connect", "tcp/127.0.0.1:7447", "--match", "friendly", "--web"),
+        *("--listen-web", "127.0.0.1", "--port", "8080", "--tokens", "runs/one/tokens.json"),
+    )
+    assert page.restarts == 3
 
 
 def test_no_recorder_is_launched_when_no_recording_is_wanted() -> None:
