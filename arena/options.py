@@ -58,6 +58,9 @@ Snapshot = Annotated[
 Web = Annotated[bool, typer.Option("--web", help="Serve a page to watch and command from, and say where.")]
 WebPort = Annotated[int, typer.Option(help="Port of the page; 0 takes a free one.")]
 ListenWeb = Annotated[str, typer.Option(help="Address to serve the page on; 0.0.0.0 lets other machines see it.")]
+NoViz = Annotated[
+    bool, typer.Option("--no-viz", help="Leave out what Foxglove, Lichtblick and Rerun draw: /tf and /viz/*.")
+]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")]
 
 NO_PYBULLET = "the simulation needs PyBullet, which is not installed; pip install 'touchline[sim]'"

@@ -164,6 +164,7 @@ def _recorder_words(wanted: Recording) -> tuple[str, ...]:
     }
     return (
         *(("--sights",) if wanted.sights else ()),
+        *(("--no-viz",) if not wanted.viz else ()),
         *(f"--include={expression}" for expression in wanted.include),
         *(f"--exclude={expression}" for expression in wanted.exclude),
         *(f"--{word}={value}" for word, value in limits.items() if value is not None),

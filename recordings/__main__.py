@@ -35,6 +35,7 @@ def main(arguments: list[str] | None = None) -> int:
                 snapshot=options.snapshot,
             ),
             config=read_config(options.config) if options.config is not None else None,
+            viz=options.viz,
             patience=options.patience,
             told_to_stop=stop.is_set,
         )
@@ -61,6 +62,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--split-duration", type=positive, help="simulated s after which the next file is begun")
     parser.add_argument("--keep", type=_count, help="keep so many files, the newest")
     parser.add_argument("--snapshot", type=positive, help="simulated s before a goal that are written; nothing else is")
+    parser.add_argument("--no-viz", dest="viz", action="store_false", help="leave out what viewers draw")
     parser.add_argument("--config", type=Path, help="the match as JSON, to be kept in the file")
     parser.add_argument("--patience", type=float, default=30.0, help="s to wait for the host (%(default)s)")
     return parser

@@ -13,9 +13,11 @@ from recordings.container import ChannelRecord
 from recordings.environment import library
 from recordings.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
 from recordings.sequences import KeyLedger
+from recordings.sketch import Sketch
 from recordings.writer import CHUNK_BYTES, MEDIA_TYPES
-from schemas.bus.contract import Stamp
+from schemas.bus.contract import Received, Stamp
 from schemas.errors import TouchlineError
+from schemas.topics import TOPICS
 
 
 class CopyWriter:
@@ -40,9 +42,15 @@ class CopyWriter:
         self._schemas: dict[tuple[str, bytes], int] = {}
         self._ledgers: dict[str, KeyLedger] = {}
         self._messages = 0
+        self._sketch: Sketch | None = None
 
-    def begin(self, manifest: Manifest, attachments: dict[str, bytes], standing: int) -> None:
-        """Write what stands before the first message; the first `standing` messages are such that stood then."""
+    def begin(self, manifest: Manifest, attachments: dict[str, bytes], standing: int, *, viz: bool) -> None:
+        """Write what stands before the first message; the first `standing` messages are such that stood then.
+
+        With `viz`, what viewers draw is written, too.
+        """
+        if viz and manifest.setup is not None:
+            self._sketch = Sketch(self._mcap, manifest.setup)
         attached = {name: digest(content) for name, content in attachments.items()}
         manifest = manifest.model_copy(update={"attached": attached, "standing": standing})
         with self._told():
@@ -67,6 +75,10 @@ class CopyWriter:
         with self._told():
             number = self._channels.get(channel.key) or self._open_channel(channel)
             self._mcap.add_message(number, log_ns, payload, sent_ns, sequence)
+            topic = TOPICS.get(channel.metadata.get("topic", ""))
+            if self._sketch is not None and topic is not None:
+                received = Received(topic, channel.key, payload, Stamp(sequence, sent_ns, log_ns))
+                self._sketch.follow(received, log_ns)
         self._messages += 1
         if counted:
             ledger = self._ledgers.setdefault(channel.key, KeyLedger())

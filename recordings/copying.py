@@ -10,6 +10,7 @@ from recordings.copy_writer import CopyWriter
 from recordings.manifest import Manifest, Result
 from recordings.reader import Recording
 from recordings.selection import EVERYTHING, Selection
+from recordings.sketch import is_derived
 from recordings.standing import Standing
 from schemas.errors import TouchlineError
 from schemas.topics import APPLIED, WORLD
@@ -60,7 +61,7 @@ def filter_recording(
         standing, rest = _standing_at(recording, selection, start_ns), _from(entries, start_ns)
     manifest = _made(recording.manifest, "filtered", selection)
     with CopyWriter(out) as writer:
-        writer.begin(manifest, recording.attachments, len(standing))
+        writer.begin(manifest, recording.attachments, len(standing), viz=bool(recording.drawn))
         for entry in standing:
             writer.add(*_fields(entry), counted=False)
         for entry in rest:
@@ -84,7 +85,9 @@ def merge_recordings(recordings: list[Recording], out: Path) -> Copied:
     head = [entry for _, entry in zip(range(first.manifest.standing), streams[0], strict=False)]
     dropped = 0
     with CopyWriter(out) as writer:
-        writer.begin(_made(first.manifest, "merged", EVERYTHING), _all_attachments(recordings), len(head))
+        is_drawn = any(recording.drawn for recording in recordings)
+        manifest = _made(first.manifest, "merged", EVERYTHING)
+        writer.begin(manifest, _all_attachments(recordings), len(head), viz=is_drawn)
         for entry in head:
             seen.is_new(entry)
             writer.add(*_fields(entry), counted=False)
@@ -125,7 +128,9 @@ class _Seen:
 
 def _entries(recording: Recording, selection: Selection, end_ns: int | None) -> Iterator[_Entry]:
     """The messages of a recording; those that stand at its beginning all the same, as somebody counts them."""
-    channels = {channel.key: channel for channel in recording.container.channels.values()}
+    channels = {
+        channel.key: channel for channel in recording.container.channels.values() if not is_derived(channel.metadata)
+    }
     wanted = {key for key in channels if selection.wants(key)} if not recording.manifest.standing else set(channels)
     for key, message in recording.container.messages(wanted, None, end_ns):
         yield _Entry(message.log_time, channels[key], message.data, message.publish_time, message.sequence)

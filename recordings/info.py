@@ -72,6 +72,8 @@ class RecordingFacts:
     """Key expressions that were not."""
     damaged: list[str]
     """Attachments that are missing, or whose bytes have changed."""
+    drawn: dict[str, int]
+    """Topic → messages that are there for viewers alone; none of them is in the counts."""
     size: int
     """Bytes of the file."""
     keys: list[KeyFacts]
@@ -113,6 +115,7 @@ def facts_of(recording: Recording) -> RecordingFacts:
         include=manifest.include,
         exclude=manifest.exclude,
         damaged=recording.damaged,
+        drawn=recording.drawn,
         size=recording.path.stat().st_size,
         keys=list(_key_facts(recording, ending.keys)),
     )
@@ -200,6 +203,7 @@ def lines(facts: RecordingFacts) -> list[tuple[str, str]]:
         "keys": " ".join([*facts.include, *(f"not {key}" for key in facts.exclude)]) or None,
         "made": facts.made if facts.made != "recorded" else None,
         "part": f"{facts.part}, begins with {facts.standing} messages that stood" if facts.standing else None,
+        "for viewers": " ".join(facts.drawn) or None,
         "damaged": ", ".join(facts.damaged) or None,
         "events": str(facts.events),
         "size": f"{facts.size} bytes" + ("" if facts.complete else ", cut off"),

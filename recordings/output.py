@@ -93,12 +93,15 @@ class Output(Protocol):
 class Files:
     """One file, or several, each whole in itself."""
 
-    def __init__(self, path: Path, clock: Clock, match: str, account: Account, limits: Limits = ONE_FILE) -> None:
-        """Opens the first file.
+    def __init__(
+        self, path: Path, clock: Clock, match: str, account: Account, limits: Limits = ONE_FILE, *, viz: bool = True
+    ) -> None:
+        """Opens the first file; with `viz`, what viewers draw is written, too.
 
         Raises:
             TouchlineError: it cannot be written.
         """
+        self._viz = viz
         self._base, self._clock, self._match, self._account, self._limits = path, clock, match, account, limits
         self._part = 1
         self._many = limits.in_many
@@ -179,7 +182,7 @@ class Files:
 
     def _open(self) -> RecordingWriter:
         path = numbered(self._base, self._part) if self._many else self._base
-        return RecordingWriter(path, self._clock, self._match, self._cast)
+        return RecordingWriter(path, self._clock, self._match, self._cast, viz=self._viz)
 
     def _begin_file(self, standing: list[Logged]) -> None:
         manifest, attachments = self._head()
@@ -215,12 +218,15 @@ class Files:
 class Snapshots:
     """Holds the last seconds in memory, and writes them to a file of their own at a goal, or on request."""
 
-    def __init__(self, path: Path, clock: Clock, match: str, account: Account, limits: Limits) -> None:
-        """Checks that a file can be written there.
+    def __init__(
+        self, path: Path, clock: Clock, match: str, account: Account, limits: Limits, *, viz: bool = True
+    ) -> None:
+        """Checks that a file can be written there; with `viz`, what viewers draw is written, too.
 
         Raises:
             TouchlineError: it cannot.
         """
+        self._viz = viz
         assert limits.snapshot is not None
         self._base, self._clock, self._match, self._account, self._keep = path, clock, match, account, limits.keep
         self._horizon_ns = round(limits.snapshot * 1e9)
@@ -272,7 +278,8 @@ class Snapshots:
         if not self._held:
             return "it holds nothing yet"
         self._number += 1
-        writer = RecordingWriter(numbered(self._base, self._number), self._clock, self._match, self._cast)
+        path = numbered(self._base, self._number)
+        writer = RecordingWriter(path, self._clock, self._match, self._cast, viz=self._viz)
         manifest, attachments = self._head()
         made = {"part": self._number, "made": f"snapshot: {why}"}
         try:

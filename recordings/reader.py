@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from recordings.container import ChannelRecord, Container, open_container
 from recordings.manifest import MANIFEST, RESULT, Manifest, Result, digest, from_metadata, is_sealed
+from recordings.sketch import is_derived
 from schemas.bus.contract import Received, Stamp
 from schemas.errors import TouchlineError
 from schemas.message import VERSION, BadMessageError
@@ -101,8 +102,15 @@ class Recording:
                 end=channel.last_ns / 1e9,
             )
             for channel in self.container.channels.values()
+            if not is_derived(channel.metadata)
         ]
         return sorted(facts)
+
+    @property
+    def drawn(self) -> dict[str, int]:
+        """Topic → messages, of the channels that are there for viewers alone."""
+        channels = sorted(self.container.channels.values(), key=lambda channel: channel.key)
+        return {channel.key: channel.messages for channel in channels if is_derived(channel.metadata)}
 
     def messages(self, *keys: str, start: float | None = None, end: float | None = None) -> Iterator[Recorded]:
         """Messages in the order they were recorded in, from `start` up to and without `end`, s of simulated time.

@@ -24,10 +24,13 @@ def record(
     selection: Selection = EVERYTHING,
     limits: Limits = ONE_FILE,
     config: MatchConfig | None = None,
+    viz: bool = True,
     patience: float = 30.0,
     told_to_stop: Callable[[], bool] = lambda: False,
 ) -> RecordingSummary:
     """Record until the host leaves or `told_to_stop` says so; `patience` is how long the host may take to appear, in s.
+
+    With `viz`, what viewers draw is in the file beside the messages.
 
     Raises:
         TouchlineError: no host, or a file that cannot be written; what was written so far stays as `*.part`.
@@ -35,7 +38,7 @@ def record(
     clock = WallClock()
     with open_client(match, clock, connect, patience) as bus:
         account = Account()
-        output = output_at(out, clock, match, account, limits)
+        output = output_at(out, clock, match, account, limits, viz=viz)
         try:
             recorder = Recorder(bus, output, account, name=name, sights=sights, selection=selection, config=config)
             return recorder.run(told_to_stop)
@@ -43,13 +46,15 @@ def record(
             output.abandon()
 
 
-def output_at(path: Path, clock: Clock, match: str, account: Account, limits: Limits = ONE_FILE) -> Output:
-    """Where a recording goes.
+def output_at(
+    path: Path, clock: Clock, match: str, account: Account, limits: Limits = ONE_FILE, *, viz: bool = True
+) -> Output:
+    """Where a recording goes; with `viz`, what viewers draw is in it.
 
     Raises:
         TouchlineError: a file that cannot be written.
     """
-    return (Files if limits.snapshot is None else Snapshots)(path, clock, match, account, limits)
+    return (Files if limits.snapshot is None else Snapshots)(path, clock, match, account, limits, viz=viz)
 
 
 def read_config(path: Path) -> MatchConfig:

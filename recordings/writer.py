@@ -19,6 +19,7 @@ from recordings.cast import Cast
 from recordings.environment import library
 from recordings.json_schema import flat_schema
 from recordings.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
+from recordings.sketch import Sketch
 from recordings.standing import Logged
 from schemas.bus.contract import Received
 from schemas.clock import Clock
@@ -43,8 +44,8 @@ Batch = list[Logged]
 class RecordingWriter:
     """One file that is being written. Any method may raise `TouchlineError` when the disk refuses."""
 
-    def __init__(self, path: Path, clock: Clock, match: str, cast: Cast | None = None) -> None:
-        """`cast` knows who the robots are that the keys name."""
+    def __init__(self, path: Path, clock: Clock, match: str, cast: Cast | None = None, *, viz: bool = True) -> None:
+        """`cast` knows who the robots are that the keys name; with `viz`, what viewers draw is written, too."""
         self.path = path
         self._cast = cast or Cast()
         self.size = 0
@@ -52,6 +53,8 @@ class RecordingWriter:
         self.part = path.with_name(path.name + ".part")
         self._clock = clock
         self._root = root(match)
+        self._viz = viz
+        self._sketch: Sketch | None = None
         self._channels: dict[str, int] = {}
         self._schemas: dict[str, int] = {}
         self._jobs: Queue[Callable[[], None] | None] = Queue(_BACKLOG)
@@ -82,6 +85,8 @@ class RecordingWriter:
         self._thread.start()
         attached = {name: digest(content) for name, content in attachments.items()}
         manifest = manifest.model_copy(update={"attached": attached, "standing": len(standing or ())})
+        if self._viz and manifest.setup is not None:
+            self._sketch = Sketch(self._mcap, manifest.setup)
         self._hand_over(partial(self._write_head, to_metadata(manifest), attachments))
         if standing:
             self.write(standing)
@@ -168,7 +173,7 @@ class RecordingWriter:
         self._mcap.flush()  # type: ignore[no-untyped-call]
 
     def _write_batch(self, batch: Batch) -> None:
-        add, channels = self._mcap.add_message, self._channels
+        add, channels, sketch = self._mcap.add_message, self._channels, self._sketch
         for log_ns, received in batch:
             channel = channels.get(received.key) or self._open_channel(received)
             stamp = received.stamp
@@ -176,6 +181,8 @@ class RecordingWriter:
                 add(channel, log_ns, received.payload, self._clock.unix_ns())
             else:
                 add(channel, log_ns, received.payload, stamp.sent_ns, stamp.sequence & _SEQUENCES)
+            if sketch is not None:
+                sketch.follow(received, log_ns)
 
     def _open_channel(self, received: Received) -> int:
         topic, key = received.topic, received.key

@@ -133,6 +133,8 @@ class Recording(Part):
     """So many of its files are kept, the newest."""
     snapshot: Annotated[float, Field(gt=0)] | None = None
     """Simulated s before a goal that are written, each to a file of its own; nothing else is."""
+    viz: bool = True
+    """What viewers draw is in the file: `/tf` and `/viz/*`, for Foxglove, Lichtblick and Rerun."""
 
 
 class Patience(Part):

@@ -40,6 +40,7 @@ def match(
     split_duration: options.SplitDuration = None,
     keep: options.Keep = None,
     snapshot: options.Snapshot = None,
+    no_viz: options.NoViz = False,
     ghost: Annotated[
         list[str] | None, typer.Option(help="A side played by its recorded commands: magenta=RECORDING.mcap.")
     ] = None,
@@ -80,6 +81,7 @@ def match(
         record__split_duration=split_duration,
         record__keep=keep,
         record__snapshot=snapshot,
+        record__viz=False if no_viz else None,
         record__wait=not no_record,
     )
     check(config, ghost or ())

@@ -20,6 +20,7 @@ def record(
     split_duration: options.SplitDuration = None,
     keep: options.Keep = None,
     snapshot: options.Snapshot = None,
+    no_viz: options.NoViz = False,
 ) -> None:
     """Record a match until its host leaves, or until Ctrl-C.
 
@@ -30,9 +31,9 @@ def record(
     """
     from recordings.__main__ import main
 
-    wanted = {"split-size": split_size, "split-duration": split_duration, "keep": keep, "snapshot": snapshot}
-    more = ["--sights"] if sights else []
+    values = {"split-size": split_size, "split-duration": split_duration, "keep": keep, "snapshot": snapshot}
+    more = [word for word, wanted in (("--sights", sights), ("--no-viz", no_viz)) if wanted]
     more += [f"--include={expression}" for expression in include or ()]
     more += [f"--exclude={expression}" for expression in exclude or ()]
-    more += [f"--{word}={value}" for word, value in wanted.items() if value is not None]
+    more += [f"--{word}={value}" for word, value in values.items() if value is not None]
     raise typer.Exit(main(["--connect", connect, "--match", match, "--out", str(out), "--name", name, *more]))

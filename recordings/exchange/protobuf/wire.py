@@ -1,11 +1,12 @@
-"""Protobuf's wire format, as much of it as is written: varints, doubles, and bytes with their length."""
+"""Protobuf's wire format, as much of it as is written: varints, doubles, 32 bits, and bytes with their length."""
 
 import struct
 
-VARINT, DOUBLE, BYTES = 0, 1, 2
+VARINT, DOUBLE, BYTES, FIXED32 = 0, 1, 2, 5
 """Wire types."""
 _64_BITS = (1 << 64) - 1
 double = struct.Struct("<d").pack
+fixed32 = struct.Struct("<I").pack
 
 
 def varint(number: int) -> bytes:

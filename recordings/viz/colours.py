@@ -1,0 +1,36 @@
+"""Colours that people who see no red, no green or no blue tell apart: by how light they are, not by hue alone.
+
+Cyan's robots are light, magenta's are dark, and the pitch lies between.
+"""
+
+from typing import NamedTuple
+
+from schemas.side import Side
+
+
+class Colour(NamedTuple):
+    """Red, green, blue and opacity, each from 0 to 1; sRGB."""
+
+    r: float
+    g: float
+    b: float
+    a: float = 1.0
+
+    def faded(self, a: float) -> "Colour":
+        """The same, seen through."""
+        return self._replace(a=a * self.a)
+
+
+def _of(code: str) -> Colour:
+    return Colour(*(int(code[at : at + 2], 16) / 255 for at in (1, 3, 5)))
+
+
+ROBOT = {Side.CYAN: _of("#8fe3f7"), Side.MAGENTA: _of("#8a0f5c")}
+MARK = {Side.CYAN: _of("#0a2f3a"), Side.MAGENTA: _of("#ffd9ef")}
+"""What is drawn on a robot: dark on light, light on dark."""
+STRANGER, STRANGER_MARK = _of("#9a9a9a"), _of("#202020")
+"""A robot that no team has."""
+BALL = _of("#ffb000")
+PITCH, SURROUND, LINE = _of("#4a9468"), _of("#35704e"), _of("#ffffff")
+GOAL, NET, BOUNDARY, OBSTACLE = _of("#ffffff"), _of("#e6ece8"), _of("#1d3529"), _of("#5d6470")
+INK = _of("#ffffff")
