@@ -3,7 +3,7 @@
 import mmap
 import struct
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
@@ -32,6 +32,8 @@ _END_NS = 1 << 64
 """Later than any time of a message."""
 _FOOTER = struct.Struct("<BQQQI")
 """Opcode, length, start of the summary, start of its offsets, checksum of the summary."""
+DERIVED = "derived"
+"""What the metadata of a channel has whose messages are made of those of others, for viewers."""
 
 
 @dataclass(slots=True)
@@ -155,6 +157,11 @@ def _by_index(path: Path, file: IO[bytes]) -> Container | None:
     except BROKEN as error:
         raise TouchlineError(f"{path}: {DAMAGED.format(error)}") from None
     return container
+
+
+def is_derived(metadata: Mapping[str, str]) -> bool:
+    """Whether a channel of this metadata is there for viewers alone."""
+    return DERIVED in metadata
 
 
 def summary_is_whole(file: IO[bytes] | mmap.mmap, size: int) -> bool:

@@ -5,12 +5,11 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from recordings.container import ChannelRecord
+from recordings.container import ChannelRecord, is_derived
 from recordings.copy_writer import CopyWriter
 from recordings.manifest import Manifest, Result
 from recordings.reader import Recording
 from recordings.selection import EVERYTHING, Selection
-from recordings.sketch import is_derived
 from recordings.standing import Standing
 from schemas.errors import TouchlineError
 from schemas.topics import APPLIED, WORLD

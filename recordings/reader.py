@@ -6,9 +6,8 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from recordings.container import ChannelRecord, Container, open_container
+from recordings.container import ChannelRecord, Container, is_derived, open_container
 from recordings.manifest import MANIFEST, RESULT, Manifest, Result, digest, from_metadata, is_sealed
-from recordings.sketch import is_derived
 from schemas.bus.contract import Received, Stamp
 from schemas.errors import TouchlineError
 from schemas.message import VERSION, BadMessageError

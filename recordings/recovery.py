@@ -31,7 +31,7 @@ from recordings.frames import (
     unpacked,
 )
 from recordings.manifest import MANIFEST, RESULT, is_sealed
-from recordings.summary import SummaryBuilder
+from recordings.summary import SummaryBuilder, message_count
 from recordings.writer import CHUNK_BYTES
 from schemas.errors import TouchlineError
 
@@ -45,7 +45,7 @@ class Recovered:
     repaired: bool
     """False where nothing was to be done."""
     messages: int
-    """In the file now."""
+    """In the file now, without those that are there for viewers alone."""
     cut: int
     """Bytes at its end that were no whole record."""
     rest: Path | None
@@ -148,9 +148,10 @@ class _Repair:
         found = _Found(was_whole=summary is not None and self._is_as_written(frames))
         if found.was_whole:
             assert summary is not None and summary.statistics is not None
-            found.messages = summary.statistics.message_count
+            found.messages = message_count(summary.channels, summary.statistics.channel_message_counts)
             return found
         self._look_closer(frames, found, finished=bool(frames) and frames[-1].opcode == Opcode.DATA_END)
+        found.messages = self._summary.messages
         return found
 
     def plan(self, found: _Found) -> _Plan:
@@ -207,7 +208,7 @@ class _Repair:
         """Whether the channels of all its messages are known; where its indexes are not `trusted` it is read."""
         counted = index_counts(self._content, chunk)
         if trusted and not is_last and self._summary.knows(counted):
-            self._add(chunk.frame, counted, chunk.end - chunk.frame.end, found)
+            self._add(chunk.frame, counted, chunk.end - chunk.frame.end)
             return True
         content = content_of(unpacked(self._content, chunk.frame))
         self._summary.learn(content.schemas, content.channels)
@@ -222,12 +223,11 @@ class _Repair:
         elif self._content[chunk.frame.end : chunk.end] != written:
             found.patches.append((chunk.frame.end, written))
         counted = {channel: (len(index.records), places.get(channel, 0)) for channel, index in content.indexes.items()}
-        self._add(chunk.frame, counted, len(written), found)
+        self._add(chunk.frame, counted, len(written))
         return True
 
-    def _add(self, frame: Frame, counted: dict[int, tuple[int, int]], index_length: int, found: _Found) -> None:
+    def _add(self, frame: Frame, counted: dict[int, tuple[int, int]], index_length: int) -> None:
         self._summary.add_chunk(chunk_head(self._content, frame), frame, counted, index_length)
-        found.messages += sum(count for count, _ in counted.values())
 
     def _take_beside(self, frame: Frame, found: _Found) -> None:
         """Take in an attachment or metadata; a result that counts messages which are gone is left out."""

@@ -3,22 +3,13 @@
 It is derived: nothing that reads recordings here needs it, and whatever is made of a recording draws it anew.
 """
 
-from collections.abc import Mapping
-
 from mcap.writer import Writer
 
+from recordings.container import DERIVED
 from recordings.viz.drawing import SCHEMAS, Drawing
 from recordings.viz.foxglove import descriptors
 from schemas.bus.contract import Received
 from schemas.host import Setup
-
-_DERIVED = "derived"
-"""What the metadata of these channels has, and those of messages have not."""
-
-
-def is_derived(metadata: Mapping[str, str]) -> bool:
-    """Whether a channel of this metadata holds what is derived from others."""
-    return _DERIVED in metadata
 
 
 class Sketch:
@@ -42,7 +33,7 @@ class Sketch:
         message = SCHEMAS[topic]
         if message not in self._schemas:
             self._schemas[message] = self._mcap.register_schema(message, "protobuf", descriptors(message))
-        metadata = {_DERIVED: "from world, game/state, game/event and host/applied"}
+        metadata = {DERIVED: "from world, game/state, game/event and host/applied"}
         channel = self._mcap.register_channel(topic, "protobuf", self._schemas[message], metadata)
         self._channels[topic] = channel
         return channel

@@ -1,7 +1,7 @@
 """The end of an MCAP file, made from what was found in it: summary, where its groups begin, and footer."""
 
 import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from mcap.data_stream import RecordBuilder
@@ -21,7 +21,7 @@ from mcap.records import (
 )
 from mcap.writer import MCAP0_MAGIC
 
-from recordings.container import bytes_of
+from recordings.container import bytes_of, is_derived
 from recordings.environment import library
 from recordings.frames import ChunkHead, Frame
 from recordings.manifest import sealed
@@ -45,6 +45,11 @@ class SummaryBuilder:
     def empty(self) -> bool:
         """Nothing is in the file that a reader could want."""
         return not (self._chunks or self._metadata or self._attachments)
+
+    @property
+    def messages(self) -> int:
+        """Messages in the chunks so far, without those that are there for viewers alone."""
+        return message_count(self._channels, self._counts)
 
     def learn(self, schemas: dict[int, Schema], channels: dict[int, Channel]) -> None:
         """What messages are of."""
@@ -137,6 +142,11 @@ class SummaryBuilder:
             message_end_time=max((chunk.message_end_time for chunk in self._chunks), default=0),
             schema_count=len(self._schemas),
         )
+
+
+def message_count(channels: Mapping[int, Channel], counts: Mapping[int, int]) -> int:
+    """Messages of all channels but those that are there for viewers alone."""
+    return sum(count for number, count in counts.items() if not is_derived(channels[number].metadata))
 
 
 def _closed(builder: RecordBuilder, start: int, offset_start: int) -> bytes:

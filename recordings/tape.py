@@ -12,13 +12,13 @@ from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
-import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.records import Channel, Chunk
 from mcap.stream_reader import get_chunk_data_stream
 from mcap.writer import MCAP0_MAGIC
 
+from recordings.container import BROKEN, DAMAGED
 from recordings.reader import Recorded
 from schemas.errors import TouchlineError
 from schemas.topics import TOPICS, Topic
@@ -87,7 +87,11 @@ class Tape:
         return self._ends[-1] if self._ends else 0
 
     def grow(self) -> bool:
-        """Look for what was written since; whether anything was."""
+        """Look for what was written since; whether anything was.
+
+        Raises:
+            TouchlineError: the file is damaged there.
+        """
         before, size = len(self._places), self._size()
         while not self.finished:
             self._file.seek(self._looked)
@@ -97,7 +101,10 @@ class Tape:
             opcode, length = _HEAD.unpack(head)
             if opcode not in _OPCODES or self._looked + _HEAD.size + length > size:
                 break
-            self._note(opcode, length)
+            try:
+                self._note(opcode, length)
+            except BROKEN as error:
+                raise self._damaged(error) from None
             self._looked += _HEAD.size + length
         for place in self._introducing:
             self._read(place)  # what is known of a channel stands in the first chunk that has messages of it
@@ -191,11 +198,14 @@ class Tape:
             chunk = Chunk.read(ReadDataStream(self._file))
             stream, length = get_chunk_data_stream(chunk, validate_crc=True)
             messages = self._messages_in(stream.read(length))
-        except (ValueError, KeyError, struct.error, zstandard.ZstdError) as error:
-            raise TouchlineError(f"{self._path}: damaged inside ({error}); take another copy of it") from None
+        except BROKEN as error:
+            raise self._damaged(error) from None
         if any(not here.start_ns <= message.log_ns <= here.end_ns for _, message in messages):
-            raise TouchlineError(f"{self._path}: damaged inside (times of a chunk); take another copy of it")
+            raise self._damaged("times of a chunk")
         return messages
+
+    def _damaged(self, why: object) -> TouchlineError:
+        return TouchlineError(f"{self._path}: {DAMAGED.format(why)}")
 
     def _messages_in(self, data: bytes) -> list[tuple[int, Recorded]]:
         at, messages, channels = 0, [], self._channels

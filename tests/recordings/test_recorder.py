@@ -96,12 +96,13 @@ def test_each_message_model_is_registered_once(stage):
 
     with stage.path.open("rb") as file:
         summary = make_reader(file).get_summary()
-    assert sorted(schema.name for schema in summary.schemas.values()) == [
-        "touchline.Applied",
-        "touchline.Command",
-        "touchline.World",
+    assert sorted((schema.name, schema.encoding) for schema in summary.schemas.values()) == [
+        ("foxglove.FrameTransforms", "protobuf"),
+        ("foxglove.SceneUpdate", "protobuf"),
+        ("touchline.Applied", "jsonschema"),
+        ("touchline.Command", "jsonschema"),
+        ("touchline.World", "jsonschema"),
     ]
-    assert {schema.encoding for schema in summary.schemas.values()} == {"jsonschema"}
 
 
 def test_the_manifest_stands_before_the_first_message_and_the_result_after_the_last(stage):
