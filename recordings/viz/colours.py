@@ -34,3 +34,5 @@ BALL = _of("#ffb000")
 PITCH, SURROUND, LINE = _of("#4a9468"), _of("#35704e"), _of("#ffffff")
 GOAL, NET, BOUNDARY, OBSTACLE = _of("#ffffff"), _of("#e6ece8"), _of("#1d3529"), _of("#5d6470")
 INK = _of("#ffffff")
+WORDS = {Side.CYAN: ROBOT[Side.CYAN], Side.MAGENTA: _of("#f59bd0")}
+"""A team's name on a dark ground."""

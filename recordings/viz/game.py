@@ -1,6 +1,6 @@
 """The game for viewers: a board beside the pitch with teams, score and clock, and a log of what happened."""
 
-from recordings.viz.colours import INK, ROBOT
+from recordings.viz.colours import INK, WORDS
 from recordings.viz.foxglove import LOG, encode, stamp
 from recordings.viz.primitives import Values, entity, scene, text
 from recordings.viz.transforms import MAP
@@ -8,8 +8,10 @@ from schemas.game import EventKind, GameEvent, GameState
 from schemas.host import Setup
 from schemas.side import Side
 
-_BOARD_BESIDE, _BOARD_Z = 1.6, 1.2
-"""m from the touch line, and above the ground."""
+_BOARD_BESIDE, _BOARD_Z = 0.8, 0.8
+"""m from the boundary, and above the ground."""
+_ROWS = 1.3
+"""m from one row to the next, backward and upward: they stand apart from the side and from above."""
 _LARGE, _SMALL = 1.1, 0.7
 
 _LEVELS = {
@@ -25,13 +27,15 @@ _LEVELS = {
 
 def board(state: GameState, setup: Setup, log_ns: int) -> bytes:
     """A `foxglove.SceneUpdate`: each team's name stands at the half that it defends."""
-    y = setup.pitch.touch_line + setup.pitch.border + _BOARD_BESIDE
-    texts = [text((0.0, y, _BOARD_Z + _LARGE), _score(state), _LARGE, INK)]
-    texts.append(text((0.0, y, _BOARD_Z - _SMALL / 2), _standing(state), _SMALL, INK))
+    y, z = setup.pitch.touch_line + setup.pitch.border + _BOARD_BESIDE, _BOARD_Z
+    texts = [
+        text((0.0, y, z), _standing(state), _SMALL, INK),
+        text((0.0, y + _ROWS, z + _ROWS), _score(state), _LARGE, INK),
+    ]
     for side in Side:
         attacks = state.cyan_attacks if side is Side.CYAN else -state.cyan_attacks
         x = -attacks * setup.pitch.length / 4
-        texts.append(text((x, y, _BOARD_Z + _LARGE), setup.teams[side].name, _LARGE, ROBOT[side]))
+        texts.append(text((x, y + _ROWS, z + _ROWS), setup.teams[side].name, _LARGE, WORDS[side]))
     return scene(log_ns, [entity("board", MAP, texts=texts)])
 
 
