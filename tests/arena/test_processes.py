@@ -69,6 +69,11 @@ def test_the_recorder_is_told_to_keep_sights_when_the_match_file_says_so() -> No
     assert "--sights" not in by_name(plan())["recorder"].command
 
 
+def test_the_recorder_is_told_to_draw_nothing_when_the_match_file_says_so() -> None:
+    assert "--no-viz" in by_name(plan(**{"record.viz": False}))["recorder"].command
+    assert "--no-viz" not in by_name(plan())["recorder"].command
+
+
 @pytest.mark.parametrize(
     ("listen", "connect"),
     [

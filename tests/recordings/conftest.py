@@ -216,6 +216,7 @@ def record_match(
     until: float,
     between: Callable[[Simulation], None] = lambda _: None,
     limits: Limits = ONE_FILE,
+    viz: bool = True,
 ) -> None:
     """Play a real match with the teams that ship, in this process and without a network, and record it.
 
@@ -228,7 +229,7 @@ def record_match(
     host_bus.declare_alive("host", "host")
     outbox = Outbox(host_bus, simulation.roster, simulation.profile.time.tick)
     account = Account()
-    recorder = Recorder(bus, output_at(path, bus.clock, config.name, account, limits), account, config=config)
+    recorder = Recorder(bus, output_at(path, bus.clock, config.name, account, limits, viz=viz), account, config=config)
     relay, ear = Relay(host_bus), host_bus.subscribe(COMMAND)
     commands = {name: host_bus.publisher(COMMAND, robot=name) for name in table.brains}
     recorder.pump()
