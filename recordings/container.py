@@ -90,7 +90,8 @@ class Container:
         wanted = {number: channel.key for number, channel in self.channels.items() if channel.key in keys}
         for index in summary.chunk_indexes if summary is not None else ():
             is_in_time = index.message_start_time < end_ns and index.message_end_time >= start_ns
-            if not is_in_time or wanted.keys().isdisjoint(index.message_index_offsets):
+            places = index.message_index_offsets  # a chunk that was repaired may have none: it has to be read
+            if not is_in_time or (places and wanted.keys().isdisjoint(places)):
                 continue
             file.seek(index.chunk_start_offset + 9)  # behind opcode and length
             stream, size = get_chunk_data_stream(Chunk.read(ReadDataStream(file)), validate_crc=True)
@@ -200,7 +201,11 @@ def stream_of(content: bytes) -> ReadDataStream:
 
 def _extent(file: IO[bytes], summary: Summary, channel: int, read: dict[int, dict[int, list[int]]]) -> tuple[int, int]:
     """Times of the first and the last message of a channel, from its first and last chunk; `read` are chunks so far."""
-    chunks = [index for index in summary.chunk_indexes if channel in index.message_index_offsets]
+    chunks = [
+        index
+        for index in summary.chunk_indexes
+        if channel in (index.message_index_offsets or _times(file, index, read))
+    ]
     if not chunks:
         return 0, 0
     return min(_times(file, chunks[0], read)[channel]), max(_times(file, chunks[-1], read)[channel])

@@ -23,6 +23,8 @@ HEAD = struct.Struct("<BQ")
 """Opcode, and length of the content."""
 PRIVATE = 0x80
 """Readers pass over records whose opcode is this or higher."""
+DAMAGED = 0x100
+"""Stands for an opcode that no record has: the head of this one is damaged."""
 _CHUNK = struct.Struct("<QQQII")
 """First and last log time, size and checksum of what is in it uncompressed, length of the compression's name."""
 _INDEX = struct.Struct("<HI")
@@ -30,6 +32,9 @@ _INDEX = struct.Struct("<HI")
 _MESSAGE = struct.Struct("<HIQ")
 """Channel, sequence, log time."""
 _LAST_OPCODE = max(Opcode)
+_IN_DATA = frozenset({Opcode.CHUNK, Opcode.MESSAGE_INDEX, Opcode.ATTACHMENT, Opcode.METADATA})
+"""What stands between header and end of the data section; all else is in chunks, or behind it."""
+_DATA_END_BYTES = 4
 
 
 class Frame(NamedTuple):
@@ -64,6 +69,8 @@ class ChunkFrame:
 
     frame: Frame
     indexes: list[Frame] = field(default_factory=list)
+    broken: bool = False
+    """The head of one of the indexes is damaged."""
 
     @property
     def end(self) -> int:
@@ -75,7 +82,7 @@ def frames_of(content: mmap.mmap, known: list[int]) -> Iterator[Frame]:
     """The records of the data section, up to its end or to the first that is not whole.
 
     `known` are places where a record begins, in order: where the head of one is damaged, the next place is gone to, and
-    what lies between is a private record.
+    what lies between is one damaged record. So is one that has no business here: a bit of its opcode has changed.
     """
     at, size = len(MCAP0_MAGIC), len(content)
     places = iter(known)
@@ -87,17 +94,32 @@ def frames_of(content: mmap.mmap, known: list[int]) -> Iterator[Frame]:
         end = at + HEAD.size + length
         sound = 0 < opcode <= _LAST_OPCODE or opcode >= PRIVATE
         if place is not None and (not sound or end > place):
-            opcode, end = PRIVATE, place
+            opcode, end = DAMAGED, place
         elif not sound or end > size:
             return
+        elif not _belongs(opcode, at, end):
+            opcode = DAMAGED
         yield Frame(opcode, at, end)
         if opcode == Opcode.DATA_END:
             return
         at = end
 
 
-def chunks_of(frames: list[Frame]) -> dict[int, ChunkFrame]:
-    """Chunks with the indexes behind them, by where they begin."""
+def _belongs(opcode: int, at: int, end: int) -> bool:
+    """Whether a record of this opcode may stand here."""
+    if opcode == Opcode.HEADER:
+        return at == len(MCAP0_MAGIC)
+    if opcode == Opcode.DATA_END:
+        return end - at == HEAD.size + _DATA_END_BYTES
+    return opcode in _IN_DATA or opcode >= PRIVATE
+
+
+def chunks_of(frames: list[Frame], known: list[int]) -> dict[int, ChunkFrame]:
+    """Chunks with the indexes behind them, by where they begin.
+
+    What is damaged there is an index, too, unless something else is `known` to begin there, or nothing is known.
+    """
+    places = frozenset(known)
     chunks: dict[int, ChunkFrame] = {}
     last: ChunkFrame | None = None
     for frame in frames:
@@ -105,6 +127,9 @@ def chunks_of(frames: list[Frame]) -> dict[int, ChunkFrame]:
             last = chunks[frame.at] = ChunkFrame(frame)
         elif frame.opcode == Opcode.MESSAGE_INDEX and last is not None:
             last.indexes.append(frame)
+        elif frame.opcode == DAMAGED and last is not None and places and frame.at not in places:
+            last.indexes.append(frame)
+            last.broken = True
         else:
             last = None
     return chunks

@@ -17,6 +17,7 @@ from mcap.writer import MCAP0_MAGIC
 from recordings.container import stream_of, summary_is_whole, summary_of
 from recordings.frames import (
     BROKEN,
+    DAMAGED,
     HEAD,
     PRIVATE,
     ChunkFrame,
@@ -150,7 +151,7 @@ class _Repair:
             assert summary is not None and summary.statistics is not None
             found.messages = message_count(summary.channels, summary.statistics.channel_message_counts)
             return found
-        self._look_closer(frames, found, finished=bool(frames) and frames[-1].opcode == Opcode.DATA_END)
+        self._look_closer(frames, known, found, finished=bool(frames) and frames[-1].opcode == Opcode.DATA_END)
         found.messages = self._summary.messages
         return found
 
@@ -174,14 +175,15 @@ class _Repair:
         with memoryview(self._content) as view:
             return bool(expected) and zlib.crc32(view[: frames[-1].at]) == expected
 
-    def _look_closer(self, frames: list[Frame], found: _Found, *, finished: bool) -> None:
+    def _look_closer(self, frames: list[Frame], known: list[int], found: _Found, *, finished: bool) -> None:
         """Take in what is whole, chunk by chunk, and note what has to be written over what is not."""
         if finished:
             found.end = frames.pop().at
         else:
             found.end = frames[-1].end if frames else len(MCAP0_MAGIC)
             found.cut = self._size - found.end
-        chunks = chunks_of(frames)
+        chunks = chunks_of(frames, known)
+        in_chunks = {index.at for chunk in chunks.values() for index in chunk.indexes}
         damaged = damaged_chunks(self._content, chunks)
         last = max(chunks) if chunks and not finished and chunks[max(chunks)].end == found.end else None
         for frame in frames:
@@ -194,7 +196,7 @@ class _Repair:
                     return
             elif frame.opcode in (Opcode.ATTACHMENT, Opcode.METADATA):
                 self._take_beside(frame, found)
-            elif frame.opcode == PRIVATE and self._content[frame.at] != PRIVATE:
+            elif frame.opcode == DAMAGED and frame.at not in in_chunks:
                 self._leave_out(found, frame)
         if last is not None and last not in damaged:
             found.end = chunks[last].frame.end  # its indexes are written anew, as one of them may be missing
@@ -207,7 +209,7 @@ class _Repair:
     def _take_chunk(self, chunk: ChunkFrame, found: _Found, *, trusted: bool, is_last: bool) -> bool:
         """Whether the channels of all its messages are known; where its indexes are not `trusted` it is read."""
         counted = index_counts(self._content, chunk)
-        if trusted and not is_last and self._summary.knows(counted):
+        if trusted and not is_last and not chunk.broken and self._summary.knows(counted):
             self._add(chunk.frame, counted, chunk.end - chunk.frame.end)
             return True
         content = content_of(unpacked(self._content, chunk.frame))

@@ -3,6 +3,7 @@
 import random
 import subprocess
 import sys
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -180,6 +181,29 @@ def test_a_damaged_chunk_is_left_out_and_the_rest_stays(several_chunks):
     assert told(several_chunks) == [entry for entry in whole if entry not in gone]
     assert facts_of(open_recording(several_chunks)).lost == len(gone)
     check_with_the_stock_readers(several_chunks)
+
+
+@pytest.mark.parametrize(
+    ("what", "bit"), [*product(("chunk", "index"), range(8)), *product(("metadata",), (0, 1, 2, 3, 7))]
+)
+def test_a_record_whose_opcode_changed_is_left_out_and_the_rest_stays(several_chunks, bit, what):
+    """One bit makes a footer of a chunk, an end of all data of an index, a channel of metadata."""
+    whole = told(several_chunks)
+    with several_chunks.open("rb") as file:
+        summary = make_reader(file).get_summary()
+    chunk = summary.chunk_indexes[5]
+    index = min(chunk.message_index_offsets.values())
+    place = {"chunk": chunk.chunk_start_offset, "index": index, "metadata": summary.metadata_indexes[-1].offset}[what]
+    data = bytearray(several_chunks.read_bytes())
+    data[place] ^= 1 << bit
+    several_chunks.write_bytes(data)
+
+    done = recover(several_chunks)
+    assert (done.repaired, done.cut) == (True, 0)
+    lost = [entry for entry in whole if chunk.message_start_time <= entry[2] <= chunk.message_end_time]
+    kept = told(several_chunks)
+    assert kept == (whole if what != "chunk" else [entry for entry in whole if entry not in lost])
+    assert check_with_the_stock_readers(several_chunks) == len(kept)
 
 
 def test_what_is_cut_off_beyond_a_chunk_is_kept_beside_it(several_chunks, tmp_path):
