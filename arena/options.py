@@ -1,8 +1,9 @@
-"""The words that several commands share: what each option is called, means, and does to the match."""
+"""The words that several commands share, and bundles of them: what each is called, means, and does to the match."""
 
 import importlib.util
 import re
 import socket
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -16,6 +17,7 @@ from schemas.match_config import MatchConfig, load_match
 from schemas.profile import load_profile
 from schemas.robot_model import models_of
 from schemas.rule_book import load_rule_book
+from schemas.side import Side
 
 if TYPE_CHECKING:
     from recordings.selection import Selection
@@ -61,6 +63,7 @@ ListenWeb = Annotated[str, typer.Option(help="Address to serve the page on; 0.0.
 NoViz = Annotated[
     bool, typer.Option("--no-viz", help="Leave out what Foxglove, Lichtblick and Rerun draw: /tf and /viz/*.")
 ]
+ForSide = Annotated[Side, typer.Argument(help="cyan or magenta")]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")]
 
 NO_PYBULLET = "the simulation needs PyBullet, which is not installed; pip install 'touchline[sim]'"
@@ -86,6 +89,48 @@ Connect = Annotated[str, typer.Option(envvar="TOUCHLINE_CONNECT", callback=_endp
 Match = Annotated[
     str, typer.Option("--match", envvar="TOUCHLINE_MATCH", callback=match_name, help="Name of the match.")
 ]
+
+
+@dataclass(frozen=True)
+class Seat:
+    """Which running match a command means."""
+
+    connect: Connect = DEFAULT_ENDPOINT
+    match: Match = DEFAULT_MATCH
+
+
+@dataclass(frozen=True)
+class MatchWords:
+    """Which match a command plays, and how: a file, and what is said otherwise than it says."""
+
+    file: MatchFile = None
+    seed: Seed = None
+    pace: Pace = None
+    duration: Duration = None
+    scene: Scene = None
+    profile: Profile = None
+    rules: Rules = None
+    referee: Referee = None
+    name: MatchName = None
+    listen: Listen = DEFAULT_ENDPOINT
+    insecure: Insecure = False
+
+    def read(self, **flags: Any) -> MatchConfig:
+        """The match, with more flags than these; as `read_match`.
+
+        Raises:
+            TouchlineError: one line on what is wrong or missing.
+        """
+        own = {name: getattr(self, name) for name in ("seed", "pace", "duration", "scene", "profile", "rules", "name")}
+        return read_match(self.file, **own, referee__mode=self.referee, **flags)
+
+    def endpoint(self) -> str:
+        """Where its host listens; as `listening`.
+
+        Raises:
+            TouchlineError: open to other machines without `--insecure`, or in use.
+        """
+        return listening(self.listen, insecure=self.insecure)
 
 
 def read_match(file: Path | None, **flags: Any) -> MatchConfig:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from arena import options
+from arena.bundle import unbundled
 from coach_gateway.web.settings import DEFAULT_PORT, LOOPBACK
 
 if TYPE_CHECKING:
@@ -17,18 +18,9 @@ if TYPE_CHECKING:
     from schemas.clock import Clock
 
 
+@unbundled
 def match(
-    file: options.MatchFile = None,
-    seed: options.Seed = None,
-    pace: options.Pace = None,
-    duration: options.Duration = None,
-    scene: options.Scene = None,
-    profile: options.Profile = None,
-    rules: options.Rules = None,
-    referee: options.Referee = None,
-    name: options.MatchName = None,
-    listen: options.Listen = options.DEFAULT_ENDPOINT,
-    insecure: options.Insecure = False,
+    words: options.MatchWords,
     record: Annotated[
         Path | None, typer.Option(help="Where the recording goes; by default into the run's folder.")
     ] = None,
@@ -63,17 +55,10 @@ def match(
     from schemas.clock import WallClock
 
     teams = teams_of(ghost) if ghost else {}
-    config = options.read_match(
-        file,
+    if web and words.pace is None:
+        words = replace(words, pace="realtime")
+    config = words.read(
         **{f"teams__{side}": team for side, team in teams.items()},
-        seed=seed,
-        pace=pace or ("realtime" if web else None),
-        duration=duration,
-        scene=scene,
-        profile=profile,
-        rules=rules,
-        referee__mode=referee,
-        name=name,
         record__sights=sights or None,
         record__include=include or None,
         record__exclude=exclude or None,
@@ -86,7 +71,7 @@ def match(
     )
     check(config, ghost or ())
     check_teams(config)
-    endpoint = options.listening(listen, insecure=insecure)
+    endpoint = words.endpoint()
     clock = WallClock()
     port = page_port(listen_web, web_port) if web else None
     plan = prepare(config, endpoint, record, clock, recorded=not no_record)

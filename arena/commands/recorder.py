@@ -1,12 +1,16 @@
 """`touchline recorder`: pause, resume, split, snapshot and status of a recorder that is running."""
 
 import json as json_text
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Annotated
 
 import typer
 
 from arena import options
+from arena.bundle import unbundled
 from arena.front import PREFIX
+from schemas.control import RecorderDeed
 
 app = typer.Typer(
     help="Control a recorder while it records: pause, resume, split, snapshot, status.\n\n"
@@ -14,98 +18,60 @@ app = typer.Typer(
     no_args_is_help=True,
 )
 
-Name = Annotated[str, typer.Option(help="What the recorder is called.")]
+DEEDS: dict[RecorderDeed, tuple[str, str]] = {
+    RecorderDeed.STATUS: ("Say how the recorder is doing.", "--match friendly"),
+    RecorderDeed.PAUSE: ("Leave out what comes from now on; it is counted in the file.", ""),
+    RecorderDeed.RESUME: ("Record again.", ""),
+    RecorderDeed.SPLIT: ("Finish the file that is being written, and go on in the next one.", ""),
+    RecorderDeed.SNAPSHOT: (
+        "Have a recorder that was started with --snapshot write the last seconds to a file.",
+        "--match friendly",
+    ),
+}
+"""Deed, which is also the word of its command → its help, and the options of its example."""
+
 _ANSWER_S = 5.0
 """s of wall time that a recorder is given to answer; a snapshot has to be written first."""
 
 
-@app.command()
-def status(
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
-    name: Name = "recorder",
-    json: options.Json = False,
-) -> None:
-    """Say how the recorder is doing.
+@dataclass(frozen=True)
+class Asking:
+    """Which recorder is meant, and how its answer is shown."""
 
-    Example: touchline recorder status --match friendly
-    """
-    _ask("status", connect, match, name, json=json)
+    name: Annotated[str, typer.Option(help="What the recorder is called.")] = "recorder"
+    json: options.Json = False
 
 
-@app.command()
-def pause(
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
-    name: Name = "recorder",
-    json: options.Json = False,
-) -> None:
-    """Leave out what comes from now on; it is counted in the file.
+def _command(deed: RecorderDeed) -> Callable[..., None]:
+    def command(seat: options.Seat, asking: Asking) -> None:
+        _ask(deed, seat, asking)
 
-    Example: touchline recorder pause
-    """
-    _ask("pause", connect, match, name, json=json)
+    return unbundled(command)
 
 
-@app.command()
-def resume(
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
-    name: Name = "recorder",
-    json: options.Json = False,
-) -> None:
-    """Record again.
-
-    Example: touchline recorder resume
-    """
-    _ask("resume", connect, match, name, json=json)
+for _deed, (_help, _words) in DEEDS.items():
+    app.command(_deed.value, help=f"{_help}\n\nExample: touchline recorder {_deed.value} {_words}".rstrip())(
+        _command(_deed)
+    )
 
 
-@app.command()
-def split(
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
-    name: Name = "recorder",
-    json: options.Json = False,
-) -> None:
-    """Finish the file that is being written, and go on in the next one.
-
-    Example: touchline recorder split
-    """
-    _ask("split", connect, match, name, json=json)
-
-
-@app.command()
-def snapshot(
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
-    name: Name = "recorder",
-    json: options.Json = False,
-) -> None:
-    """Have a recorder that was started with --snapshot write the last seconds to a file.
-
-    Example: touchline recorder snapshot --match friendly
-    """
-    _ask("snapshot", connect, match, name, json=json)
-
-
-def _ask(deed: str, connect: str, match: str, name: str, *, json: bool) -> None:
+def _ask(deed: RecorderDeed, seat: options.Seat, asking: Asking) -> None:
     """Ask, print the answer; exit status 1 where it is a refusal."""
-    from arena.seat import seat
+    from arena.seat import seat as seat_of
     from schemas.bus.contract import NoAnswerError
-    from schemas.control import RecorderDeed, RecorderReply, RecorderRequest
+    from schemas.control import RecorderReply, RecorderRequest
     from schemas.errors import MatchFailedError
     from schemas.topics import CONTROL
 
-    with seat(connect, match) as bus:
+    with seat_of(seat.connect, seat.match) as bus:
         try:
-            answer = bus.ask(CONTROL, RecorderRequest(deed=RecorderDeed(deed)), _ANSWER_S, name=name)
+            answer = bus.ask(CONTROL, RecorderRequest(deed=deed), _ANSWER_S, name=asking.name)
             reply: RecorderReply = answer.result(_ANSWER_S + 0.5)
         except NoAnswerError as error:
             raise MatchFailedError(
-                f"no recorder named {name} answers ({error}); --name says which one is meant"
+                f"no recorder named {asking.name} answers ({error}); --name says which one is meant"
             ) from None
-    if json:
+    if asking.json:
         typer.echo(json_text.dumps(reply.model_dump(mode="json", exclude={"version"})))
     elif reply.accepted:
         doing = "paused" if reply.paused else "recording"

@@ -88,18 +88,25 @@ def test_a_refused_action_fails_with_the_referees_reason(host: Host) -> None:
     assert (host.asked[0].place.x, host.asked[0].place.y) == (-3.5, 2.0)
 
 
-@pytest.mark.parametrize("word", [*coach.UNSIDED, *coach.SIDED, *coach.FOR_ROBOT])
+ABOUT = {coach.Nobody: [], coach.OneSide: ["cyan"], coach.OneRobot: ["cyan1"], coach.OnePlace: ["-3.5", "2"]}
+
+
+@pytest.mark.parametrize("word", coach.DEEDS)
 def test_every_word_of_the_referee_box_asks_for_its_own_action(host: Host, word: str) -> None:
-    action, _ = {**coach.UNSIDED, **coach.SIDED, **coach.FOR_ROBOT}[word]
-    touchline(word, *(["cyan"] if word in coach.SIDED else ["cyan1"] if word in coach.FOR_ROBOT else []))
-    assert [asked.action for asked in host.asked] == [action]
-    assert word.replace("-", "") == action.value.replace("_", "")
-    assert host.asked[0].robot == ("cyan1" if word in coach.FOR_ROBOT else None)
+    """Reference 13, row 37: what the keys of the auto referee ask for."""
+    deed = coach.DEEDS[word]
+    touchline(word, *ABOUT[deed.about])
+    (asked,) = host.asked
+    assert asked.action is deed.action
+    assert word.replace("-", "") == deed.action.value.replace("_", "")
+    assert asked.side == (Side.CYAN if deed.about is coach.OneSide else None)
+    assert asked.robot == ("cyan1" if deed.about is coach.OneRobot else None)
+    assert (asked.place is not None) == (deed.about is coach.OnePlace)
 
 
-def test_every_action_has_its_word() -> None:
-    words = {action for action, _ in {**coach.UNSIDED, **coach.SIDED, **coach.FOR_ROBOT}.values()}
-    assert words | {ActionName.PLACE_BALL} == set(ActionName)
+def test_every_action_has_one_word() -> None:
+    assert len(coach.DEEDS) == len(ActionName)
+    assert {deed.action for deed in coach.DEEDS.values()} == set(ActionName)
 
 
 def test_a_name_that_no_robot_can_have_is_wrong_input(host: Host) -> None:
