@@ -34,7 +34,7 @@ class TeamSetup(Part):
     types: dict[Name, Name] = {}
     """Robot → its type; a robot that is not named here is a standard one."""
     goalkeeper: bool = True
-    """The first is the goalkeeper; without one, all play in the field."""
+    """The first on the field is the goalkeeper; without one, all play in the field."""
 
 
 class Setup(Message):

@@ -266,7 +266,7 @@ class Simulation:
             self.state = self.referee.begin_at(staged.game, staged.ball)
         elif staged.placements or self._stage.robots != before.robots:
             people = self.state.people.among(self.roster.names)
-            self.state = replace(self.state, people=people, evidence=NOTHING)  # nobody ran or dribbled there
+            self.state = self.state._replace(people=people, evidence=NOTHING)  # nobody ran or dribbled there
 
     def _rig(self) -> Rig:
         return Rig(self.profile.field, self.profile.ball, self.tuning.types)

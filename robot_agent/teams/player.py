@@ -20,6 +20,7 @@ from robot_agent.world_model import Scene, WorldModel
 from schemas.coach import CoachMode, CoachOrder
 from schemas.command import BallBelief, Command, Drive, Motion, Radio
 from schemas.game import GameView, Stage, TeamPhase
+from schemas.goalkeeper import keeper_of
 from schemas.sight import Sight
 
 SPEAKS_EVERY = 5
@@ -60,11 +61,12 @@ class Player(ABC):
         self.briefing = briefing
         self.setup = briefing.setup
         self.limits = Limits.of(briefing.setup)
-        has_keeper = self.setup.teams[briefing.side].goalkeeper
-        plays_field = not has_keeper or (self.plays_alone and not briefing.teammates)
-        self.keeper = None if plays_field else self.setup.teams[briefing.side].robots[0]
-        """The goalkeeper's name, or nothing."""
-        self.is_keeper = self.keeper == briefing.robot
+        team = self.setup.teams[briefing.side]
+        plays_field = not team.goalkeeper or (self.plays_alone and not briefing.teammates)
+        self._keepers = [] if plays_field else team.robots
+        """Who keeps the goal: the first of them that is on the field."""
+        self.keeper = keeper_of(self._keepers, ())
+        """Who keeps it now, or nothing."""
         self._full_limits = self.limits
         self._world = WorldModel(briefing)
         self._asked = Asked.of(briefing.setup)
@@ -81,6 +83,11 @@ class Player(ABC):
         """How far this robot is with the coach's test."""
         self._last: Command | None = None
         self._game: GameView | None = None
+
+    @property
+    def is_keeper(self) -> bool:
+        """Whether this robot keeps the goal now."""
+        return self.keeper == self.briefing.robot
 
     def act(self, sight: Sight) -> Command:
         """The answer to one sight."""
@@ -119,6 +126,8 @@ class Player(ABC):
     def _decide(self, sight: Sight) -> Command:
         """A new decision."""
         scene = self._world.take_in(sight)
+        away = [name for name, standing in scene.game.robots.items() if standing.off_field is not None]
+        self.keeper = keeper_of(self._keepers, away)
         self._penalty_kicked = self._penalty_kicked and scene.game.phase is TeamPhase.OUR_PENALTY
         order = sight.order
         self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits

@@ -11,8 +11,6 @@ Measures: nothing of its own.
 Not judged: whether people who officiate are right.
 """
 
-import dataclasses
-
 from schemas.game import RESTARTS, EventKind, Mode, Phase, Stage
 from sim_host.referee import flow, penalties, restart
 from sim_host.referee.bench import bench_pose, entry_pose
@@ -42,14 +40,14 @@ def judge(turn: Turn, found: tuple[Rule, Decision] | None) -> None:
 def decide(turn: Turn, rule: str, decision: Decision) -> None:
     """Carry a decision out, and remember how it was before."""
     remember(turn)
-    turn.state = dataclasses.replace(turn.state, proposal=None)
+    turn.state = turn.state._replace(proposal=None)
     flow.carry_out(turn, rule, decision)
 
 
 def propose(turn: Turn, rule: str, decision: Decision) -> None:
     """Say what is decided unless people overrule it; the game goes on meanwhile, and nothing else is judged."""
     proposal = Proposal(rule, decision, turn.match.proposal)
-    turn.state = dataclasses.replace(turn.state, proposal=proposal)
+    turn.state = turn.state._replace(proposal=proposal)
     turn.say(
         EventKind.PROPOSAL,
         rule,
@@ -73,7 +71,7 @@ def time_is_up(proposal: Proposal | None) -> bool:
 def remember(turn: Turn) -> None:
     """Keep the state as it is for `undo`; one decision can be undone, not those before it."""
     state = turn.state
-    turn.state = dataclasses.replace(state, before=dataclasses.replace(state, before=None, proposal=None))
+    turn.state = state._replace(before=state._replace(before=None, proposal=None))
 
 
 def why_not_undo(turn: Turn) -> str | None:
@@ -95,10 +93,8 @@ def undo(turn: Turn) -> None:
     now, before = turn.state, turn.state.before
     if before is None:
         return
-    timing = dataclasses.replace(before.timing, clock=now.clock, effective=now.timing.effective, timer=0.0)
-    turn.state = dataclasses.replace(
-        before, timing=timing, still=0.0, ball=now.ball, evidence=NOTHING, set_piece=None, before=None
-    )
+    timing = before.timing._replace(clock=now.clock, effective=now.timing.effective, timer=0.0)
+    turn.state = before._replace(timing=timing, still=0.0, ball=now.ball, evidence=NOTHING, set_piece=None, before=None)
     _undo_leaving(turn, now)
     signalled = before.restart
     if before.running:

@@ -1,6 +1,5 @@
 """The referee: (state, snapshot, actions, dt) → ruling; it remembers nothing and sees nothing else."""
 
-import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -85,8 +84,7 @@ class Referee:
         """The state with which a scene begins: in the first half, a restart to be taken from where the ball lies."""
         is_restart = game.phase in RESTARTS
         running = game.running or game.phase is Phase.PLAY
-        return dataclasses.replace(
-            self.begin(),
+        return self.begin()._replace(
             phase=game.phase,
             side=game.side,
             spot=ball if is_restart else None,

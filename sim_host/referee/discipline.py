@@ -43,9 +43,7 @@ def show(turn: Turn, rule: str, name: str, card: Card) -> None:
         before = _reds(turn, turn.match.roster.side_of(name))
         record = Record(0, record.red + 1)
         away = Away(OffField.RED_CARD, _red_duration(book, before))
-    turn.state = dataclasses.replace(
-        turn.state, people=dataclasses.replace(people, records={**people.records, name: record})
-    )
+    turn.state = turn.state._replace(people=dataclasses.replace(people, records={**people.records, name: record}))
     count = f"{record.yellow} in all" if card is Card.YELLOW else f"{record.red} in all"
     turn.say(
         EventKind.CARD,
@@ -62,7 +60,7 @@ def show(turn: Turn, rule: str, name: str, card: Card) -> None:
 def take_out(turn: Turn, rule: str, name: str, away: Away) -> None:
     """Have a robot leave the field; one that has left already is off for the new reason from now on."""
     people, was_there = turn.state.people, name not in turn.state.people.away
-    turn.state = dataclasses.replace(turn.state, people=dataclasses.replace(people, away={**people.away, name: away}))
+    turn.state = turn.state._replace(people=dataclasses.replace(people, away={**people.away, name: away}))
     if was_there:
         turn.place_robot(name, bench_pose(turn.match, turn.state, name))
     turn.say(
@@ -105,7 +103,7 @@ def bring_back(turn: Turn, rule: str, name: str) -> None:
     side, why = turn.match.roster.side_of(name), people.away[name].why
     away = {other: one for other, one in people.away.items() if other != name}
     returned = {**people.returned, side: people.returned.get(side, 0) + 1}
-    turn.state = dataclasses.replace(state, people=dataclasses.replace(people, away=away, returned=returned))
+    turn.state = state._replace(people=dataclasses.replace(people, away=away, returned=returned))
     turn.place_robot(name, pose)
     turn.say(
         EventKind.ON_FIELD,

@@ -1,7 +1,5 @@
 """How play comes to rest: a break, full time, or a side that cannot field enough robots."""
 
-import dataclasses
-
 from schemas.game import EventKind, Phase
 from schemas.side import Side
 from sim_host.referee import discipline
@@ -14,8 +12,7 @@ FORFEIT = "flow"
 def rest(turn: Turn, phase: Phase, until: float | None) -> None:
     """Nobody plays in this phase; it lasts until the timer is at `until` s, or for good."""
     state = turn.state
-    turn.state = dataclasses.replace(
-        state,
+    turn.state = state._replace(
         phase=phase,
         side=None,
         spot=None,
@@ -48,7 +45,7 @@ def forfeit(turn: Turn, loser: Side) -> None:
     """End the match: won by the other side, by as many goals as the rule book says at least."""
     state, winner = turn.state, loser.opponent
     goals = max(0, state.score.of(loser) + turn.book.people.forfeit_goals - state.score.of(winner))
-    turn.state = dataclasses.replace(state, score=state.score.plus(winner, goals))
+    turn.state = state._replace(score=state.score.plus(winner, goals))
     left, least = discipline.can_play(turn, loser), turn.book.people.least_robots
     turn.say(
         EventKind.FORFEIT,

@@ -12,7 +12,6 @@ effective playing time, while the ball is in play. In a shoot-out both stand.
 Not judged: added time.
 """
 
-import dataclasses
 from collections.abc import Callable, Mapping
 
 from schemas.game import RESTARTS, EventKind, Phase, Score, Stage
@@ -37,7 +36,7 @@ def carry_out(turn: Turn, rule: str, decision: Decision) -> None:
         end_half(turn, rule, decision.text)
         return
     if decision.goal_for is not None:
-        turn.state = dataclasses.replace(turn.state, score=turn.state.score.plus(decision.goal_for))
+        turn.state = turn.state._replace(score=turn.state.score.plus(decision.goal_for))
     if decision.shot_scored is not None:
         penalties.count(turn, decision.shot_scored)
     turn.say(
@@ -141,11 +140,10 @@ def _change_sides(turn: Turn, stage: Stage) -> None:
     """Begin the next half: other direction, everybody at the start poses of it, the other side kicks off."""
     state, match = turn.state, turn.match
     duration = match.half_duration if stage is Stage.REGULAR else match.extra_half_duration
-    turn.state = dataclasses.replace(
-        state,
+    turn.state = state._replace(
         half=state.half + 1,
         stage=stage,
-        timing=dataclasses.replace(state.timing, limit=state.clock + duration),
+        timing=state.timing._replace(limit=state.clock + duration),
         kick_off=state.kick_off.opponent,
         cyan_attacks=-state.cyan_attacks,
         people=discipline.forgotten(state.people, turn.book.discipline),

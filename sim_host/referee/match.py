@@ -1,11 +1,12 @@
 """What stays the same through one match: rule book, pitch, bodies, who plays, and how it begins."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
 from schemas.errors import TouchlineError
 from schemas.frames import Pose
 from schemas.game import Mode
+from schemas.goalkeeper import keeper_of
 from schemas.profile import Ball, Field
 from schemas.rule_book import RuleBook
 from schemas.side import Side
@@ -44,8 +45,10 @@ class Match:
     """m; beyond this |x| lie the penalty areas."""
     near_squared: tuple[float, ...] = field(init=False)
     """m²; how far the centres of ball and robot may be apart, squared, for it to be at the ball; in roster order."""
-    is_keeper: tuple[bool, ...] = field(init=False)
-    """Whether each robot of the roster is its side's goalkeeper."""
+    widest_near: float = field(init=False)
+    """m; a robot farther from the ball than this along x is not at it, whichever it is."""
+    all_keepers: tuple[bool, ...] = field(init=False)
+    """Whether each robot of the roster keeps its side's goal while everybody is on the field."""
 
     @property
     def extra_half_duration(self) -> float:
@@ -63,6 +66,18 @@ class Match:
         object.__setattr__(self, "deep_x", self.pitch.goal_line - self.pitch.penalty_area_depth)
         near = self.ball.radius + self.book.scrum.reach
         object.__setattr__(self, "near_squared", tuple([(reach + near) ** 2 for reach in self.reaches]))
-        keepers = [self.roster.keepers.get(side) for side in self.roster.sides]
-        is_keeper = [name == keeper for name, keeper in zip(self.roster.names, keepers, strict=True)]
-        object.__setattr__(self, "is_keeper", tuple(is_keeper))
+        object.__setattr__(self, "widest_near", max(self.reaches, default=0.0) + near)
+        object.__setattr__(self, "all_keepers", self._keepers(()))
+
+    def keepers(self, away: Collection[str]) -> tuple[bool, ...]:
+        """Whether each robot of the roster keeps its side's goal, while these are off the field."""
+        return self._keepers(away) if away else self.all_keepers
+
+    def _keepers(self, away: Collection[str]) -> tuple[bool, ...]:
+        roster = self.roster
+        keepers = [
+            keeper_of([name for name in roster.names if roster.side_of(name) is side], away)
+            for side in Side
+            if side in roster.keepers
+        ]
+        return tuple([name in keepers for name in roster.names])

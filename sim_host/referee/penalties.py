@@ -8,8 +8,6 @@ Measures: penalties taken and goals of each side; the clock stands.
 Not judged: who wins an undecided match.
 """
 
-import dataclasses
-
 from schemas.game import Phase, Stage
 from schemas.side import Side
 from sim_host.referee import restart
@@ -24,7 +22,7 @@ def begin(turn: Turn) -> None:
     """Signal the first penalty, of the side that would have kicked off."""
     state = turn.state
     out = ShootOut(state.kick_off.opponent)
-    turn.state = dataclasses.replace(state, stage=Stage.SHOOT_OUT, shoot_out=out, before=None)
+    turn.state = state._replace(stage=Stage.SHOOT_OUT, shoot_out=out, before=None)
     restart.signal(turn, penalty_for(turn, out.next_side()))
 
 
@@ -32,7 +30,7 @@ def count(turn: Turn, scored: bool) -> None:
     """An attempt is over."""
     state = turn.state
     if state.shoot_out is not None and state.side is not None:
-        turn.state = dataclasses.replace(state, shoot_out=state.shoot_out.counted(state.side, scored))
+        turn.state = state._replace(shoot_out=state.shoot_out.counted(state.side, scored))
 
 
 def next_penalty(turn: Turn, rule: str) -> None:
@@ -52,7 +50,7 @@ def next_penalty(turn: Turn, rule: str) -> None:
             end_match(turn, rule, f"the penalty shoot-out is undecided after {out.series} series, {said}")
             return
         out = out.repeated()
-        turn.state = dataclasses.replace(state, shoot_out=out)
+        turn.state = state._replace(shoot_out=out)
     restart.stop(turn, rule, penalty_for(turn, out.next_side()))
 
 

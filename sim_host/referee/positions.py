@@ -68,9 +68,8 @@ class LineUp(NamedTuple):
         return -self.state.attack(self.match.roster.sides[index])
 
     def is_keeper(self, index: int) -> bool:
-        """Whether a robot is its side's goalkeeper."""
-        roster = self.match.roster
-        return roster.keepers.get(roster.sides[index]) == roster.names[index]
+        """Whether a robot keeps its side's goal."""
+        return self.match.keepers(self.state.people.away)[index]
 
     def takes(self, index: int) -> bool:
         """Whether a robot is of the side that takes the restart."""

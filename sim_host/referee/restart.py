@@ -10,7 +10,6 @@ Measures: the time since STOP, signal and START; the ball's way from its spot, a
 Not judged: who let the time go by.
 """
 
-import dataclasses
 import math
 
 from schemas.game import Card, EventKind, Mode, Phase, Stage
@@ -31,8 +30,7 @@ def stop(turn: Turn, rule: str, restart: Restart | None) -> None:
     follows = f"{named(restart)} follows" if restart is not None else "the referee decides how it goes on"
     turn.say(EventKind.STOP, rule, f"STOP; {follows}")
     state = turn.state
-    turn.state = dataclasses.replace(
-        state,
+    turn.state = state._replace(
         phase=Phase.STOPPED,
         side=None,
         spot=None,
@@ -49,8 +47,7 @@ def signal(turn: Turn, restart: Restart) -> None:
     """Place the ball and signal the restart; robots take their positions."""
     turn.place_ball(restart.spot)
     state = turn.state
-    turn.state = dataclasses.replace(
-        state,
+    turn.state = state._replace(
         phase=restart.phase,
         side=restart.side,
         spot=restart.spot,
@@ -66,8 +63,7 @@ def signal(turn: Turn, restart: Restart) -> None:
 def start(turn: Turn, restart: Restart, remark: str = "") -> None:
     """Give START of the signalled restart; the first of a half sets the clock going, a drop ball is in play at once."""
     state = turn.state
-    turn.state = dataclasses.replace(
-        state,
+    turn.state = state._replace(
         running=True,
         timing=state.timing.anew(time_limit(turn, restart), runs=state.stage is not Stage.SHOOT_OUT),
         set_piece=set_piece.begun(restart),
@@ -93,7 +89,7 @@ def release(turn: Turn) -> None:
     if piece is None or turn.state.phase is not Phase.PLAY:
         return
     if set_piece.settled(piece, turn.book, turn.snapshot):
-        turn.state = dataclasses.replace(turn.state, set_piece=None)
+        turn.state = turn.state._replace(set_piece=None)
 
 
 def time_limit(turn: Turn, restart: Restart) -> float:
@@ -162,4 +158,4 @@ def _taken(turn: Turn, restart: Restart) -> None:
 def _in_play(turn: Turn, restart: Restart, text: str) -> None:
     turn.say(EventKind.IN_PLAY, RULE, text, side=restart.side, robot=turn.state.last_touch)
     state = turn.state
-    turn.state = dataclasses.replace(state, phase=Phase.PLAY, side=None, spot=None, timing=state.timing.anew(None))
+    turn.state = state._replace(phase=Phase.PLAY, side=None, spot=None, timing=state.timing.anew(None))

@@ -44,7 +44,10 @@ def look(match: Match, state: RefereeState, snapshot: Snapshot, dt: float) -> Sc
     now = ball[:3]
     in_play = state.phase is Phase.PLAY
     slow = in_play and _is_still(ball, match.book.stall.still_speed)
-    moved_on = RefereeState(  # `dataclasses.replace` takes half as long again, in every tick
+    seen = NOTHING
+    if state.running:
+        seen = observe(match, state.evidence, match.keepers(state.people.away), state.cyan_attacks, snapshot, dt)
+    moved_on = RefereeState(  # `_replace` takes half as long again, in every tick
         phase=state.phase,
         timing=state.timing.after(dt, in_play),
         kick_off=state.kick_off,
@@ -63,10 +66,10 @@ def look(match: Match, state: RefereeState, snapshot: Snapshot, dt: float) -> Sc
         before=state.before,
         still=state.still + dt if slow else 0.0,
         ball=now,
-        evidence=observe(match, state.evidence, state.cyan_attacks, snapshot, dt) if state.running else NOTHING,
+        evidence=seen,
     )
     if state.shoot_out is not None and state.running:
-        moved_on = dataclasses.replace(moved_on, shoot_out=_approached(match, moved_on, snapshot, state.shoot_out))
+        moved_on = moved_on._replace(shoot_out=_approached(match, moved_on, snapshot, state.shoot_out))
     inside = abs(ball.x) <= match.out_x and abs(ball.y) <= match.out_y
     crossing = None if inside or state.ball is None else crossed(match, state.ball, now)
     return Scene(match, moved_on, snapshot, crossing)

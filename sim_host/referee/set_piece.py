@@ -4,9 +4,8 @@ The evidence is the snapshot's touches, kick and possession. A touch in the `KIC
 is leaving the hull.
 """
 
-import dataclasses
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from schemas.game import Phase
 from schemas.rule_book import RuleBook
@@ -18,8 +17,7 @@ KICK = 0.1
 """s."""
 
 
-@dataclass(frozen=True, slots=True)
-class SetPiece:
+class SetPiece(NamedTuple):
     """One restart that was started; in play or not, the phase says."""
 
     restart: Restart
@@ -60,8 +58,7 @@ def followed(piece: SetPiece | None, snapshot: Snapshot, in_play: bool, dt: floa
     ball, touches = (snapshot.ball.x, snapshot.ball.y), snapshot.touches
     kicker = piece.kicker or _kicker(piece, snapshot)
     new = tuple([name for name in touches if name not in piece.touched])
-    return dataclasses.replace(
-        piece,
+    return piece._replace(
         free_from=ball if touches else piece.free_from,
         rolled=max(piece.rolled, math.dist(piece.free_from, ball)),
         moved=math.dist(piece.restart.spot, ball),

@@ -1,6 +1,6 @@
 """The referee's state between two ticks: everything it remembers, and nothing else."""
 
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from schemas.game import GameState, Phase, Point, Score, Stage
 from schemas.side import Side
@@ -13,8 +13,7 @@ from sim_host.referee.shoot_out import ShootOut
 from sim_host.referee.timing import Timing
 
 
-@dataclass(frozen=True, slots=True)
-class RefereeState:
+class RefereeState(NamedTuple):
     """The game as the referee remembers it; times in s, places in m in the field frame."""
 
     phase: Phase
@@ -30,14 +29,14 @@ class RefereeState:
     half: int = 1
     """Counts on through extra time."""
     stage: Stage = Stage.REGULAR
-    score: Score = field(default_factory=Score)
+    score: Score = Score()
     cyan_attacks: int = 1
     """Sign of the x direction that cyan attacks."""
     pending: Restart | None = None
     """What will be signalled after STOP; nothing when people have to decide."""
     set_piece: SetPiece | None = None
     """The restart that was started last, until nothing of it binds anybody."""
-    people: People = field(default_factory=People)
+    people: People = People()
     shoot_out: ShootOut | None = None
     proposal: Proposal | None = None
     """Mixed officiating: what is decided unless people overrule it."""

@@ -1,14 +1,12 @@
 """The clocks of a match: running time, effective playing time, and the timer of what is going on."""
 
-import dataclasses
-from dataclasses import dataclass
+from typing import NamedTuple
 
 ROUNDING = 1e-9
 """s; sums of ticks may fall this short of a limit that is a whole number of ticks."""
 
 
-@dataclass(frozen=True, slots=True)
-class Timing:
+class Timing(NamedTuple):
     """All times in s."""
 
     limit: float
@@ -37,7 +35,7 @@ class Timing:
 
     def anew(self, until: float | None, *, runs: bool | None = None) -> "Timing":
         """The timer begins again and is held against `until`; the clock runs on as it does unless told."""
-        return dataclasses.replace(self, timer=0.0, until=until, runs=self.runs if runs is None else runs)
+        return self._replace(timer=0.0, until=until, runs=self.runs if runs is None else runs)
 
     @property
     def left(self) -> float | None:

@@ -3,8 +3,6 @@
 Who takes it back at once, before anything else is decided, rather has it undone: the restart goes with it then.
 """
 
-import dataclasses
-
 from schemas.game import EventKind, RefereeAction
 from sim_host.referee.actions.legality import no_match, no_side
 from sim_host.referee.turn import Turn
@@ -21,7 +19,7 @@ def apply(turn: Turn, action: RefereeAction) -> None:
     if side is None:
         return
     score = turn.state.score.plus(side, -1)
-    turn.state = dataclasses.replace(turn.state, score=score)
+    turn.state = turn.state._replace(score=score)
     text = f"a goal of {side} is cancelled by the word of {action.source}"
     turn.say(EventKind.NO_GOAL, action.action, text, side=side, score=score)
 

@@ -1,7 +1,5 @@
 """Kick-off for a side: from the centre; before the match, it begins the match with that side."""
 
-import dataclasses
-
 from schemas.game import Phase, RefereeAction
 from sim_host.referee import flow
 from sim_host.referee.actions import ordered_restart
@@ -19,7 +17,7 @@ def why_illegal(turn: Turn, action: RefereeAction) -> str | None:
 def apply(turn: Turn, action: RefereeAction) -> None:
     """Begin the match, or order the kick-off; the other side of the first one kicks off the next half."""
     if turn.state.phase is Phase.PRE_GAME and action.side is not None:
-        turn.state = dataclasses.replace(turn.state, kick_off=action.side)
+        turn.state = turn.state._replace(kick_off=action.side)
         flow.begin_half(turn)
     else:
         ordered_restart.apply(turn, action, Phase.KICK_OFF)

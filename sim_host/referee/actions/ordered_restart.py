@@ -1,7 +1,5 @@
 """What the seven restart actions share: who may order one, and how it enters the restart sequence."""
 
-import dataclasses
-
 from schemas.game import SIDED, Phase, RefereeAction
 from sim_host.referee import restart
 from sim_host.referee.actions.legality import FIXED, a_place, a_shoot_out, a_side, bad_place, no_half, no_side
@@ -27,7 +25,7 @@ def apply(turn: Turn, action: RefereeAction, phase: Phase) -> None:
     place = (action.place.x, action.place.y) if action.place is not None else turn.ball_spot
     ordered = restart_at(turn.match, turn.state, phase, action.side, place)
     if turn.state.phase is Phase.STOPPED:
-        timing = dataclasses.replace(turn.state.timing, until=turn.book.restarts.stop_to_signal)
-        turn.state = dataclasses.replace(turn.state, pending=ordered, timing=timing)
+        timing = turn.state.timing._replace(until=turn.book.restarts.stop_to_signal)
+        turn.state = turn.state._replace(pending=ordered, timing=timing)
     else:
         restart.stop(turn, action.action, ordered)

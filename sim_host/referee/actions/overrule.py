@@ -1,7 +1,5 @@
 """Overrule: what the referee has proposed is not decided; the game goes on."""
 
-import dataclasses
-
 from schemas.game import RefereeAction
 from sim_host.referee.actions.legality import no_proposal
 from sim_host.referee.turn import Turn
@@ -14,4 +12,4 @@ def why_illegal(turn: Turn, _action: RefereeAction) -> str | None:
 
 def apply(turn: Turn, _action: RefereeAction) -> None:
     """Forget it."""
-    turn.state = dataclasses.replace(turn.state, proposal=None)
+    turn.state = turn.state._replace(proposal=None)

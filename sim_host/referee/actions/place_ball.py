@@ -1,7 +1,5 @@
 """Place the ball: sets it down while the game is halted, and moves the spot of the restart that is due or signalled."""
 
-import dataclasses
-
 from schemas.game import Phase, RefereeAction
 from sim_host.referee.actions.legality import FIXED, a_place, bad_place, no_half
 from sim_host.referee.call import Restart
@@ -26,10 +24,10 @@ def apply(turn: Turn, action: RefereeAction) -> None:
     spot = (action.place.x, action.place.y)
     turn.place_ball(spot)
     if turn.state.pending is not None:
-        turn.state = dataclasses.replace(turn.state, pending=turn.state.pending._replace(spot=spot))
+        turn.state = turn.state._replace(pending=turn.state.pending._replace(spot=spot))
     elif turn.state.phase is not Phase.STOPPED:
         timing = turn.state.timing.anew(turn.state.timing.until)
-        turn.state = dataclasses.replace(turn.state, spot=spot, timing=timing)
+        turn.state = turn.state._replace(spot=spot, timing=timing)
 
 
 def _due(turn: Turn) -> Restart | None:

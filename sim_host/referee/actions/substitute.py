@@ -21,7 +21,7 @@ def apply(turn: Turn, action: RefereeAction) -> None:
     name, people = named_robot(action), turn.state.people
     side = turn.match.roster.side_of(name)
     made = {**people.substitutions, side: people.substitutions.get(side, 0) + 1}
-    turn.state = dataclasses.replace(turn.state, people=dataclasses.replace(people, substitutions=made))
+    turn.state = turn.state._replace(people=dataclasses.replace(people, substitutions=made))
     discipline.take_out(turn, action.action, name, Away(OffField.SUBSTITUTION, turn.book.people.substitution))
 
 

@@ -4,7 +4,7 @@ Knows no rule: the rules compare what is kept here with the numbers of the rule 
 stays the same object, so that a quiet tick makes nothing new.
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from sim_host.referee.evidence.around import look_around
 from sim_host.referee.evidence.contest import Contest, contest_after
@@ -18,8 +18,7 @@ from sim_host.referee.match import Match
 from sim_host.snapshot import Snapshot
 
 
-@dataclass(frozen=True, slots=True)
-class Evidence:
+class Evidence(NamedTuple):
     """Everything seen since START; times in s, places in m in the field frame."""
 
     play: Play = UNTOUCHED
@@ -42,9 +41,11 @@ NOTHING = Evidence()
 """Before START."""
 
 
-def observe(match: Match, before: Evidence, cyan_attacks: int, snapshot: Snapshot, dt: float) -> Evidence:
-    """The evidence after one more tick of `dt` in s; `cyan_attacks` is the sign of the x direction cyan attacks."""
-    around = look_around(match, cyan_attacks, snapshot)
+def observe(
+    match: Match, before: Evidence, keeps: tuple[bool, ...], cyan_attacks: int, snapshot: Snapshot, dt: float
+) -> Evidence:
+    """The evidence after one more tick of `dt` in s; who keeps a goal, and the sign of the x that cyan attacks."""
+    around = look_around(match, keeps, cyan_attacks, snapshot)
     play = play_after(match, before.play, cyan_attacks, snapshot) if snapshot.touches else before.play
     contest = before.contest
     if contest is not None or len(around.near) > 1:

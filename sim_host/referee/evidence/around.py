@@ -12,7 +12,7 @@ class Around(NamedTuple):
     near: tuple[int, ...]
     """The hull is within `scrum.reach` of the ball's hull."""
     deep: tuple[int, ...]
-    """Beyond the front line of a penalty area, at whatever y; without goalkeepers before their own goals."""
+    """Beyond the front line of a penalty area, at whatever y; without who keeps a goal, before that goal."""
     outside: tuple[int, ...]
     """The whole hull is outside the lines."""
 
@@ -20,22 +20,22 @@ class Around(NamedTuple):
 _NOBODY: tuple[int, ...] = ()
 
 
-def look_around(match: Match, cyan_attacks: int, snapshot: Snapshot) -> Around:
-    """One tick's places; `cyan_attacks` is the sign of the x direction that cyan attacks."""
-    ball, deep_x, touch = snapshot.ball, match.deep_x, match.pitch.touch_line
-    bx, by = ball[0], ball[1]
+def look_around(match: Match, keeps: tuple[bool, ...], cyan_attacks: int, snapshot: Snapshot) -> Around:
+    """One tick's places; who keeps a goal, and the sign of the x direction that cyan attacks."""
+    bx, by = snapshot.ball[0], snapshot.ball[1]
+    near_squared, low, high = match.near_squared, bx - match.widest_near, bx + match.widest_near
+    deep_x, touch = match.deep_x, match.pitch.touch_line
     near, deep, outside = _NOBODY, _NOBODY, _NOBODY
-    for index, (robot, near_squared) in enumerate(zip(snapshot.robots, match.near_squared, strict=True)):
+    for index, robot in enumerate(snapshot.robots):
         x, y = robot[0], robot[1]
-        dx, dy = x - bx, y - by
-        if dx * dx + dy * dy < near_squared:
+        if low < x < high and (x - bx) * (x - bx) + (y - by) * (y - by) < near_squared[index]:
             near = (*near, index)
-        if x > deep_x or x < -deep_x:
-            if not (match.is_keeper[index] and x * match.roster.sides[index].attack(cyan_attacks) < 0):
-                deep = (*deep, index)
-            if _is_outside(match, index, x, y):
-                outside = (*outside, index)
-        elif (y > touch or y < -touch) and _is_outside(match, index, x, y):
+        if -deep_x <= x <= deep_x and -touch <= y <= touch:
+            continue
+        is_deep = not -deep_x <= x <= deep_x
+        if is_deep and not (keeps[index] and x * match.roster.sides[index].attack(cyan_attacks) < 0):
+            deep = (*deep, index)
+        if _is_outside(match, index, x, y):
             outside = (*outside, index)
     return Around(near, deep, outside)
 

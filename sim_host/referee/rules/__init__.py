@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
+from itertools import compress
 
 from schemas.game import Stage
 from sim_host.referee.decision import Decision
@@ -45,7 +47,7 @@ class Rule:
     while_running: bool = True
     """After START alone."""
     occasion: str = "always"
-    """What must be there for it to have anything to judge, by its name in `_occasions`: a quiet tick asks few rules."""
+    """What must be there for it to have anything to judge, by its name in `OCCASIONS`: a quiet tick asks few rules."""
 
 
 RESTART_FOUL = ("restarts.restart_fouls", "restarts.in_play_distance")
@@ -112,43 +114,54 @@ RULES: tuple[Rule, ...] = (
     Rule("half_end", half_end.judge, ("periods.halves", "periods.half_duration"), while_running=False),
 )
 
-RUNNING = RULES
-"""The rules that judge after START."""
-HALTED = tuple(rule for rule in RULES if not rule.while_running)
-"""The rules that judge at any time: those on the clocks, which are all that judge where people officiate."""
 SHOOT_OUT: tuple[Rule, ...] = (Rule("shoot_out", shoot_out.judge, ("periods.shoot_out_limit",)),)
 """The rules of the penalty shoot-out."""
+TIMES: Mapping[str, tuple[Rule, ...]] = {
+    "running": RULES,
+    "halted": tuple(rule for rule in RULES if not rule.while_running),
+    "shoot-out": SHOOT_OUT,
+}
+"""When → the rules that judge: after START; at any time, which is all where people officiate; in a shoot-out."""
 
 
 def first_decision(scene: Scene, *, clocks_alone: bool = False) -> tuple[Rule, Decision] | None:
     """The first rule that decides in this tick, with what it decides."""
-    occasions = _occasions(scene)
-    for rule in _rules(scene, clocks_alone):
-        if occasions[rule.occasion]:
-            decision = rule.judge(scene)
-            if decision is not None:
-                return rule, decision
+    for rule in _asked(_time(scene, clocks_alone), _occasions(scene)):
+        decision = rule.judge(scene)
+        if decision is not None:
+            return rule, decision
     return None
 
 
-def _occasions(scene: Scene) -> Mapping[str, object]:
-    """What is there in this tick."""
-    evidence = scene.state.evidence
-    return {
-        "always": True,
-        "set piece": scene.state.set_piece,
-        "crossing": scene.crossing,
-        "kick": evidence.flight,
-        "dribble": evidence.dribble,
-        "pushes": evidence.pushes,
-        "stays": evidence.stays is not NOWHERE,
-        "outside": evidence.outside,
-        "contest": evidence.contest,
-        "still ball": scene.state.still,
-    }
+OCCASIONS = ("set piece", "crossing", "kick", "dribble", "pushes", "stays", "outside", "contest", "still ball")
+"""What rules wait for, in the order of `_occasions`."""
 
 
-def _rules(scene: Scene, clocks_alone: bool) -> tuple[Rule, ...]:
+def _occasions(scene: Scene) -> tuple[bool, ...]:
+    """Which of these are there in this tick."""
+    state = scene.state
+    seen = state.evidence
+    return (
+        state.set_piece is not None,
+        scene.crossing is not None,
+        seen.flight is not None,
+        seen.dribble is not None,
+        bool(seen.pushes),
+        seen.stays is not NOWHERE,
+        bool(seen.outside),
+        seen.contest is not None,
+        state.still > 0.0,
+    )
+
+
+@cache
+def _asked(time: str, there: tuple[bool, ...]) -> tuple[Rule, ...]:
+    """The rules of this time that have anything to judge."""
+    occasions = {"always", *compress(OCCASIONS, there)}
+    return tuple([rule for rule in TIMES[time] if rule.occasion in occasions])
+
+
+def _time(scene: Scene, clocks_alone: bool) -> str:
     if clocks_alone or not scene.state.running:
-        return HALTED
-    return SHOOT_OUT if scene.state.stage is Stage.SHOOT_OUT else RUNNING
+        return "halted"
+    return "shoot-out" if scene.state.stage is Stage.SHOOT_OUT else "running"

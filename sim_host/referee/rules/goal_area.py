@@ -1,6 +1,8 @@
 """Goal area: nobody but the goalkeeper of the side that defends it is in a goal area.
 
-Another robot of that side is illegal defence, one of the other side illegal attack. The other side gets a free kick.
+While a goalkeeper is off the field, the first robot of its side that is on it keeps the goal (ours: the rule book lets
+teams choose). Another robot of that side is illegal defence, one of the other side illegal attack. The other side gets
+a free kick.
 
 Section: play, illegal defence and attack.
 Measures: how long the centre of a robot has been inside the outer edges of the area's lines, or in the goal behind it.

@@ -9,7 +9,7 @@ from robot_agent.teams.player import SPEAKS_EVERY
 from robot_agent.teams.set_piece import asked_distance
 from schemas.coach import CoachMode, CoachOrder
 from schemas.command import Drive
-from schemas.game import Point, TeamPhase
+from schemas.game import OffField, Point, Standing, TeamPhase
 from schemas.side import Side
 
 TEAMS = ("simple", "nubot")
@@ -264,3 +264,23 @@ def test_every_phase_has_an_answer_with_or_without_a_ball(squad, team, phase, ba
     for running in (False, True):
         for command in made.act(ball=ball, phase=phase, running=running).values():
             assert math.isfinite(command.drive.vx + command.drive.vy + command.drive.omega)
+
+
+@pytest.mark.parametrize("team", TEAMS)
+def test_while_the_goalkeeper_is_off_the_field_the_next_robot_keeps_the_goal_until_it_is_back(squad, setup, team):
+    made = squad(team)
+    off = {"cyan1": Standing(off_field=OffField.REPAIR)}
+
+    def play(robots, ticks=400):
+        for _ in range(ticks):
+            made.move(made.act(ball=(3.0, 1.0), game={"robots": robots}))
+
+    play({})
+    made.poses["cyan1"] = (-1.0, -8.0, 1.5)
+    play(off)
+    goal = (-setup.pitch.goal_line, 0.0)
+    assert math.dist(made.poses["cyan2"][:2], goal) < 1.0 and math.dist(made.poses["cyan3"][:2], goal) > 3.0
+    assert made.said["cyan2"].role == "keeper" and len(players(made)) == 1
+    play({}, ticks=600)
+    assert math.dist(made.poses["cyan1"][:2], goal) < 1.0 and math.dist(made.poses["cyan2"][:2], goal) > 3.0
+    assert made.said["cyan2"].role != "keeper" and len(players(made)) == 1

@@ -1,7 +1,5 @@
 """Who decides: automatic, manual and mixed officiating, and undo."""
 
-import dataclasses
-
 import pytest
 
 from schemas.game import EventKind, Mode, Phase, Score
@@ -165,4 +163,4 @@ def test_a_state_remembers_one_state_before_and_no_chain(bench):
     for _ in range(5):
         bench.ask("goal", CYAN)
     assert bench.state.before.before is None
-    assert dataclasses.replace(bench.state, before=None) != bench.state
+    assert bench.state._replace(before=None) != bench.state

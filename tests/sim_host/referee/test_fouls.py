@@ -8,7 +8,7 @@ import pytest
 from schemas.game import Card, EventKind, Phase
 from schemas.rule_book import SHIPPED
 from schemas.side import Side
-from sim_host.referee.rules import RULES, _occasions
+from sim_host.referee.rules import OCCASIONS, RULES, _asked, _occasions
 from sim_host.referee.scene import Scene
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
@@ -304,6 +304,31 @@ def test_the_goalkeeper_may_be_in_its_goal_area_and_beside_one_other_in_its_pena
     assert EventKind.FOUL not in bench.kinds()
 
 
+@pytest.mark.parametrize("deed", ["repair", "red_card"])
+def test_while_the_goalkeeper_is_off_the_field_the_first_robot_on_it_keeps_the_goal_and_no_other(new_bench, deed):
+    bench = new_bench().playing()
+    bench.ask(deed, robot="cyan1")
+    bench.robots["cyan2"] = (-bench.pitch.goal_line + 0.3, 0.5)
+    bench.run(3.0)
+    assert EventKind.FOUL not in bench.kinds()
+    bench.robots |= {"cyan3": (-bench.pitch.goal_line + 0.3, -0.7)}
+    bench.run(3.0)
+    assert [event.robot for event in bench.events if event.kind is EventKind.FOUL] == ["cyan3"]
+
+
+def test_when_the_goalkeeper_is_back_who_stood_in_for_it_leaves_the_goal_area(new_bench):
+    bench = new_bench().playing()
+    bench.ask("repair", robot="cyan1")
+    bench.run(bench.book.people.repair)
+    bench.ask("stop")
+    bench.until(lambda state: "cyan1" not in state.people.away)
+    bench.ask("free_kick", Side.MAGENTA, (4.0, 0.0))
+    bench.robots["cyan2"] = (-bench.pitch.goal_line + 0.3, 0.5)
+    bench.until(lambda state: state.running)
+    bench.run(3.0)
+    assert [event.robot for event in bench.events if event.kind is EventKind.FOUL] == ["cyan2"]
+
+
 @pytest.mark.parametrize("behind", [0.6, 5.0])
 def test_behind_the_goal_line_and_out_of_the_goal_nobody_is_in_an_area(new_bench, behind):
     """The older referee had no limit along x (reference 14, defect 16)."""
@@ -444,5 +469,5 @@ def test_a_quiet_tick_asks_few_rules(new_bench):
     bench = new_bench().playing()
     ruling = bench.tick((1.2, 0.0))
     there = _occasions(Scene(bench.referee._match, ruling.state, bench.snapshot(), None))
-    assert {rule.occasion for rule in RULES} == set(there)
-    assert [rule.name for rule in RULES if there[rule.occasion]] == ["lost_ball", "half_end"]
+    assert {rule.occasion for rule in RULES} == {"always", *OCCASIONS} and len(there) == len(OCCASIONS)
+    assert [rule.name for rule in _asked("running", there)] == ["lost_ball", "half_end"]

@@ -1,7 +1,5 @@
 """Each rule: the least case that breaks it, and the nearest that does not."""
 
-import dataclasses
-
 import pytest
 
 from schemas.game import EventKind, Phase, Score
@@ -160,7 +158,7 @@ def test_a_ball_pressed_a_little_into_the_ground_is_not_lost(bench):
 def test_a_ball_outside_that_crossed_no_line_is_lost_and_dropped_at_the_nearest_legal_place(bench):
     bench.until(lambda state: state.running)
     out = beyond(bench, "y", 0.5)
-    bench.state = dataclasses.replace(bench.state, ball=(3.0, out, bench.radius))
+    bench.state = bench.state._replace(ball=(3.0, out, bench.radius))
     ruling = bench.tick((3.0, out))
     assert ruling.events[0].rule == "lost_ball"
     assert ruling.state.pending.spot == pytest.approx((3.0, bench.pitch.touch_line - bench.book.restarts.field_inset))
