@@ -12,6 +12,7 @@ from sim_host.actuation.chassis import Chassis
 from sim_host.snapshot import BallState, ObstacleState, RobotState, Roster, Snapshot
 from sim_host.world.engine import Engine
 from sim_host.world.impact import Impacts
+from sim_host.world.touch import Touch
 
 _NOTHING = BallReport()
 
@@ -37,6 +38,7 @@ class World:
         self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
         self._ball = BallHandling(profile, roster.models, self._engine)
         self._impacts = Impacts(profile.time, roster.models, profile.field)
+        self._touch = Touch(profile, self._engine)
         self.tick = 0
         self._obstacles: tuple[ObstacleState, ...] = ()
         self._chain = b""
@@ -94,6 +96,7 @@ class World:
         for obstacle in obstacles:
             self._engine.put_obstacle(ObstacleState.of(obstacle))
         self._impacts = Impacts(profile.time, roster.models, profile.field)
+        self._touch = Touch(profile, self._engine)
         self._count_obstacles()
         aside = self._engine.robot_states(None)
         self._roster = roster
@@ -122,10 +125,10 @@ class World:
         for drives in self._chassis.plan(self._robots, ordered):
             free_ball = ball.before_step(drives)
             if pairs or fixed:
-                engine.bring_together(pairs, fixed, drives)
+                self._touch.bring_robots(pairs, fixed, drives)
             engine.drive(drives)
             if free_ball is not None:
-                engine.bring_ball(free_ball)
+                self._touch.bring_ball(free_ball)
             engine.step()
             ball.after_step(report)
         engine.read()

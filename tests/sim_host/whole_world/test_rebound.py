@@ -13,6 +13,7 @@ from schemas.robot_model import RobotModel
 from schemas.side import Side
 from sim_host.snapshot import Roster
 from sim_host.world.engine import Engine
+from sim_host.world.touch import Touch
 from sim_host.world.world import World
 
 PROFILE = load_profile("msl")
@@ -44,6 +45,7 @@ def test_the_rebound_is_the_restitution_in_whatever_phase_of_a_step_it_comes(
     if face == "robot":
         kept -= (1 + kept) * BALL.mass / (BALL.mass + ROBOT.mass)
     engine = Engine(PROFILE, ROSTER)
+    touch = Touch(PROFILE, engine)
     engine.place(Placement(body="cyan1", x=5.0, y=0.0))
     step = PROFILE.time.physics_step
     engine.set_ball(
@@ -52,7 +54,7 @@ def test_the_rebound_is_the_restitution_in_whatever_phase_of_a_step_it_comes(
     deepest = 0.0
     for _ in range(8):
         engine.drive([(0.0, 0.0, 0.0)])
-        engine.bring_ball(engine.ball_now())
+        touch.bring_ball(engine.ball_now())
         engine.step()
         deepest = max(deepest, engine.ball_contacts(None).depth)
     (_, _, _), _, (vx, vy, _), _ = engine.ball_now()
@@ -67,12 +69,13 @@ def test_the_rebound_is_the_restitution_in_whatever_phase_of_a_step_it_comes(
 def test_a_fast_ball_that_meets_a_hull_off_its_axis_is_stopped_at_the_hull(aside: float, speed: float) -> None:
     """Least case of a random play: at 30 m/s a ball was 11 cm in the hull before the engine noticed; 1 cm may be."""
     engine = Engine(PROFILE, ROSTER)
+    touch = Touch(PROFILE, engine)
     engine.place(Placement(body="cyan1", x=5.0, y=0.0))
     engine.set_ball((4.45, aside, ROBOT.height / 2 - 0.1), (speed, 0.0, 0.0), (0.0, 0.0, 0.0))
     nearest = math.inf
     for _ in range(8):
         engine.drive([(0.0, 0.0, 0.0)])
-        engine.bring_ball(engine.ball_now())
+        touch.bring_ball(engine.ball_now())
         engine.step()
         (bx, by, _), *_ = engine.ball_now()
         robot = engine.robot_now(0)
