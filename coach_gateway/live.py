@@ -26,6 +26,8 @@ _LOOK_S = 0.01
 """s of wall time between two looks at the bus."""
 _ASK_S = 1.0
 """s of wall time until a host that did not answer is asked again how its match is set up."""
+_LATE_TICKS = 50
+"""Ticks that a state may be older than one before it; one that is older still is another match's."""
 _QUESTIONS = 4
 """At the same time; further ones wait."""
 _T = TypeVar("_T")
@@ -50,6 +52,8 @@ class Live:
         self._refboxes: dict[Side, bool] = {}
         self._newest: dict[str, Received] = {}
         self._world: Received | None = None
+        self.there = False
+        """The host is there."""
         self.setup: Setup | None = None
         """How the match is set up; nothing before the host has told."""
         self.sides: dict[str, Side] = {}
@@ -78,7 +82,9 @@ class Live:
         while (presence := self._watch.receive()) is not None:
             if presence.kind == REFBOX and presence.name in set(Side):
                 self._refboxes[Side(presence.name)] = presence.alive
-        self._stale = self._stale or self._presence.gone()
+        there = not self._presence.gone() and self._presence.seen
+        self._stale = self._stale or (there and not self.there)  # another host may play another match
+        self.there = there
         for event in self._messages(self._events):
             self.events.append(event)
         for state in self._messages(self._states):
@@ -140,7 +146,11 @@ class Live:
         return await asyncio.get_running_loop().run_in_executor(self._threads, ask)
 
     def _take(self, state: GameState) -> None:
-        if self.state is not None and state.episode != self.state.episode:
+        if self.state is not None and state.tick < self.state.tick - _LATE_TICKS:
+            self.events.clear()
+            self.orders.book.forget()
+            self._stale = True
+        elif self.state is not None and state.episode != self.state.episode:
             self._stale = True
         self.state = state
         for tell in self._followers:

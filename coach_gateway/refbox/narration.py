@@ -17,7 +17,10 @@ _RESET = Call(BY_NAME["RESET"])
 
 
 class Narrator:
-    """Follows the game; the first state that it hears of is where it begins, and says nothing."""
+    """Follows the game; the first state that it hears of is where it begins, and says nothing.
+
+    Where scenes, resets or another host begin anew, the box is reset.
+    """
 
     def __init__(self) -> None:
         self._old: GameState | None = None
@@ -29,7 +32,7 @@ class Narrator:
         if old is None:
             return []
         begun: list[Call] = []
-        if state.episode != old.episode:
+        if state.episode != old.episode or state.tick < old.tick:
             old, self._held, begun = None, [], [_RESET]
         said = calls(old, state, sides)
         now = [call for call in said if not _is_held(call)]

@@ -1,0 +1,124 @@
+"""The words and numbers of the coach record that the paper's successors send (reference 5 and 8.2), both ways. Pure.
+
+`MatchMode` is what is played, as one team sees it; a test mode's number tells the test, and for motion also whether the
+ball is brought along and what is in the way avoided.
+"""
+
+from enum import StrEnum
+from typing import NamedTuple
+
+from schemas.coach import CoachMode, CoachTest
+from schemas.game import ActionName, TeamPhase
+from schemas.side import Side
+
+
+class MatchMode(StrEnum):
+    """What is played, from one team's point of view."""
+
+    STOP = "stop"
+    OUR_KICK_OFF = "our_kick_off"
+    THEIR_KICK_OFF = "their_kick_off"
+    OUR_THROW_IN = "our_throw_in"
+    THEIR_THROW_IN = "their_throw_in"
+    OUR_PENALTY = "our_penalty"
+    THEIR_PENALTY = "their_penalty"
+    OUR_GOAL_KICK = "our_goal_kick"
+    THEIR_GOAL_KICK = "their_goal_kick"
+    OUR_CORNER = "our_corner"
+    THEIR_CORNER = "their_corner"
+    OUR_FREE_KICK = "our_free_kick"
+    THEIR_FREE_KICK = "their_free_kick"
+    DROP_BALL = "drop_ball"
+    START = "start"
+    PARK = "park"
+    TEST = "test"
+
+    @property
+    def number(self) -> int:
+        """As the record has it."""
+        return _NUMBERS[self]
+
+    @classmethod
+    def of_number(cls, number: int) -> "MatchMode":
+        """The mode of a number.
+
+        Raises:
+            KeyError: no mode has it.
+        """
+        return _BY_NUMBER[number]
+
+    @classmethod
+    def of_game(cls, phase: TeamPhase, *, running: bool) -> "MatchMode":
+        """What a record would say of a game in that phase; before, between and after the halves robots are stopped."""
+        if running or phase is TeamPhase.PLAY:
+            return cls.START
+        if phase is TeamPhase.PARKING:
+            return cls.PARK
+        return cls(phase.value) if phase.ours or phase.theirs or phase is TeamPhase.DROP_BALL else cls.STOP
+
+
+_NUMBERS: dict[MatchMode, int] = {mode: number for number, mode in enumerate(MatchMode)} | {
+    MatchMode.START: 15,
+    MatchMode.PARK: 25,
+    MatchMode.TEST: 27,
+}
+_BY_NUMBER = {number: mode for mode, number in _NUMBERS.items()}
+
+
+class TestMode(NamedTuple):
+    """One of the record's test modes, in the words of an order."""
+
+    test: CoachTest
+    with_ball: bool = False
+    avoid: bool = False
+
+
+TEST_MODES: dict[int, TestMode] = {
+    0: TestMode(CoachTest.STOP),
+    2: TestMode(CoachTest.PASS),
+    3: TestMode(CoachTest.CATCH),
+    4: TestMode(CoachTest.SHOOT),
+    5: TestMode(CoachTest.LOCATION),
+    6: TestMode(CoachTest.CIRCLE),
+    10: TestMode(CoachTest.MOVE),
+    11: TestMode(CoachTest.MOVE, avoid=True),
+    12: TestMode(CoachTest.MOVE, with_ball=True),
+    13: TestMode(CoachTest.MOVE, with_ball=True, avoid=True),
+}
+"""Number → test mode."""
+TEST_NUMBERS = {mode: number for number, mode in TEST_MODES.items()}
+"""Test mode → number; tests that the record does not know have none."""
+
+
+class Meaning(NamedTuple):
+    """What a match mode asks for: an action of the referee, or an order to the robots of a side."""
+
+    action: ActionName | None = None
+    side: Side | None = None
+    order: CoachMode | None = None
+
+
+_ORDERS = {MatchMode.STOP: CoachMode.HOLD, MatchMode.START: CoachMode.PLAY, MatchMode.PARK: CoachMode.PARK}
+_ACTIONS = {
+    MatchMode.STOP: ActionName.STOP,
+    MatchMode.START: ActionName.START,
+    MatchMode.DROP_BALL: ActionName.DROP_BALL,
+}
+
+
+def for_coach(mode: MatchMode) -> Meaning | None:
+    """What a side's coach can bring about by a match mode; nothing where it is the referee's."""
+    order = _ORDERS.get(mode)
+    return Meaning(order=order) if order is not None else None
+
+
+def for_referee(mode: MatchMode, own: Side) -> Meaning | None:
+    """What the referee brings about by a match mode that is said from one side's point of view; a test is an order."""
+    if mode in _ACTIONS:
+        return Meaning(action=_ACTIONS[mode])
+    if mode is MatchMode.PARK:
+        return Meaning(order=CoachMode.PARK)
+    whose, _, what = mode.value.partition("_")
+    if whose not in ("our", "their"):
+        return None
+    return Meaning(action=ActionName(what), side=own if whose == "our" else own.opponent)
