@@ -8,15 +8,20 @@ import threading
 from collections.abc import Sequence
 from pathlib import Path
 
+from coach_gateway import refbox
+from coach_gateway.bridges import NO_BRIDGES, Bridges, bridges_of, services_of
+from coach_gateway.refbox.framing import Protocol
 from coach_gateway.service import Service
 from coach_gateway.service import run as run_services
 from coach_gateway.watching import watch
 from coach_gateway.web.settings import DEFAULT_PAGES, DEFAULT_PORT, LOOPBACK, BeliefsFor, WebSettings, need_web
+from coach_gateway.web.tokens import tokens_of
 from schemas.bus.contract import Bus
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.zenoh_bus import open_client
 from schemas.clock import WallClock
 from schemas.errors import TouchlineError
+from schemas.side import Side
 
 
 def run(connect: str, match: str, patience: float = 3.0) -> None:
@@ -32,22 +37,30 @@ def run(connect: str, match: str, patience: float = 3.0) -> None:
         watch(bus, say, stop)
 
 
-def serve(connect: str, match: str, web: WebSettings | None) -> None:
+def serve(
+    connect: str, match: str, web: WebSettings | None, bridges: Bridges = NO_BRIDGES, tokens: Path | None = None
+) -> None:
     """Serve what is wanted until SIGINT or SIGTERM comes; hosts may come and go meanwhile.
+
+    `tokens` is the file of the tokens where no page is served; without one they last as long as the process.
 
     Raises:
         TouchlineError: a package that it needs is not installed, a port is taken, tokens cannot be read.
     """
     if web is not None:
         need_web()
+    known = tokens_of(web.tokens if web is not None else tokens)
+    if web is None and bridges.udp is not None:
+        for line in [f"tokens: {tokens}"] if tokens is not None else known.lines():
+            say(line)
 
     def services(bus: Bus) -> Sequence[Service]:
         made: list[Service] = []
         if web is not None:
             from coach_gateway.web.server import WebServer
 
-            made.append(WebServer(bus, web, say))
-        return made
+            made.append(WebServer(bus, web, say, known))
+        return [*made, *services_of(bus, bridges, known, say)]
 
     run_services(connect, match, services, say)
 
@@ -66,10 +79,19 @@ def main(arguments: list[str] | None = None) -> int:
             pages=options.pages,
         )
     try:
-        if web is None:
+        bridges = bridges_of(
+            udp=options.udp,
+            refbox_at=options.refbox,
+            teams=options.team,
+            protocol=options.refbox_protocol,
+            doors=options.refbox_server,
+            audience=options.audience,
+            listen=options.listen_bridges,
+        )
+        if web is None and not bridges.wanted:
             run(options.connect, options.match)
         else:
-            serve(options.connect, options.match, web)
+            serve(options.connect, options.match, web, bridges, options.tokens)
     except TouchlineError as error:
         sys.stderr.write(f"touchline: {error}\n")
         return 2
@@ -101,7 +123,32 @@ def _parser() -> argparse.ArgumentParser:
         help="who is shown what robots believe: all, or teams",
     )
     page.add_argument("--pages", type=int, default=DEFAULT_PAGES, help="how many may be open at once")
+    _add_bridges(parser.add_argument_group("bridges"))
     return parser
+
+
+def _add_bridges(bridges: argparse._ArgumentGroup) -> None:
+    bridges.add_argument("--udp", type=int, metavar="PORT", help="hear coach programs over UDP; 0 takes a free port")
+    bridges.add_argument("--refbox", metavar="HOST[:PORT]", help="be a base station at a league's referee box")
+    bridges.add_argument(
+        "--team", type=Side, choices=list(Side), action="append", default=[], help="whose base station; may be repeated"
+    )
+    bridges.add_argument(
+        "--refbox-protocol", type=Protocol, choices=list(Protocol), default=Protocol.AUTO, help="how that box speaks"
+    )
+    bridges.add_argument(
+        "--refbox-server",
+        nargs="?",
+        const=str(refbox.DEFAULT_PORT),
+        action="append",
+        default=[],
+        metavar="[SIDE:]PORT",
+        help=f"be a referee box for team software, by default on port {refbox.DEFAULT_PORT}; may be repeated",
+    )
+    bridges.add_argument(
+        "--audience", action="append", default=[], metavar="HOST:PORT", help="send the audience feed there; likewise"
+    )
+    bridges.add_argument("--listen-bridges", default=LOOPBACK, help="address that programs and base stations come to")
 
 
 def say(line: str) -> None:

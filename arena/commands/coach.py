@@ -9,6 +9,7 @@ import typer
 from arena import options
 from arena.bundle import unbundled
 from arena.commands import orders
+from arena.commands.bridge import bridge
 from arena.commands.serve import serve
 from arena.seat import PATIENCE
 from arena.seat import seat as _seat
@@ -143,6 +144,7 @@ def state(seat: options.Seat, json: options.Json = False) -> None:
 
 
 app.command("serve")(serve)
+app.command("bridge")(bridge)
 
 
 @app.command("watch")

@@ -16,7 +16,7 @@ from coach_gateway.web.protocol import MAX_BYTES, Role
 from coach_gateway.web.settings import WebSettings
 from coach_gateway.web.site import site
 from coach_gateway.web.stage import Stage
-from coach_gateway.web.tokens import Tokens, address, read_or_make
+from coach_gateway.web.tokens import Tokens, address, tokens_of
 from schemas.bus.contract import Bus
 
 _SPARE = 100
@@ -28,15 +28,17 @@ _PING_S = 10.0
 class WebServer:
     """Serves the page of one match."""
 
-    def __init__(self, bus: Bus, settings: WebSettings, say: Callable[[str], None]) -> None:
-        """Listen, and say where; served once `serve` is called.
+    def __init__(
+        self, bus: Bus, settings: WebSettings, say: Callable[[str], None], tokens: Tokens | None = None
+    ) -> None:
+        """Listen, and say where; served once `serve` is called. `tokens` are those that the process has already.
 
         Raises:
             TouchlineError: the port is taken, the tokens cannot be read, an origin is none.
         """
         self._bus, self._settings = bus, settings
         origins = Origins(settings.origins)
-        tokens = read_or_make(settings.tokens) if settings.tokens is not None else Tokens.random()
+        tokens = tokens or tokens_of(settings.tokens)
         self._socket = listen(settings.listen, settings.port)
         self.pages = Pages(settings.pages)
         desk = Desk(bus)

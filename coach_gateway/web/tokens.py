@@ -43,6 +43,10 @@ class Tokens:
                 found = role
         return found
 
+    def lines(self) -> list[str]:
+        """Each role and its token, for whoever runs the process."""
+        return [f"{field.name}'s token: {getattr(self, field.name)}" for field in fields(self)]
+
     def of(self, role: Role) -> str:
         """The token of a role."""
         return "" if role is Role.SPECTATOR else str(getattr(self, role.value))
@@ -51,6 +55,15 @@ class Tokens:
 def address(origin: str, token: str) -> str:
     """Where a browser finds the page with a token, which stays in the browser: what stands behind # is not sent."""
     return f"{origin}/#token={token}" if token else f"{origin}/"
+
+
+def tokens_of(path: Path | None) -> Tokens:
+    """Those of a file, or without one new ones that last as long as the process.
+
+    Raises:
+        TouchlineError: as `read_or_make`.
+    """
+    return read_or_make(path) if path is not None else Tokens.random()
 
 
 def read_or_make(path: Path) -> Tokens:

@@ -1,0 +1,114 @@
+"""The bridges of one gateway process beside the page: which are wanted, by a command's words, and their services."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from coach_gateway import refbox
+from coach_gateway.live import Live
+from coach_gateway.refbox.audience_feed import AudienceFeed
+from coach_gateway.refbox.client import BoxAddress, RefBoxClient
+from coach_gateway.refbox.framing import Protocol
+from coach_gateway.refbox.server import Door, RefBoxServer
+from coach_gateway.service import Service
+from coach_gateway.udp.server import UdpCoaches
+from coach_gateway.web.access import COACHES
+from coach_gateway.web.settings import LOOPBACK
+from coach_gateway.web.tokens import Tokens
+from schemas.bus.contract import Bus
+from schemas.errors import TouchlineError
+from schemas.side import Side
+
+
+@dataclass(frozen=True, slots=True)
+class Bridges:
+    """What whoever runs the gateway wants beside the page."""
+
+    udp: int | None = None
+    """Port for coach programs; 0 takes a free one."""
+    boxes: tuple[BoxAddress, ...] = ()
+    """Referee boxes of the league, one for each team that we are a base station of."""
+    doors: tuple[Door, ...] = ()
+    """Where our referee is met as a referee box."""
+    audience: tuple[tuple[str, int], ...] = ()
+    """Who is sent the audience feed."""
+    listen: str = LOOPBACK
+    """Address that programs and base stations come to."""
+
+    @property
+    def wanted(self) -> bool:
+        """There is any."""
+        return self.udp is not None or bool(self.boxes or self.doors or self.audience)
+
+
+NO_BRIDGES = Bridges()
+
+
+def bridges_of(
+    *,
+    udp: int | None,
+    refbox_at: str | None,
+    teams: Sequence[Side],
+    protocol: Protocol,
+    doors: Sequence[str],
+    audience: Sequence[str],
+    listen: str,
+) -> Bridges:
+    """The bridges that a command's words ask for.
+
+    Raises:
+        TouchlineError: an address or a door that is none, or a referee box without a team.
+    """
+    if refbox_at is None and teams:
+        raise TouchlineError("--team is for --refbox HOST, which is not given")
+    if refbox_at is not None and not teams:
+        raise TouchlineError("--refbox needs the team whose base station this is; add --team cyan or --team magenta")
+    box = _address("--refbox", refbox_at, refbox.DEFAULT_PORT) if refbox_at is not None else None
+    return Bridges(
+        udp,
+        tuple(BoxAddress(team, *box, protocol) for team in teams) if box is not None else (),
+        tuple(_door(word, listen) for word in doors),
+        tuple(_address("--audience", word, None) for word in audience),
+        listen,
+    )
+
+
+def services_of(bus: Bus, wanted: Bridges, tokens: Tokens, say: Callable[[str], None]) -> list[Service]:
+    """The services of these bridges: first the one that follows the match for all of them."""
+    if not wanted.wanted:
+        return []
+    live = Live(bus)
+    services: list[Service] = [live]
+    if wanted.udp is not None:
+        services.append(UdpCoaches(live, tokens.role_of, say, wanted.udp, wanted.listen))
+    services += [RefBoxClient(live, box, say) for box in wanted.boxes]
+    views = None
+    if wanted.doors:
+        box = RefBoxServer(live, wanted.doors, say, lambda token: _side_of(tokens, token))
+        views = box.views
+        services.append(box)
+    if wanted.audience:
+        services.append(AudienceFeed(live, wanted.audience, say, views))
+    return services
+
+
+def _side_of(tokens: Tokens, token: str) -> Side | None:
+    role = tokens.role_of(token)
+    return COACHES.get(role) if role is not None else None
+
+
+def _address(option: str, word: str, default: int | None) -> tuple[str, int]:
+    """HOST:PORT, where the port may be left out if there is a usual one."""
+    host, _, port = word.rpartition(":") if ":" in word else (word, "", "" if default is None else str(default))
+    if host and port.isascii() and port.isdigit() and 0 < int(port) < 65_536:
+        return host.strip("[]"), int(port)
+    shape = "HOST:PORT" if default is None else f"HOST or HOST:PORT, by default port {default}"
+    raise TouchlineError(f'{option} is "{word}"; it is {shape}')
+
+
+def _door(word: str, listen: str) -> Door:
+    """PORT, or SIDE:PORT for a door of one team's own."""
+    side, _, port = word.rpartition(":")
+    known = [known.value for known in Side]
+    if port.isascii() and port.isdigit() and int(port) < 65_536 and (not side or side in known):
+        return Door(int(port), Side(side) if side else None, listen)
+    raise TouchlineError(f'--refbox-server is "{word}"; it is PORT, or cyan:PORT or magenta:PORT for one team alone')
