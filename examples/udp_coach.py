@@ -5,7 +5,8 @@
     python examples/udp_coach.py --port 28090 --token TOKEN-OF-CYAN
 
 It has its team hold, play, and test: one robot drives to a point. After each order it shows which robots have
-acknowledged it, and at the end what the robots believe. Every datagram is numbered, and said again until it is answered.
+acknowledged it, and at the end what the robots believe. Every datagram is numbered, and said again
+until it is answered.
 """
 
 import argparse
@@ -51,7 +52,7 @@ class Coach:
                 return answer
         raise SystemExit("the gateway does not answer")
 
-    def listen(self, seconds: float, until=lambda one: False):
+    def listen(self, seconds: float, until=None):
         """Take in what comes for a while, or until the datagram that is waited for; it is given back."""
         deadline = time.monotonic() + seconds
         while (left := deadline - time.monotonic()) > 0:
@@ -61,7 +62,7 @@ class Coach:
             except (TimeoutError, ConnectionRefusedError):
                 return None
             self._take(said)
-            if until(said):
+            if until is not None and until(said):
                 return said
         return None
 

@@ -65,7 +65,7 @@ _NUMBERS: dict[MatchMode, int] = {mode: number for number, mode in enumerate(Mat
 _BY_NUMBER = {number: mode for mode, number in _NUMBERS.items()}
 
 
-class TestMode(NamedTuple):
+class RecordedTest(NamedTuple):
     """One of the record's test modes, in the words of an order."""
 
     test: CoachTest
@@ -73,17 +73,17 @@ class TestMode(NamedTuple):
     avoid: bool = False
 
 
-TEST_MODES: dict[int, TestMode] = {
-    0: TestMode(CoachTest.STOP),
-    2: TestMode(CoachTest.PASS),
-    3: TestMode(CoachTest.CATCH),
-    4: TestMode(CoachTest.SHOOT),
-    5: TestMode(CoachTest.LOCATION),
-    6: TestMode(CoachTest.CIRCLE),
-    10: TestMode(CoachTest.MOVE),
-    11: TestMode(CoachTest.MOVE, avoid=True),
-    12: TestMode(CoachTest.MOVE, with_ball=True),
-    13: TestMode(CoachTest.MOVE, with_ball=True, avoid=True),
+TEST_MODES: dict[int, RecordedTest] = {
+    0: RecordedTest(CoachTest.STOP),
+    2: RecordedTest(CoachTest.PASS),
+    3: RecordedTest(CoachTest.CATCH),
+    4: RecordedTest(CoachTest.SHOOT),
+    5: RecordedTest(CoachTest.LOCATION),
+    6: RecordedTest(CoachTest.CIRCLE),
+    10: RecordedTest(CoachTest.MOVE),
+    11: RecordedTest(CoachTest.MOVE, avoid=True),
+    12: RecordedTest(CoachTest.MOVE, with_ball=True),
+    13: RecordedTest(CoachTest.MOVE, with_ball=True, avoid=True),
 }
 """Number → test mode."""
 TEST_NUMBERS = {mode: number for number, mode in TEST_MODES.items()}

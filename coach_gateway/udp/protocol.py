@@ -24,7 +24,7 @@ DEFAULT_RATE, MAX_RATE = 20.0, 50.0
 class _Ask(Part):
     """What every datagram of a coach has."""
 
-    sequence: Annotated[int, Field(ge=1, lt=2**53)]
+    sequence: Annotated[int, Field(ge=1, lt=2**53, strict=True)]
     """Larger than that of every datagram before it in this session."""
 
 

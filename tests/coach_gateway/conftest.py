@@ -1,7 +1,7 @@
 """A match for bridges: a host that says what the test wants, or a real one that is stepped, on the in-process bus."""
 
 import asyncio
-from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -9,19 +9,24 @@ from typing import Any
 import pytest
 
 from coach_gateway.live import Live
+from robot_agent.runner import Runner
 from schemas.bus.contract import Bus
 from schemas.bus.in_process import Medium
-from schemas.clock import WallClock
+from schemas.clock import SteppedClock, WallClock
 from schemas.coach import CoachOrder
-from schemas.command import Radio
+from schemas.command import Command, Radio
 from schemas.game import ActionReply, EventKind, GameEvent, GameState, Phase, RefereeAction
 from schemas.host import Belief, Setup
 from schemas.match_config import MatchConfig, load_match
 from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
+from schemas.sight import Sight
 from schemas.topics import ACTION, BELIEF, EVENT, ORDER, SETUP, STATE, WORLD
 from schemas.world import BallTruth, RobotTruth, World
+from sim_host.host import Host
+from sim_host.pace import Lockstep
+from sim_host.referee.state import RefereeState
 
 LIMIT_S = 30.0
 """No condition on loopback takes so long: only what never comes fails."""
@@ -106,11 +111,58 @@ class Stage:
             await asyncio.sleep(0.002)
 
 
+class Attentive:
+    """A brain that stands still, acknowledges what its coach orders, and says where it is."""
+
+    def __init__(self) -> None:
+        self.orders: list[CoachOrder] = []
+        """All that it was given, in order."""
+
+    def act(self, sight: Sight) -> Command:
+        if sight.order is not None and (not self.orders or self.orders[-1] != sight.order):
+            self.orders.append(sight.order)
+        known = self.orders[-1].sequence if self.orders else None
+        return Command(answers_tick=sight.tick, radio=Radio(self=sight.self), acknowledges_order=known)
+
+
+class Pitch:
+    """A real host with a robot agent on every robot, stepped as fast as it goes."""
+
+    def __init__(self, medium: Medium, config: MatchConfig) -> None:
+        clock = SteppedClock()
+        self.host = Host(config, medium.seat(MATCH, clock))
+        self.brains = {name: Attentive() for side in Side for name in config.robots(side)}
+        self._runners = []
+        for name, brain in self.brains.items():
+            bus = medium.seat(MATCH, SteppedClock())
+            self._runners.append(Runner(bus, brain, name))
+            bus.declare_alive("agent", name)
+        assert isinstance(self.host.pace, Lockstep)
+        self.host.pace.idle = lambda: (self._answer(), clock.sleep_until(clock.now() + 0.001))
+
+    @property
+    def state(self) -> RefereeState:
+        return self.host.simulation.state
+
+    def _answer(self) -> None:
+        for runner in self._runners:
+            runner.answer_next(0.0)
+
+    async def serve(self, stop: asyncio.Event) -> None:
+        self.host.wait_for_all()
+        self.host.begin()
+        while not (stop.is_set() or self.host.simulation.over):
+            self.host.tick()
+            await asyncio.sleep(0.002)
+        self.host.simulation.close()
+
+
 @dataclass
 class Bench:
     """Services beside a host, all in one event loop."""
 
-    stage: Stage
+    stage: Any
+    """The host: a `Stage` or a `Pitch`."""
     live: Live
     stop: asyncio.Event = field(default_factory=asyncio.Event)
     tasks: list[asyncio.Task[None]] = field(default_factory=list)
@@ -145,9 +197,24 @@ async def opened(**teams: Any) -> AsyncIterator[Bench]:
         await asyncio.sleep(0)  # transports that were closed are gone only now
 
 
+@asynccontextmanager
+async def kicked_off(**words: Any) -> AsyncIterator[Bench]:
+    """The same with a real host, and two robots against one; the words are the match file's."""
+    medium = Medium()
+    sizes = {"teams.cyan.size": 2, "teams.magenta.size": 1}
+    pitch = Pitch(medium, load_match(None, {**sizes, "pace": "lockstep", "record.wait": False, **words}))
+    bench = Bench(pitch, Live(medium.seat(MATCH, WallClock())))
+    bench.start(bench.live)
+    bench.start(pitch)
+    try:
+        await until(lambda: bench.live.setup is not None and bench.live.state is not None, "the match")
+        yield bench
+    finally:
+        await bench.end()
+        await asyncio.sleep(0)
+
+
 Opened = Callable[..., Any]
-Run = Callable[[Coroutine[Any, Any, None]], None]
-Until = Callable[..., Awaitable[None]]
 
 
 @pytest.fixture(name="opened")
@@ -155,6 +222,11 @@ def _opened() -> Opened:
     return opened
 
 
+@pytest.fixture(name="kicked_off")
+def _kicked_off() -> Opened:
+    return kicked_off
+
+
 @pytest.fixture(name="until")
-def _until() -> Until:
+def _until() -> Callable[..., Any]:
     return until

@@ -1,0 +1,309 @@
+"""Coach programs over real UDP sockets."""
+
+import asyncio
+import json
+import socket
+import subprocess
+import sys
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from coach_gateway.udp import session as session_module
+from coach_gateway.udp.server import UdpCoaches
+from coach_gateway.web.tokens import Tokens
+from schemas.coach import CoachMode, CoachOrder, StandingOrder
+from schemas.command import Motion, Radio
+from schemas.errors import TouchlineError
+from schemas.game import ActionReply, Phase
+from schemas.side import Side
+from schemas.topics import STANDING_ORDER
+
+TOKENS = Tokens("referee-token", "cyan-token", "magenta-token")
+EXAMPLE = Path(__file__).parents[3] / "examples" / "udp_coach.py"
+
+
+class Program(asyncio.DatagramProtocol):
+    """A coach program, written from the protocol's page; one that does not read keeps nothing."""
+
+    def __init__(self) -> None:
+        self.heard: list[dict[str, Any]] = []
+        self.sequence = 0
+        self.session = ""
+
+    def connection_made(self, transport: Any) -> None:
+        self.transport = transport
+
+    def datagram_received(self, data: bytes, addr: Any) -> None:
+        self.heard.append(json.loads(data))
+
+    def send(self, kind: str, sequence: int | None = None, **words: Any) -> int:
+        if sequence is None:
+            self.sequence = sequence = self.sequence + 1
+        said = {"kind": kind, "sequence": sequence, **words} | ({"session": self.session} if self.session else {})
+        self.transport.sendto(json.dumps(said).encode())
+        return sequence
+
+    def of(self, kind: str) -> list[dict[str, Any]]:
+        return [one for one in self.heard if one["kind"] == kind]
+
+    def acks(self, sequence: int) -> list[dict[str, Any]]:
+        return [one for one in self.of("ack") if one["sequence"] == sequence]
+
+
+@pytest.fixture
+def served(opened: Any, kicked_off: Any, until: Any) -> Any:
+    """Coach programs beside a host, which is a real one if that is wanted, and a way to have programs come."""
+
+    @asynccontextmanager
+    async def make(real: bool = False) -> Any:
+        async with (kicked_off if real else opened)() as bench:
+            server = UdpCoaches(bench.live, TOKENS.role_of, bench.said.append, port=0)
+            bench.start(server)
+            await until(lambda: server.port)
+            programs: list[Program] = []
+
+            async def come(role: str, **words: Any) -> Program:
+                loop = asyncio.get_running_loop()
+                _, program = await loop.create_datagram_endpoint(Program, remote_addr=("127.0.0.1", server.port))
+                programs.append(program)
+                first = program.send("hello", token=f"{role}-token", **words)
+                await until(lambda: program.acks(first))
+                (ack,) = program.acks(first)
+                assert ack["accepted"], ack
+                program.session = ack["session"]
+                return program
+
+            try:
+                yield bench, server, come
+            finally:
+                await bench.end()
+                await asyncio.sleep(0.01)
+                for program in programs:
+                    program.transport.close()
+
+    return make
+
+
+def test_each_order_reaches_every_robot_of_the_side(served: Any, until: Any) -> None:
+    """The paper's coach was heard by one robot alone (reference 8.1; reference 13, row 29)."""
+
+    async def play() -> None:
+        async with served(real=True) as (bench, _, come):
+            program = await come("cyan")
+            numbers = []
+            for speed in (1.0, 2.0, 3.0):
+                asked = program.send("order", order={"mode": "hold", "max_speed": speed})
+                await until(lambda asked=asked: program.acks(asked))
+                (ack,) = program.acks(asked)
+                assert ack["accepted"], ack
+                assert set(ack["acknowledged"]) | set(ack["missing"]) == {"cyan1", "cyan2"}
+                numbers.append(ack["order"])
+                expected = {"order": ack["order"], "acknowledged": {"cyan1": True, "cyan2": True}}
+                await until(lambda expected=expected: program.of("frame")[-1]["orders"].get("cyan") == expected)
+            brains = bench.stage.brains
+            for robot in ("cyan1", "cyan2"):
+                assert [order.max_speed for order in brains[robot].orders] == [1.0, 2.0, 3.0]
+                assert [order.sequence for order in brains[robot].orders] == numbers
+            assert brains["magenta1"].orders == []
+
+    asyncio.run(play())
+
+
+def test_several_coaches_command_their_own_sides_at_the_same_time(served: Any, until: Any) -> None:
+    async def play() -> None:
+        async with served(real=True) as (bench, _, come):
+            programs = {side: await come(side) for side in ("cyan", "magenta")}
+            for side, program in programs.items():
+                program.send("order", order={"tactic": f"of {side}"})
+            brains = bench.stage.brains
+            await until(lambda: all(brain.orders for brain in brains.values()))
+            said = {robot: brain.orders[-1].tactic for robot, brain in brains.items()}
+            assert said == {"cyan1": "of cyan", "cyan2": "of cyan", "magenta1": "of magenta"}
+
+    asyncio.run(play())
+
+
+def test_a_program_is_told_of_game_and_events_and_its_own_robots_words(served: Any, until: Any) -> None:
+    async def play() -> None:
+        async with served() as (bench, _, come):
+            cyan, referee = await come("cyan"), await come("referee")
+            bench.stage.say(phase=Phase.CORNER, side=Side.MAGENTA)
+            for robot in ("cyan2", "magenta1"):
+                bench.stage.believe(robot, Radio(self=Motion(x=1.0, y=2.0, heading=0.5), intention="wait"))
+            bench.stage.tell("something happens")
+            await until(lambda: len(referee.of("belief")) == 2 and referee.of("event") and cyan.of("event"))
+            await until(lambda: cyan.of("frame")[-1]["match_mode"] == {"cyan": "their_corner", "magenta": "our_corner"})
+            assert [one["belief"]["robot"] for one in cyan.of("belief")] == ["cyan2"]
+            assert cyan.of("belief")[0]["belief"]["radio"]["self"]["x"] == 1.0
+            assert [one["event"]["text"] for one in cyan.of("event")] == ["something happens"]
+            frame = cyan.of("frame")[-1]
+            assert frame["host"] and frame["state"]["phase"] == "corner" and frame["events"] == 1
+
+    asyncio.run(play())
+
+
+def test_frames_come_at_a_steady_rate_with_numbers_that_show_losses(served: Any, until: Any) -> None:
+    async def play() -> None:
+        async with served() as (_, _, come):
+            slow, fast = await come("cyan", rate=5), await come("cyan", rate=50)
+            await until(lambda: len(slow.of("frame")) >= 5)
+            for program in (slow, fast):
+                numbers = [one["number"] for one in program.of("frame")]
+                assert numbers == list(range(1, len(numbers) + 1))
+            assert len(fast.of("frame")) > 2 * len(slow.of("frame"))
+
+    asyncio.run(play())
+
+
+def test_an_event_that_was_lost_can_be_asked_for(served: Any, until: Any) -> None:
+    async def play() -> None:
+        async with served() as (bench, _, come):
+            program = await come("cyan")
+            for number in range(5):
+                bench.stage.tell(f"event {number}")
+            await until(lambda: len(program.of("event")) == 5)
+            program.heard.clear()
+            program.send("events", since=3)
+            await until(lambda: len(program.of("event")) == 2)
+            assert [(one["number"], one["event"]["text"]) for one in program.of("event")] == [
+                (3, "event 3"),
+                (4, "event 4"),
+            ]
+
+    asyncio.run(play())
+
+
+def test_the_referees_program_acts_and_hears_why_not(served: Any, until: Any) -> None:
+    async def play() -> None:
+        async with served() as (bench, _, come):
+            program = await come("referee", name="whistle")
+            taken = program.send("match_mode", mode="our_corner", side="magenta")
+            await until(lambda: program.acks(taken))
+            assert program.acks(taken)[0]["accepted"]
+            bench.stage.answer = lambda action: ActionReply(accepted=False, reason=f"{action.action}: not now")
+            refused = program.send("action", action={"action": "penalty", "side": "cyan"})
+            await until(lambda: program.acks(refused))
+            assert program.acks(refused)[0]["reason"] == "penalty: not now"
+            assert [(one.action.value, one.side, one.source) for one in bench.stage.asked] == [
+                ("corner", Side.MAGENTA, "coach program whistle"),
+                ("penalty", Side.CYAN, "coach program whistle"),
+            ]
+
+    asyncio.run(play())
+
+
+def test_a_datagram_sent_three_times_is_done_once_and_answered_each_time(served: Any, until: Any) -> None:
+    async def play() -> None:
+        async with served() as (bench, _, come):
+            program = await come("cyan")
+            asked = program.send("order", order={"mode": "hold"})
+            await until(lambda: program.acks(asked))
+            for _ in range(2):
+                program.send("order", asked, order={"mode": "hold"})
+            await until(lambda: len(program.acks(asked)) == 3)
+            assert [ack["duplicate"] for ack in program.acks(asked)] == [False, True, True]
+            assert len({ack["order"] for ack in program.acks(asked)}) == 1
+            assert [(side, order.mode) for side, order in bench.stage.orders] == [(Side.CYAN, CoachMode.HOLD)]
+
+    asyncio.run(play())
+
+
+def test_an_order_for_a_robot_that_does_not_play_is_refused_with_a_hint(served: Any, until: Any) -> None:
+    async def play() -> None:
+        async with served() as (_, _, come):
+            program = await come("cyan")
+            asked = program.send("order", order={"robot_a": "cyan9"})
+            await until(lambda: program.acks(asked))
+            assert 'robot_a is "cyan9", no robot of cyan; did you mean' in program.acks(asked)[0]["reason"]
+
+    asyncio.run(play())
+
+
+def test_garbage_and_a_program_that_never_reads_stop_nobody(served: Any, until: Any) -> None:
+    async def play() -> None:
+        async with served() as (_, server, come):
+            deaf = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+            deaf.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 2048)
+            deaf.connect(("127.0.0.1", server.port))
+            deaf.send(json.dumps({"kind": "hello", "sequence": 1, "token": "magenta-token", "rate": 50}).encode())
+            for data in (b"", b"\x00" * 60_000, b"[" * 9000, b"noise"):
+                deaf.send(data)
+            program = await come("cyan")
+            await until(lambda: len(program.of("frame")) > 20)
+            asked = program.send("order", order={"mode": "hold"})
+            await until(lambda: program.acks(asked))
+            deaf.close()
+            await until(lambda: len(program.of("frame")) > 40)  # nobody minds the port that is closed now
+
+    asyncio.run(play())
+
+
+def test_a_program_that_falls_silent_is_told_that_its_session_is_over(
+    served: Any, until: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(session_module, "SILENCE_S", 0.3)
+
+    async def play() -> None:
+        async with served() as (_, _, come):
+            quiet, lively = await come("cyan"), await come("magenta")
+            while not quiet.of("bye"):
+                lively.send("alive")
+                await asyncio.sleep(0.05)
+            assert not lively.of("bye")
+            frames = len(quiet.of("frame"))
+            asked = quiet.send("alive")
+            await until(lambda: quiet.acks(asked))
+            assert "no such session" in quiet.acks(asked)[0]["reason"]
+            assert len(quiet.of("frame")) == frames
+
+    asyncio.run(play())
+
+
+def test_a_port_that_is_taken_is_an_error_of_one_line(opened: Any) -> None:
+    async def play() -> None:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
+            taken.bind(("127.0.0.1", 0))
+            async with opened() as bench:
+                server = UdpCoaches(bench.live, TOKENS.role_of, bench.said.append, port=taken.getsockname()[1])
+                with pytest.raises(TouchlineError, match=r"--udp \d+ cannot be listened on"):
+                    await server.serve(bench.stop)
+
+    asyncio.run(play())
+
+
+def test_the_example_coaches_a_side_with_nothing_but_pythons_own_library(served: Any, until: Any) -> None:
+    async def play() -> None:
+        async with served() as (bench, server, _):
+            bench.stage.say(phase=Phase.PLAY, running=True)
+            bench.stage.believe("cyan2", Radio(self=Motion(x=1.0, y=2.0, heading=0.5), intention="wait"))
+            standing = bench.stage.bus.publisher(STANDING_ORDER, side="cyan")
+
+            async def acknowledge() -> None:
+                said = 0
+                while True:
+                    await asyncio.sleep(0.01)
+                    for _, order in bench.stage.orders[said:]:
+                        told = {f"cyan{number}": True for number in (1, 2, 3)}
+                        standing.put(StandingOrder(tick=1, time=0.0, order=order, acknowledged=told))
+                        said += 1
+
+            robots = asyncio.create_task(acknowledge())
+            command = [sys.executable, str(EXAMPLE), "--port", str(server.port), "--token", "cyan-token"]
+            run = await asyncio.create_subprocess_exec(
+                *command, "--seconds", "0.3", stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+            )
+            output = (await run.communicate())[0].decode()
+            robots.cancel()
+            assert run.returncode == 0, output
+            lines = output.splitlines()
+            assert lines[0] == "coach of cyan"
+            assert "order mode hold: acknowledged by all" in lines
+            assert any(line.startswith("a corner for us: our_corner is the referee's") for line in lines)
+            assert "cyan2 at 1.00, 2.00, wait" in lines
+            given: list[CoachOrder] = [order for _, order in bench.stage.orders]
+            assert [order.mode.value for order in given] == ["hold", "play", "test", "play"]
+
+    asyncio.run(play())
