@@ -35,6 +35,12 @@ ROWS = {
     22: "reset with a new episode",
     23: "2 to 100 robots",
     24: "two sides with the same code",
+    29: "each coach's command reaches every robot",
+    30: "the coach record, in SI and acknowledged",
+    31: "match modes and test modes by number, both ways",
+    33: "base station at a league's referee box",
+    34: "referee box for team software",
+    35: "world state in the league's schema",
     39: "last touch and possession",
     40: "a fair scrum",
     41: "pitches of either year",
@@ -43,7 +49,7 @@ ROWS = {
     44: "stuck flag of each robot",
     45: "lifted and tipped robots stand up",
 }
-"""Features of the world among those of the seed, in our words."""
+"""Features among those of the seed, in our words."""
 DEFECTS = {
     1: "an acceleration limit that limited nothing",
     2: "top speed that depended on the compass",
@@ -59,8 +65,9 @@ DEFECTS = {
     13: "robots counted with one digit, five at most",
     14: "state taken from the bus instead of the engine",
     15: "a step that the code took for constant",
+    18: "teams told apart by their address",
 }
-"""Defects of the seed that concern the world."""
+"""Defects of the seed, in our words."""
 
 
 def words_of(docstring: str) -> Iterator[tuple[str, int]]:
