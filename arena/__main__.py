@@ -26,6 +26,7 @@ from arena.commands import (
     stats,
     topics,
     verify,
+    watch,
 )
 from arena.front import Front
 
@@ -42,6 +43,7 @@ app.command("match")(match.match)
 app.command("host")(host.host)
 app.command("agent")(agent.agent)
 app.add_typer(coach.app, name="coach")
+app.command("watch")(watch.watch)
 app.add_typer(parameters.app, name="parameters")
 app.add_typer(scene.app, name="scene")
 app.command("scenes")(scenes.scenes)

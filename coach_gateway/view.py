@@ -23,6 +23,8 @@ class MatchView:
     """The match as the bus brings it; `update` takes in what has come."""
 
     bus: Bus
+    past: bool = False
+    """Events of before are wanted, too, as far as the host keeps them."""
     state: GameState | None = None
     health: Health | None = None
     events: list[GameEvent] = field(default_factory=list)
@@ -37,7 +39,7 @@ class MatchView:
 
     def __post_init__(self) -> None:
         self._subscriptions: tuple[Subscription, ...] = tuple(
-            self.bus.subscribe(topic) for topic in (EVENT, STATE, HEALTH)
+            self.bus.subscribe(topic, past=self.past and topic is EVENT) for topic in (EVENT, STATE, HEALTH)
         )
         self._progress = self.bus.subscribe(PROGRESS)
 

@@ -1,0 +1,120 @@
+"""What stands beside the pitch: score, every robot, what happened last, and how the host is doing."""
+
+import math
+from collections.abc import Iterator, Mapping
+
+from rich.style import Style
+from rich.text import Text
+
+from arena.status import losses_words, robots_words
+from arena.watch.pitch import SIDES, arrow
+from coach_gateway.lines import clock_words, event_line, half_words, phase_words
+from coach_gateway.view import MatchView
+from schemas.command import Radio
+from schemas.game import EventKind, GameState, Standing
+from schemas.host import Health, Setup
+from schemas.side import Side
+from schemas.world import RobotTruth, World
+
+QUIET = Style(dim=True)
+TROUBLE = Style(color="yellow", bold=True)
+LOUD = {
+    EventKind.GOAL: Style(bold=True),
+    EventKind.CARD: TROUBLE,
+    EventKind.FOUL: Style(color="yellow"),
+}
+"""Events that are seen from afar."""
+WIDTH = 64
+"""Cells of a robot's row."""
+
+
+def head(setup: Setup, state: GameState | None) -> Text:
+    """Teams and score, clock, half and phase, what is proposed."""
+    names = {side: setup.teams[side].name for side in Side}
+    if state is None:
+        return Text(f"{names[Side.CYAN]} – {names[Side.MAGENTA]}  waiting for everybody")
+    line = Text.assemble(
+        (f" {names[Side.CYAN]} ", SIDES[Side.CYAN]),
+        (f" {state.score.cyan} : {state.score.magenta} ", Style(bold=True)),
+        (f" {names[Side.MAGENTA]} ", SIDES[Side.MAGENTA]),
+        f"  {clock_words(state.clock)}  {half_words(state)}  ",
+        (phase_words(state), Style(bold=True)),
+    )
+    if state.proposal is not None:
+        line.append(f"  proposed: {state.proposal}", TROUBLE)
+    return line
+
+
+def robots(
+    setup: Setup,
+    world: World | None,
+    words: Mapping[str, Radio],
+    state: GameState | None,
+    health: Health | None,
+) -> list[Text]:
+    """One row for each robot: number and heading, what it does, place, speed, ball, and what is wrong with it."""
+    rows = []
+    for side, name, number in _everybody(setup):
+        robot = world.robots.get(name) if world is not None else None
+        row = Text.assemble((f"{number}{arrow(robot) if robot is not None else ' '}", SIDES[side]), " ")
+        doing = words.get(name)
+        row.append(f"{_does(doing):<26.26} ")
+        if robot is not None:
+            speed = math.hypot(robot.vx, robot.vy)
+            row.append(f"{robot.x:6.1f} {robot.y:5.1f} {speed:4.1f} m/s ")
+            row.append("● " if robot.holding else "  ", Style(color="bright_yellow"))
+        standing = state.robots.get(name) if state is not None else None
+        row.append(", ".join(_troubles(name, robot, standing, health, setup.time.tick)), TROUBLE)
+        rows.append(row)
+    return rows
+
+
+def _everybody(setup: Setup) -> Iterator[tuple[Side, str, int]]:
+    for side, team in setup.teams.items():
+        for number, name in enumerate(team.robots, start=1):
+            yield side, name, number
+
+
+def _does(word: Radio | None) -> str:
+    """`striker: get the ball`; empty while it has said nothing."""
+    return ": ".join(part for part in (word.role, word.intention) if part) if word is not None else ""
+
+
+def _troubles(
+    name: str, robot: RobotTruth | None, standing: Standing | None, health: Health | None, tick: float
+) -> Iterator[str]:
+    """What keeps a robot from playing, and what it was shown."""
+    if standing is not None:
+        left = "" if standing.left is None else f" {standing.left:.0f} s"
+        if standing.off_field is not None:
+            yield f"{standing.off_field.value.replace('_', ' ')}{left}"
+        yield from (f"{count} {card}" for card, count in (("yellow", standing.yellow), ("red", standing.red)) if count)
+    if robot is not None and robot.stuck:
+        yield "stuck"
+    account = health.robots.get(name) if health is not None else None
+    if account is None or account.still or health is None:
+        return
+    if not (account.answering if health.tick > 0 else account.alive):
+        yield "silent" if health.tick > 0 else "missing"
+    elif account.latency_ms is not None and account.latency_ms * 1e-3 >= tick:
+        yield f"answers after {account.latency_ms:.0f} ms"
+
+
+def events(view: MatchView, count: int) -> list[Text]:
+    """The last things that happened, the newest last."""
+    last = view.events[-count:] if count > 0 else []
+    return [Text(event_line(event), style=LOUD.get(event.kind, QUIET)) for event in last]
+
+
+def foot(view: MatchView, total: int) -> Text:
+    """Speed, late ticks, who answers, what recorders miss."""
+    health = view.health
+    if health is None:
+        return Text("the host has not said how it is doing", style=QUIET)
+    behind = f"  recorder {max(health.recorders.values())} ticks behind" if health.recorders else "  no recorder"
+    words = f"×{health.real_time_factor:.2f} {health.pace}  late {health.late_ticks}  {robots_words(health, total)}"
+    line = Text(f"{words}{behind}", style=QUIET)
+    losses = losses_words(view)
+    if losses:
+        line.append(f"  {losses}", TROUBLE)
+    return line
