@@ -17,6 +17,8 @@ from schemas.errors import TouchlineError
 
 if TYPE_CHECKING:
     from arena.supervisor import Notice
+    from recordings.reader import Recorded
+    from recordings.replay.live_view import LiveView
     from recordings.replay.player import Player
     from recordings.replay.programme import Replay
     from schemas.bus.contract import Bus
@@ -57,12 +59,17 @@ def replay(
     web: options.Web = False,
     web_port: options.WebPort = DEFAULT_PORT,
     listen_web: options.ListenWeb = LOOPBACK,
+    foxglove: Annotated[
+        bool, typer.Option("--foxglove", help="Serve a live view for Foxglove and Lichtblick, and say where.")
+    ] = False,
+    foxglove_port: Annotated[int, typer.Option(help="Port of the live view; 0 takes a free one.")] = 8765,
     json: options.Json = False,
 ) -> None:
     """Replay a recording on the bus, with the keys, order and spacing of the match.
 
     Space pauses, "." steps, arrows wind and change the rate, n and b go from event to event, q leaves; from elsewhere,
-    `touchline player` does the same. With --web a page in the browser does, and the replay stays at its end.
+    `touchline player` does the same. With --web a page in the browser does, with --foxglove
+    these viewers do, and the replay stays at its end.
 
     Example: touchline replay runs/friendly-20260101T120000Z-seed1/match.mcap --from goal:1-5 --rate 2
     """
@@ -82,7 +89,7 @@ def replay(
         rate=None if fast else rate,
         loop=loop,
         paused=paused,
-        stay=stay or web,
+        stay=stay or web or foxglove,
         selection=Selection(tuple(include or ()), tuple(exclude or ())),
         follow=follow,
         behind=behind,
@@ -97,8 +104,9 @@ def replay(
         if port is not None:
             tell = partial(typer.echo, err=True)
             look_after = stack.enter_context(page_beside(name, near(endpoint), listen_web, port, clock, tell))
+        view = stack.enter_context(_live_view(opened, foxglove_port)) if foxglove else None
         began = clock.now()
-        player = _play(opened, bus, clock, look_after, quiet=json)
+        player = _play(opened, bus, clock, look_after, view, quiet=json)
         wall = clock.now() - began
     status = player.status()
     if json:
@@ -131,8 +139,25 @@ def _seat(match: str, clock: "Clock", endpoint: str, *, is_host: bool) -> "Itera
         yield bus
 
 
+def _live_view(opened: "Replay", port: int) -> "LiveView":
+    """A view of the whole recording; of one that grows it cannot be said how far that goes."""
+    from recordings.replay.live_view import LiveView
+
+    manifest = opened.recording.manifest
+    extent = None if opened.programme.follow else (opened.tape.start_ns, opened.tape.end_ns)
+    view = LiveView(f"Touchline: {manifest.match}", manifest.setup, extent, port)
+    typer.echo(f"Foxglove, Lichtblick: open the connection {view.address}", err=True)
+    return view
+
+
 def _play(
-    opened: "Replay", bus: "Bus", clock: "Clock", look_after: "Callable[[], list[Notice]]", *, quiet: bool
+    opened: "Replay",
+    bus: "Bus",
+    clock: "Clock",
+    look_after: "Callable[[], list[Notice]]",
+    view: "LiveView | None",
+    *,
+    quiet: bool,
 ) -> "Player":
     """Play it on the screen that suits, by keys where there is a terminal; Ctrl-C and SIGTERM end it."""
     from arena.match_run import StopSignals
@@ -147,7 +172,16 @@ def _play(
     moments = moments_of(opened.recording) if by_keys else []
     keyboard = terminal("replay") if by_keys else nullcontext(_no_keys)
     stream = sys.stderr if quiet else sys.stdout
-    host = ReplayHost(bus, opened.recording.manifest.setup, lambda **more: opened.player(clock, **more))
+
+    def make_player(say: "Callable[[Recorded], None]", has_room: Callable[[], bool]) -> "Player":
+        def say_and_show(recorded: "Recorded") -> None:
+            say(recorded)
+            if view is not None:
+                view.say(recorded)
+
+        return opened.player(clock, say=say_and_show, has_room=has_room)
+
+    host = ReplayHost(bus, opened.recording.manifest.setup, make_player)
     with StopSignals() as stop, keyboard as keys, screen_on(stream, clock) as show:
         if by_keys:
             typer.echo(legend())
@@ -158,6 +192,8 @@ def _play(
             if stop.received is not None:
                 player.control(ReplayRequest(deed=ReplayDeed.LEAVE))
             show(player.status())
+            if view is not None:
+                view.attend(player)
             for notice in look_after():
                 typer.echo(f"touchline: {notice.sentence}", err=True)
 

@@ -1,11 +1,13 @@
 """The real thing: a replay process, a recorder process and `touchline player` on a real Zenoh network on loopback."""
 
 import json
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
 
 import pytest
+from websockets.sync.client import connect
 
 from recordings.reader import open_recording
 from schemas.bus.endpoint import with_port
@@ -58,3 +60,19 @@ def test_record_replay_record_gives_equal_payloads_in_equal_order(recorded, star
     facts = [(one.key, one.payload, one.log_ns) for one in every]
     assert [(one.key, one.payload, one.log_ns) for one in recording.messages()] == facts
     assert recording.result.lost == 0
+
+
+@pytest.mark.processes
+def test_the_command_serves_a_live_view_until_the_viewer_had_enough(recorded, start):
+    replay = start("arena", "replay", str(recorded.path), "--fast", "--foxglove", "--foxglove-port", "0", *_ANYWHERE)
+    address = next(line.split()[-1] for line in replay.stderr if "ws://" in line)
+    with connect(address, subprotocols=["foxglove.sdk.v1"]) as socket:
+        assert json.loads(socket.recv(timeout=LIMIT))["op"] == "serverInfo"
+        offered = {channel["topic"] for channel in json.loads(socket.recv(timeout=LIMIT))["channels"]}
+        assert {"/tf", "/viz/field", "/viz/robots"} <= offered
+    replay.send_signal(signal.SIGINT)
+    replay.communicate(timeout=LIMIT)
+    assert replay.returncode == 128 + signal.SIGINT
+
+
+_ANYWHERE = ("--listen", "tcp/127.0.0.1:0")
