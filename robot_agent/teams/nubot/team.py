@@ -80,7 +80,8 @@ class NuBot(Player):
         reset = (order.point_b.x, order.point_b.y) if order.point_b else self._points.reset
         self._machine.points = Points(dribble, self._points.goal, reset)
         situation = Situation(scene.me, scene.ball.now[:2], scene.holding, scene.dt, kicker_ready=scene.kicker_ready)
-        return self._carried_out(scene, self._machine.step(situation))
+        in_the_way = scene.others if order.avoid else scene.opponents
+        return self._carried_out(scene._replace(opponents=in_the_way), self._machine.step(situation))
 
     def play(self, scene: Scene, order: CoachOrder | None) -> Action:
         """Keep, play the ball, or hold the place."""

@@ -1,0 +1,293 @@
+"""The paper's multi-robot experiments (its section V), each by its name, on a real host with real brains and a coach.
+
+The first: with three robots and three static rivals the coach sees everybody where they are, and the robots receive
+what the coach commands. The second: in the same world the robots move as the real robots' code says. The third: both
+sides move, each in a frame of its own.
+"""
+
+import math
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any, TypeVar
+
+import pytest
+from rich.text import Text
+
+from arena.watch.picture import picture
+from arena.watch.pitch import MARGIN
+from coach_gateway.closeup import Closeup
+from coach_gateway.gateway import Gateway
+from coach_gateway.orders import Fate
+from robot_agent.contract import Briefing, load_brain
+from robot_agent.runner import Runner
+from robot_agent.teams.nubot import NuBot
+from robot_agent.teams.nubot.machine import State
+from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
+from schemas.bus.in_process import Medium
+from schemas.clock import SteppedClock
+from schemas.coach import CoachMode, CoachTest
+from schemas.game import ActionName, Phase, RefereeAction, TeamPhase
+from schemas.match_config import load_match
+from schemas.scene import Scene, SceneDeed, SceneRequest, load_scene
+from schemas.side import Side
+from schemas.sight import Sight
+from sim_host.host import Host
+from sim_host.pace import Lockstep
+
+CYAN = ("cyan1", "cyan2", "cyan3")
+RIVALS = ("magenta1", "magenta2", "magenta3")
+T = TypeVar("T")
+
+
+class Experiment:
+    """A host, an agent for each robot that moves, and a coach, who are three programs on one bus."""
+
+    def __init__(self, scene: str, **flags: Any) -> None:
+        brains = {f"teams.{side}.brain": "robot_agent.teams.nubot:NuBot" for side in Side}
+        config = load_match(None, {"scene": scene, "referee.mode": "manual", **brains, **flags})
+        self.scene: Scene = load_scene(scene)
+        medium = Medium()
+        coach = medium.seat(config.name, SteppedClock())
+        self.gateway, self.seen = Gateway(coach), Closeup(coach)
+        self.gateway.orders.update()
+        self.host = Host(config, medium.seat(config.name, SteppedClock()))
+        setup = self.host.simulation.setup()
+        self.setup = setup
+        self.agents: dict[str, Runner] = {}
+        self.sights: dict[str, Sight] = {}
+        """Robot → what it was shown last."""
+        for robot in (robot for side in Side for robot in config.robots(side)):
+            bus = medium.seat(config.name, SteppedClock())
+            brain = load_brain("robot_agent.teams.nubot:NuBot", Briefing.of(robot, setup))
+            self.agents[robot] = Runner(bus, brain, robot)
+            bus.declare_alive("agent", robot)
+        assert isinstance(self.host.pace, Lockstep)
+        self.host.pace.idle = self._let_agents_answer
+        self.host.wait_for_all()
+        self.host.begin()
+        self.trace: list[dict[str, Any]] = []
+        """The truth of each tick."""
+
+    def _let_agents_answer(self) -> None:
+        for robot, agent in self.agents.items():
+            if (sight := agent.next_sight(0.0)) is not None:
+                self.sights[robot] = sight
+                agent.answer(sight)
+
+    def tick(self) -> None:
+        self.trace.append(self.host.tick().world)
+
+    def play(self, until: Callable[[], bool], most: float) -> bool:
+        """Play until something is so, for at most `most` s of simulated time; whether it became so."""
+        for _ in range(round(most / self.setup.time.tick)):
+            self.tick()
+            if until():
+                return True
+        return False
+
+    def asked(self, question: Callable[[], T]) -> T:
+        """What the coach is answered; the match goes on meanwhile."""
+        answers: list[T] = []
+        asking = threading.Thread(target=lambda: answers.append(question()))
+        asking.start()
+        while asking.is_alive():
+            self.tick()
+            asking.join(0.001)
+        return answers[0]
+
+    def order(self, **content: Any) -> int:
+        """Order cyan; the number of the order."""
+        return self.asked(lambda: self.gateway.order(Side.CYAN, **content)).sequence
+
+    def machine(self, robot: str) -> State:
+        """The state of a robot's behaviour machine."""
+        brain = self.agents[robot].brain
+        assert isinstance(brain, NuBot)
+        return brain._machine.state
+
+    def where(self, name: str) -> tuple[float, float]:
+        """Where a robot is, in truth."""
+        robot = self.trace[-1]["robots"][name]
+        return robot["x"], robot["y"]
+
+
+@pytest.fixture
+def made() -> Iterator[Callable[..., Experiment]]:
+    experiments: list[Experiment] = []
+
+    def make(scene: str, **flags: Any) -> Experiment:
+        experiments.append(Experiment(scene, **flags))
+        return experiments[-1]
+
+    yield make
+    for experiment in experiments:
+        experiment.host.simulation.close()
+
+
+@pytest.fixture
+def static(made: Callable[..., Experiment]) -> Experiment:
+    """Three robots and three static rivals."""
+    return made("paper_static")
+
+
+def cell(rows: list[Text], words: str) -> tuple[int, int]:
+    """Row and column of a mark on the drawn pitch."""
+    return next((row, text.plain.index(words)) for row, text in enumerate(rows) if words in text.plain)
+
+
+def test_one_the_coach_sees_every_model_where_it_was_spawned(static: Experiment) -> None:
+    static.order(mode=CoachMode.HOLD)
+    static.seen.update()
+    world = static.seen.world
+    assert world is not None and list(world.robots) == [*CYAN, *RIVALS]
+    for robot in static.scene.robots:
+        shown = world.robots[robot.name]
+        assert (shown.x, shown.y) == pytest.approx((robot.x, robot.y), abs=0.02)
+        assert math.cos(shown.heading - robot.heading) > 0.999
+    assert (world.ball.x, world.ball.y) == pytest.approx((0.0, 0.0), abs=0.02)
+
+
+def test_one_the_coachs_window_shows_every_model_at_its_place(static: Experiment) -> None:
+    """Drawn in a terminal: 18 × 12 m and the ground around, a cell as wide as half of it is high."""
+    static.order(mode=CoachMode.HOLD)
+    static.seen.update()
+    width = 96
+    rows = picture(static.seen, static.setup, width, 60)[1:]
+    cell_m = (static.setup.pitch.length + 2.0 * MARGIN) / width
+    ball = cell(rows, "●")
+    for robot in static.scene.robots:
+        mark = f"{robot.name[-1]}{'→' if robot.name in CYAN else '←'}"
+        row, column = cell(rows, mark)
+        assert (column + 0.5 - ball[1]) * cell_m == pytest.approx(robot.x, abs=1.5 * cell_m)
+        assert (ball[0] - row) * 2.0 * cell_m == pytest.approx(robot.y, abs=2.5 * cell_m)
+
+
+def test_one_the_coach_sees_the_models_move_as_they_do(static: Experiment) -> None:
+    static.order(mode=CoachMode.TEST, test=CoachTest.MOVE, robot_a="cyan2", point_a={"x": -4.0, "y": 4.0})
+    for _ in range(10):
+        static.play(lambda: False, 0.2)
+        static.seen.update()
+        world = static.seen.world
+        assert world is not None and world.tick == static.trace[-1]["tick"]
+        for name in (*CYAN, *RIVALS):
+            assert (world.robots[name].x, world.robots[name].y) == static.where(name)
+    assert math.dist(static.where("cyan2"), (-2.0, 1.5)) > 1.0
+    assert math.dist(static.where("magenta2"), (2.0, 1.5)) < 0.02
+
+
+def test_one_every_robot_receives_the_coachs_order(static: Experiment) -> None:
+    """Reference 13, row 29: in the paper one robot alone could hear the coach, until a node was put in between."""
+    number = static.order(mode=CoachMode.HOLD, max_speed=1.5)
+    static.play(lambda: False, 0.1)
+    for name in CYAN:
+        order = static.sights[name].order
+        assert order is not None and (order.sequence, order.mode, order.max_speed) == (number, CoachMode.HOLD, 1.5)
+    static.gateway.orders.update()
+    receipt = static.gateway.orders.book.receipt(Side.CYAN, number)
+    assert (receipt.fate, receipt.acknowledged, receipt.missing) == (Fate.STANDS, CYAN, ())
+
+
+COMMANDS = {
+    ActionName.STOP: (None, Phase.STOPPED, TeamPhase.STOPPED),
+    ActionName.KICK_OFF: (Side.CYAN, Phase.KICK_OFF, TeamPhase.OUR_KICK_OFF),
+    ActionName.CORNER: (Side.MAGENTA, Phase.CORNER, TeamPhase.THEIR_CORNER),
+    ActionName.THROW_IN: (Side.CYAN, Phase.THROW_IN, TeamPhase.OUR_THROW_IN),
+    ActionName.FREE_KICK: (Side.MAGENTA, Phase.FREE_KICK, TeamPhase.THEIR_FREE_KICK),
+    ActionName.GOAL_KICK: (Side.CYAN, Phase.GOAL_KICK, TeamPhase.OUR_GOAL_KICK),
+    ActionName.PENALTY: (Side.MAGENTA, Phase.PENALTY, TeamPhase.THEIR_PENALTY),
+    ActionName.DROP_BALL: (None, Phase.DROP_BALL, TeamPhase.DROP_BALL),
+}
+"""The coach's basic commands: for whom, the phase they lead to, and that phase as cyan's robots are told of it."""
+
+
+@pytest.mark.parametrize("action", COMMANDS)
+def test_one_every_robot_receives_the_coachs_command(static: Experiment, action: ActionName) -> None:
+    """Game-stop, kick-off, corner-ball "and etc."; then game-start."""
+    side, phase, told = COMMANDS[action]
+    reply = static.asked(lambda: static.gateway.act(RefereeAction(action=action, side=side)))
+    assert reply.accepted, reply.reason
+    assert static.play(lambda: {static.sights[name].game.phase for name in CYAN} == {told}, 20.0)
+    static.seen.update()
+    assert static.seen.match.state is not None and static.seen.match.state.phase is phase
+    if phase is Phase.STOPPED:
+        return
+    reply = static.asked(lambda: static.gateway.act(RefereeAction(action=ActionName.START)))
+    assert reply.accepted, reply.reason
+    assert static.play(lambda: all(static.sights[name].game.running for name in CYAN), 1.0)
+
+
+@pytest.mark.parametrize("robot", CYAN)
+def test_two_each_robot_moves_as_the_state_machine_of_the_real_code_says(static: Experiment, robot: str) -> None:
+    """Figure 5 with the constants of the code: reference section 3, and 13, row 19."""
+    static.order(mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a=robot)
+    began = len(static.trace)
+    states: list[State] = []
+
+    def is_home() -> bool:
+        states.append(static.machine(robot))
+        return states[-1] is State.HOME
+
+    assert static.play(is_home, 60.0)
+    order = [state for place, state in enumerate(states) if place == 0 or states[place - 1] is not state]
+    path = [State.CHASE_BALL, State.MOVE_BALL, State.ROTATE_BALL, State.KICK_BALL, State.RESET, State.HOME]
+    assert order[-len(path) :] == path
+    entered = {state: static.trace[began + len(states) - 1 - states[::-1].index(state)] for state in states}
+    truth = {state: world["robots"][robot] for state, world in entered.items()}
+    dribbled = static.trace[began + states.index(State.ROTATE_BALL)]["robots"][robot]
+    assert math.dist((dribbled["x"], dribbled["y"]), (4.0, -2.0)) < 0.3
+    kicking = truth[State.KICK_BALL]
+    to_goal = math.atan2(-kicking["y"], 9.0 - kicking["x"])
+    assert math.cos(kicking["heading"] - to_goal) > math.cos(math.radians(5.0))
+    assert math.dist((truth[State.HOME]["x"], truth[State.HOME]["y"]), (-4.0, -2.0)) < 0.3
+
+
+def test_two_the_shot_goes_under_the_bar_between_the_posts(static: Experiment) -> None:
+    static.order(mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a="cyan2")
+    pitch = static.setup.pitch
+    assert static.play(lambda: bool(static.trace[-1]["ball"]["x"] > pitch.goal_line), 60.0)
+    ball = static.trace[-1]["ball"]
+    assert abs(ball["y"]) < 0.5 * pitch.goal_width and ball["z"] < pitch.goal_height
+    assert max(world["ball"]["z"] for world in static.trace) > 0.4
+
+
+def test_two_motions_keep_to_the_speeds_of_the_code_and_static_rivals_stay(static: Experiment) -> None:
+    static.order(mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a="cyan2", avoid=True)
+    static.play(lambda: False, 1.0)
+    stood = {name: static.where(name) for name in ("cyan1", "cyan3")}
+    assert static.play(lambda: static.machine("cyan2") is State.HOME, 60.0)
+    robots = [world["robots"]["cyan2"] for world in static.trace]
+    assert 2.0 < max(math.hypot(robot["vx"], robot["vy"]) for robot in robots) <= TRANSLATION.top + 0.05
+    assert max(abs(robot["omega"]) for robot in robots) <= ROTATION.top + 0.05
+    for rival in (robot for robot in static.scene.robots if robot.name in RIVALS):
+        assert math.dist(static.where(rival.name), (rival.x, rival.y)) < 0.05
+    assert all(math.dist(static.where(name), place) < 0.05 for name, place in stood.items())
+
+
+def test_two_after_the_world_is_reset_the_machine_runs_again(static: Experiment) -> None:
+    """Reference 13, row 22: Gazebo's Reset World."""
+    static.order(mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a="cyan2")
+    assert static.play(lambda: static.machine("cyan2") is State.HOME, 60.0)
+    reply = static.asked(lambda: static.gateway.scene(SceneRequest(deed=SceneDeed.RESET)))
+    assert reply.accepted and reply.episode == 2
+    assert static.play(lambda: static.machine("cyan2") is State.CHASE_BALL, 1.0)
+    assert static.play(lambda: static.machine("cyan2") is State.HOME, 60.0)
+
+
+def test_three_both_sides_see_the_same_world_each_from_its_own_end_and_both_move(
+    made: Callable[..., Experiment],
+) -> None:
+    """Reference 13, row 24: the same code on both sides, the frames reversed."""
+    both = made("paper_two_sides", **{"noise.preset": "perfect"})
+    both.tick()
+    for ours, theirs in zip(CYAN, RIVALS, strict=True):
+        mine, other = both.sights[ours].self, both.sights[theirs].self
+        assert (mine.x, mine.y, math.cos(mine.heading)) == pytest.approx((other.x, other.y, math.cos(other.heading)))
+    began = {robot.name: (robot.x, robot.y) for robot in both.scene.robots}
+    moved: dict[str, float] = dict.fromkeys(began, 0.0)
+
+    def have_moved() -> bool:
+        for name, place in began.items():
+            moved[name] = max(moved[name], math.dist(both.where(name), place))
+        return all(max(moved[name] for name in side) > 1.0 for side in (CYAN, RIVALS))
+
+    assert both.play(have_moved, 20.0)
