@@ -1,0 +1,106 @@
+"""A whole match by the league's box: our base station and our referee between it and real robots' agents."""
+
+import asyncio
+import json
+from collections.abc import Callable
+from typing import Any
+
+from coach_gateway.refbox.client import BoxAddress, RefBoxClient
+from coach_gateway.refbox.server import Door, RefBoxServer
+from schemas.game import ActionName, Phase, RefereeAction
+from schemas.side import Side
+
+US, THEM = "224.16.32.44", "224.16.32.55"
+
+
+class Box:
+    """A referee box that one base station comes to."""
+
+    def __init__(self) -> None:
+        self.link: asyncio.StreamWriter | None = None
+        self.states: list[Any] = []
+
+    async def meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        self.link = writer
+        self.say("WELCOME", US)
+        while data := await reader.read(2**16):
+            self.states.append(data)
+        writer.transport.abort()
+
+    def say(self, command: str, target: str = "", robot: int = -1) -> None:
+        assert self.link is not None
+        said = {"command": command, "targetTeam": target, "robotID": robot}
+        self.link.write(json.dumps(said).encode() + b"\x00")
+
+
+def test_a_whole_match_is_played_by_the_commands_of_the_box(kicked_off: Callable[..., Any], until: Any) -> None:
+    """Kick-off, goal, goal taken back, corner, repair, the break, the second half, and the end; by hand only stop."""
+
+    async def play() -> None:
+        words = {"referee.mode": "manual", "rules": "friendly", "duration": 3600.0}
+        async with kicked_off(**words) as bench:
+            box = Box()
+            server = await asyncio.start_server(box.meet, "127.0.0.1", 0)
+            port = server.sockets[0].getsockname()[1]
+            bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append))
+            await until(lambda: box.link and bench.live.refboxes)
+            state = lambda: bench.stage.state  # noqa: E731  the referee's own
+
+            box.say("KICKOFF", US)
+            await until(lambda: (state().phase, state().side) == (Phase.KICK_OFF, Side.CYAN), "the kick-off")
+            box.say("FIRST_HALF")
+            box.say("START")
+            await until(lambda: state().running, "the first half")
+            by_hand = await bench.live.act(RefereeAction(action=ActionName.GOAL, side=Side.CYAN))
+            assert not by_hand.accepted and "referee box is connected" in by_hand.reason
+
+            box.say("STOP")
+            box.say("GOAL", THEM)
+            await until(lambda: state().score.magenta == 1, "the goal")
+            box.say("SUBGOAL", THEM)
+            await until(lambda: state().score.magenta == 0, "the goal taken back")
+            box.say("REPAIR", US, 2)
+            await until(lambda: "cyan2" in state().people.away, "the repair")
+            box.say("CORNER", US)
+            await until(lambda: (state().phase, state().side) == (Phase.CORNER, Side.CYAN), "the corner")
+            box.say("START")
+            await until(lambda: state().running, "the corner's start")
+
+            box.say("STOP")
+            box.say("HALF_TIME")
+            await until(lambda: state().phase in (Phase.HALF_TIME, Phase.PARKING) or state().half == 2, "the break")
+            box.say("KICKOFF", THEM)
+            box.say("SECOND_HALF")
+            box.say("START")
+            await until(lambda: state().half == 2 and state().running, "the second half")
+            assert state().cyan_attacks == -1
+            box.say("GOAL", US)
+            await until(lambda: state().score.cyan == 1, "a goal")
+            box.say("END_GAME")
+            await until(lambda: bench.stage.host.simulation.over, "the end")
+            assert box.states, "nothing of the world was told"
+            server.close()
+
+    asyncio.run(play())
+
+
+def test_a_team_of_the_league_hears_the_match_that_our_referee_officiates(
+    kicked_off: Callable[..., Any], until: Any
+) -> None:
+    """By itself: kick-off, START, and a stall that is dropped."""
+
+    async def play() -> None:
+        async with kicked_off(rules="friendly") as bench:
+            box = RefBoxServer(bench.live, [Door(0, Side.MAGENTA)], bench.said.append)
+            bench.start(box)
+            await until(lambda: box.ports)
+            reader, writer = await asyncio.open_connection("127.0.0.1", box.ports[0])
+            heard: list[str] = []
+            async with asyncio.timeout(60):
+                while "DROP_BALL" not in heard:
+                    heard.append(json.loads((await reader.readuntil(b"\x00"))[:-1])["command"])
+            assert heard[0] == "WELCOME"
+            assert heard.index("STOP", 2) < heard.index("DROP_BALL")
+            writer.transport.abort()
+
+    asyncio.run(play())

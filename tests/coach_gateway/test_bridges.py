@@ -1,0 +1,134 @@
+"""Which bridges a command's words ask for, and the gateway's process with them."""
+
+import asyncio
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from coach_gateway.bridges import Bridges, bridges_of
+from coach_gateway.refbox.client import BoxAddress
+from coach_gateway.refbox.framing import Protocol
+from coach_gateway.refbox.server import Door
+from schemas.bus.endpoint import with_port
+from schemas.bus.zenoh_bus import open_host
+from schemas.clock import WallClock
+from schemas.errors import TouchlineError
+from schemas.game import GameState, Phase
+from schemas.host import Setup
+from schemas.match_config import load_match
+from schemas.profile import load_profile
+from schemas.rule_book import load_rule_book
+from schemas.side import Side
+from schemas.topics import SETUP, STATE
+
+
+def asked(**words: Any) -> Bridges:
+    nothing: dict[str, Any] = {"udp": None, "refbox_at": None, "teams": [], "protocol": Protocol.AUTO, "doors": []}
+    return bridges_of(**{**nothing, "audience": [], "listen": "127.0.0.1", **words})
+
+
+def test_no_words_ask_for_nothing() -> None:
+    assert not asked().wanted
+
+
+def test_words_are_addresses_and_doors() -> None:
+    wanted = asked(
+        udp=0,
+        refbox_at="box.local",
+        teams=list(Side),
+        doors=["28097", "magenta:28098"],
+        audience=["127.0.0.1:12345", "[::1]:9"],
+    )
+    assert wanted.boxes == (BoxAddress(Side.CYAN, "box.local", 28097), BoxAddress(Side.MAGENTA, "box.local", 28097))
+    assert wanted.doors == (Door(28097), Door(28098, Side.MAGENTA))
+    assert wanted.audience == (("127.0.0.1", 12345), ("::1", 9))
+    assert asked(refbox_at="10.0.0.2:9000", teams=[Side.CYAN]).boxes[0].port == 9000
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ({"refbox_at": "box"}, "--refbox needs the team"),
+        ({"teams": [Side.CYAN]}, "--team is for --refbox"),
+        ({"refbox_at": "box:0", "teams": [Side.CYAN]}, '--refbox is "box:0"; it is HOST or HOST:PORT'),
+        ({"refbox_at": "box:port", "teams": [Side.CYAN]}, "HOST or HOST:PORT"),
+        ({"audience": ["12345"]}, '--audience is "12345"; it is HOST:PORT'),
+        ({"doors": ["blue:28097"]}, '--refbox-server is "blue:28097"'),
+        ({"doors": ["99999"]}, "--refbox-server"),
+        ({"doors": ["-1"]}, "--refbox-server"),
+    ],
+)
+def test_words_that_cannot_be_meant_are_told(words: dict[str, Any], says: str) -> None:
+    with pytest.raises(TouchlineError, match=says.replace("(", r"\(")):
+        asked(**words)
+
+
+def test_bridges_need_no_web_server() -> None:
+    """The base installation has neither starlette nor uvicorn."""
+    script = (
+        "import sys; sys.modules.update(dict.fromkeys(('starlette', 'uvicorn', 'websockets')));"
+        "import coach_gateway.bridges, coach_gateway.__main__"
+    )
+    assert subprocess.run([sys.executable, "-c", script], env=os.environ, check=False).returncode == 0
+
+
+@pytest.mark.processes
+def test_one_process_has_all_bridges_and_ends_when_it_is_told(tmp_path: Path) -> None:
+    endpoint = with_port("tcp/127.0.0.1:0")
+    setup = Setup.of(load_match(None, {}), load_profile("msl"), load_rule_book("friendly"))
+    tokens = tmp_path / "tokens.json"
+    command = [sys.executable, "-m", "coach_gateway", "--connect", endpoint, "--tokens", str(tokens), "--udp", "0"]
+    command += ["--refbox-server", "0", "--audience", "127.0.0.1:9"]
+    with open_host("friendly", WallClock(), endpoint) as bus:
+        setups, states = bus.serve(SETUP), bus.publisher(STATE)
+        bus.declare_alive("host", "host")
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=os.environ)
+        try:
+            assert process.stdout is not None
+            lines = [process.stdout.readline() for _ in range(4)]
+            assert lines[0] == f"tokens: {tokens}\n"
+            ports = {line.split(" on ")[0]: int(line.rsplit(":", 1)[1]) for line in lines[1:3]}
+            question = setups.receive(20.0)
+            assert question is not None
+            question.answer(setup)
+            asyncio.run(_meet(ports, json.loads(tokens.read_text("utf-8"))["cyan"], states))
+            process.send_signal(signal.SIGINT)
+            rest, _ = process.communicate(timeout=20.0)
+            assert process.returncode == 0, rest
+            assert "Traceback" not in rest
+        finally:
+            process.kill()
+            process.communicate()
+
+
+async def _meet(ports: dict[str, int], token: str, states: Any) -> None:
+    """A base station hears a corner, and a coach program is welcomed."""
+    reader, writer = await asyncio.open_connection("127.0.0.1", ports["referee box for base stations"])
+    writer.write(json.dumps({"type": "hello", "team": "magenta"}).encode() + b"\x00")
+    assert json.loads((await reader.readuntil(b"\x00"))[:-1])["command"] == "WELCOME"
+    game = GameState(tick=1, time=0.02, phase=Phase.STOPPED)
+    heard = ""
+    for tick in range(2, 1000):
+        corner = game.model_copy(update={"tick": tick, "phase": Phase.CORNER if tick % 2 else Phase.STOPPED})
+        states.put(corner.model_copy(update={"side": Side.CYAN if tick % 2 else None}))
+        with_it = asyncio.wait_for(reader.readuntil(b"\x00"), 0.05)
+        try:
+            heard += (await with_it)[:-1].decode()
+        except TimeoutError:
+            continue
+        if "CORNER" in heard:
+            break
+    assert "CORNER" in heard
+    writer.transport.abort()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as program:
+        program.settimeout(10.0)
+        program.connect(("127.0.0.1", ports["coach programs over UDP"]))
+        program.send(json.dumps({"kind": "hello", "sequence": 1, "token": token}).encode())
+        assert json.loads(program.recv(65536))["role"] == "cyan"
