@@ -6,14 +6,12 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from arena.child import Child
-from arena.processes import Page, page_process
+from arena.processes import TOKENS, Page, page_process
 from arena.supervisor import AT_ONCE, Notice, Supervisor
 from coach_gateway.web.listening import free_port, origin_of
 from coach_gateway.web.settings import need_web
 from coach_gateway.web.tokens import address, read_or_make
 from schemas.clock import Clock
-
-TOKENS = "tokens.json"
 
 
 def page_port(listen: str, port: int) -> int:

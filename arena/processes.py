@@ -18,6 +18,8 @@ class Kind(StrEnum):
     AGENT = "agent"
     PAGE = "page"
     """The coach gateway that serves the match's page."""
+    BRIDGES = "bridges"
+    """The coach gateway with the match's other bridges."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,8 +57,12 @@ PROCESSES: dict[Kind, Row] = {
         ),
         restarts=3,
     ),
+    Kind.BRIDGES: Row((*_PYTHON_MODULE, "coach_gateway", *_MEETING, "--tokens", "{tokens}"), restarts=3),
 }
 """Kind → its row, in the order they are launched."""
+
+TOKENS = "tokens.json"
+"""The file of a run's tokens, in its folder."""
 
 EVERYWHERE = {
     "PYTHONUNBUFFERED": "1",
@@ -104,6 +110,8 @@ class Plan:
     """What people should know before the match begins."""
     page: Page | None = None
     """Where the match's page is served; nothing when none was wanted."""
+    bridges: tuple[str, ...] = ()
+    """What the bridges' gateway is told; nothing when none is wanted."""
 
     @property
     def connect(self) -> str:
@@ -116,6 +124,11 @@ class Plan:
         from recordings.output import files_at
 
         return files_at(self.recording) if self.recording is not None else []
+
+    @property
+    def tokens(self) -> Path:
+        """Of page and coach programs alike."""
+        return self.folder / TOKENS
 
     @property
     def config_file(self) -> Path:
@@ -144,6 +157,8 @@ def processes_of(plan: Plan) -> list[Process]:
             processes.append(_process(robot, Kind.AGENT, own, instead=tuple(team.command or ())))
     if plan.page is not None:
         processes.append(page_process(plan.page, plan.connect, plan.config.name))
+    if plan.bridges:
+        processes.append(_process("bridges", Kind.BRIDGES, {**words, "tokens": str(plan.tokens)}, more=plan.bridges))
     return processes
 
 

@@ -45,7 +45,7 @@ class Step:
 
 _ALL = frozenset(Kind)
 
-_WAITERS = frozenset({Kind.AGENT, Kind.PAGE})
+_WAITERS = frozenset({Kind.AGENT, Kind.PAGE, Kind.BRIDGES})
 """Who would wait for a host that has gone to come back."""
 
 AFTER_THE_MATCH = (

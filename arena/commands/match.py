@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from arena import options
+from arena.bridge_words import NO_BRIDGES, BridgeWords
 from arena.bundle import unbundled
 from coach_gateway.web.settings import DEFAULT_PORT, LOOPBACK
 
@@ -39,12 +40,14 @@ def match(
     web: options.Web = False,
     web_port: options.WebPort = DEFAULT_PORT,
     listen_web: options.ListenWeb = LOOPBACK,
+    bridges: BridgeWords = NO_BRIDGES,
     json: options.Json = False,
 ) -> None:
     """Play a match: launch host, recorder and robots, show it, and leave a recording and a result.
 
     Logs and recording go to ./runs/. Ctrl-C ends everything; the recording stays readable.
-    With --web people watch and command in their browsers, and the match is played in real time unless --pace says else.
+    With --web people watch and command in their browsers; with --udp, --refbox and --refbox-server coach programs,
+    league's boxes and team software take part. Such a match is played in real time unless --pace says else.
 
     Example: touchline match --seed 7 --duration 60 --pace realtime
     """
@@ -55,7 +58,8 @@ def match(
     from schemas.clock import WallClock
 
     teams = teams_of(ghost) if ghost else {}
-    if web and words.pace is None:
+    bridged = bridges.arguments()
+    if (web or bridged) and words.pace is None:
         words = replace(words, pace="realtime")
     config = words.read(
         **{f"teams__{side}": team for side, team in teams.items()},
@@ -80,6 +84,9 @@ def match(
         plan = replace(plan, page=page)
         for line in invitation(page):
             typer.echo(line, err=json)
+    if bridged:
+        plan = replace(plan, bridges=bridged)
+        typer.echo(f"bridges: {plan.folder / 'bridges.log'}; the coaches' tokens: {plan.tokens}", err=json)
     if plan.warning:
         typer.echo(f"touchline: {plan.warning}", err=True)
     result = _play(plan, clock, quiet=json)

@@ -6,10 +6,14 @@ from typing import Annotated
 import typer
 
 from arena import options
+from arena.bridge_words import BridgeWords
+from arena.bundle import unbundled
 from coach_gateway.web.settings import DEFAULT_PAGES, DEFAULT_PORT, LOOPBACK, BeliefsFor, WebSettings
 
 
+@unbundled
 def serve(
+    bridges: BridgeWords,
     connect: options.Connect = options.DEFAULT_ENDPOINT,
     match: options.Match = options.DEFAULT_MATCH,
     port: Annotated[int, typer.Option(help="Port of the page; 0 takes a free one.")] = DEFAULT_PORT,
@@ -32,10 +36,12 @@ def serve(
 ) -> None:
     """Serve the page of a running match, or of a replay, until Ctrl-C; hosts may come and go meanwhile.
 
-    It says where the page is, with a token for the referee and for each side's coach.
+    It says where the page is, with a token for the referee and for each side's coach. Bridges go on beside it, as
+    `touchline coach bridge` has them.
 
     Example: touchline coach serve --port 8081
     """
     from coach_gateway.__main__ import serve as serve_page
 
-    serve_page(connect, match, WebSettings(port, listen_web, tokens, tuple(allow_origin or ()), beliefs, pages))
+    web = WebSettings(port, listen_web, tokens, tuple(allow_origin or ()), beliefs, pages)
+    serve_page(connect, match, web, bridges.bridges())

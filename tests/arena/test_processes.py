@@ -4,10 +4,12 @@ from pathlib import Path
 
 import pytest
 
+from arena.bridge_words import BridgeWords
 from arena.processes import PROCESSES, Kind, Page, Plan, Process, processes_of
 from arena.runs import prepare
 from schemas.clock import SteppedClock
 from schemas.match_config import MatchConfig, load_match
+from schemas.side import Side
 
 
 def plan(recording: Path | None = Path("match.mcap"), listen: str = "tcp/127.0.0.1:7447", **overrides: object) -> Plan:
@@ -58,6 +60,19 @@ def test_a_page_is_launched_where_one_is_wanted_with_its_tokens_in_a_file() -> N
         *("--listen-web", "127.0.0.1", "--port", "8080", "--tokens", "runs/one/tokens.json"),
     )
     assert page.restarts == 3
+
+
+def test_bridges_are_launched_where_they_are_wanted_with_the_words_they_were_asked_for_by() -> None:
+    assert "bridges" not in by_name(plan())
+    words = BridgeWords(udp=28090, refbox_server=["cyan:28097"], refbox="10.0.0.2", team=[Side.MAGENTA])
+    bridges = by_name(replace(plan(), bridges=words.arguments()))["bridges"]
+    assert bridges.command[1:] == (
+        *("-m", "coach_gateway", "--connect", "tcp/127.0.0.1:7447", "--match", "friendly"),
+        *("--tokens", "runs/one/tokens.json", "--udp=28090", "--refbox=10.0.0.2", "--team=magenta"),
+        *("--refbox-protocol=auto", "--refbox-server=cyan:28097", "--listen-bridges=127.0.0.1"),
+    )
+    assert bridges.restarts == 3
+    assert BridgeWords().arguments() == ()
 
 
 def test_no_recorder_is_launched_when_no_recording_is_wanted() -> None:
