@@ -12,6 +12,7 @@ DOCUMENTS = (
     "ARCHITECTURE.md",
     "CHANGELOG.md",
     "docs/protocol.md",
+    "docs/coach.md",
     "docs/recordings.md",
     "docs/physics.md",
     "docs/parity.md",
