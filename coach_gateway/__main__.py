@@ -5,7 +5,7 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 from coach_gateway import refbox
@@ -15,7 +15,7 @@ from coach_gateway.service import Service
 from coach_gateway.service import run as run_services
 from coach_gateway.watching import watch
 from coach_gateway.web.settings import DEFAULT_PAGES, DEFAULT_PORT, LOOPBACK, BeliefsFor, WebSettings, need_web
-from coach_gateway.web.tokens import tokens_of
+from coach_gateway.web.tokens import Tokens, tokens_of
 from schemas.bus.contract import Bus
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.zenoh_bus import open_client
@@ -47,22 +47,28 @@ def serve(
     Raises:
         TouchlineError: a package that it needs is not installed, a port is taken, tokens cannot be read.
     """
-    if web is not None:
-        need_web()
     known = tokens_of(web.tokens if web is not None else tokens)
-    if web is None and bridges.udp is not None:
+    page = _page(web, known) if web is not None else None
+    if page is None and bridges.udp is not None:
         for line in [f"tokens: {tokens}"] if tokens is not None else known.lines():
             say(line)
 
-    def services(bus: Bus) -> Sequence[Service]:
-        made: list[Service] = []
-        if web is not None:
-            from coach_gateway.web.server import WebServer
-
-            made.append(WebServer(bus, web, say, known))
-        return [*made, *services_of(bus, bridges, known, say)]
+    def services(bus: Bus) -> list[Service]:
+        return [*([page(bus)] if page is not None else []), *services_of(bus, bridges, known, say)]
 
     run_services(connect, match, services, say)
+
+
+def _page(settings: WebSettings, tokens: Tokens) -> Callable[[Bus], Service]:
+    """What serves the page once there is a match; where it is, is said at once."""
+    need_web()
+    from coach_gateway.web.entrance import open_entrance
+    from coach_gateway.web.server import WebServer
+
+    entrance = open_entrance(settings, tokens)
+    for line in entrance.lines():
+        say(line)
+    return lambda bus: WebServer(bus, entrance)
 
 
 def main(arguments: list[str] | None = None) -> int:

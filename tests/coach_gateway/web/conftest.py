@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 from websockets.sync.client import ClientConnection, connect
 
+from coach_gateway.web.entrance import open_entrance
 from coach_gateway.web.server import WebServer
 from coach_gateway.web.settings import WebSettings
 from schemas.bus.contract import Bus, Subscription
@@ -140,19 +141,21 @@ class Gateway:
     """The page's server in a thread of its own."""
 
     def __init__(self, medium: Medium, settings: WebSettings) -> None:
-        self.said: list[str] = []
+        self.entrance = open_entrance(settings)
+        self.origin = self.entrance.origin
         self.bus = medium.seat("friendly", WallClock())
         self._stop = asyncio.Event()
-        self._thread = threading.Thread(target=self._run, args=(settings,))
+        self._thread = threading.Thread(
+            target=self._run,
+        )
         self._ready = threading.Event()
         self._thread.start()
         assert self._ready.wait(SOON)
 
-    def _run(self, settings: WebSettings) -> None:
+    def _run(self) -> None:
         async def main() -> None:
             self._loop = asyncio.get_running_loop()
-            self.server = WebServer(self.bus, settings, self.said.append)
-            self.origin = self.server.origin
+            self.server = WebServer(self.bus, self.entrance)
             self._ready.set()
             await self.server.serve(self._stop)
 
