@@ -6,11 +6,13 @@ import json
 import threading
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
 from coach_gateway.web.entrance import open_entrance
@@ -219,7 +221,8 @@ class Visitor:
         return self.hear("welcome", role=role)
 
     def close(self) -> None:
-        self.socket.close()
+        with suppress(ConnectionClosed):
+            self.socket.close()
 
 
 @pytest.fixture

@@ -1,0 +1,233 @@
+"""Matches and replays of real processes with a page: it is announced, served, lives on, and leaves nothing behind."""
+
+import json
+import os
+import re
+import signal
+import socket
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+import pytest
+from websockets.exceptions import ConnectionClosed, InvalidHandshake
+from websockets.sync.client import ClientConnection, connect
+
+from schemas.bus.endpoint import with_port
+
+pytestmark = pytest.mark.processes
+
+LIMIT = 90.0
+"""Seconds after which something that should have happened will not; nothing depends on how soon it does."""
+TEAMS = """
+[teams.cyan]
+brain = "robot_agent.teams.simple:Simple"
+size = 1
+[teams.magenta]
+brain = "robot_agent.teams.simple:Simple"
+size = 1
+"""
+
+
+class Page:
+    """An open page that reads what it is told."""
+
+    def __init__(self, socket: ClientConnection, token: str) -> None:
+        self.socket = socket
+        self.token = token
+
+    def hear(self, kind: str, **fields: Any) -> dict[str, Any]:
+        """The next message of a kind with these fields."""
+        deadline = time.monotonic() + LIMIT
+        while True:
+            message: dict[str, Any] = json.loads(self.socket.recv(max(0.0, deadline - time.monotonic())))
+            if message["kind"] == kind and all(message[name] == value for name, value in fields.items()):
+                return message
+
+    def ask(self, deed: str, **content: Any) -> dict[str, Any]:
+        self.socket.send(json.dumps({"id": 7, "token": self.token, "deed": deed, **content}))
+        return self.hear("reply", id=7)
+
+
+@contextmanager
+def page_at(address: str) -> Iterator[Page]:
+    """A page opened at the address that was said, as soon as somebody serves it."""
+    origin, _, token = address.partition("/#token=")
+    deadline = time.monotonic() + LIMIT
+    while True:
+        try:
+            opening = connect(f"{origin.replace('http', 'ws')}/ws", origin=origin, max_size=None)  # type: ignore[arg-type]
+            opened = opening.__enter__()
+            break
+        except (OSError, InvalidHandshake):
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+    try:
+        yield Page(opened, token)
+    finally:
+        with suppress(ConnectionClosed):  # a server that was killed does not take leave
+            opened.close()
+
+
+def said_address(program: Any) -> str:
+    """Where a program says the referee's page is."""
+    deadline = time.monotonic() + LIMIT
+    while True:
+        found = re.search(r"(http://127\.0\.0\.1:\d+/#token=\S+)", program.out + program.err)
+        if found is not None:
+            return found[1]
+        assert time.monotonic() < deadline and program.popen.poll() is None, program.err
+        time.sleep(0.02)
+
+
+def is_served(address: str) -> bool:
+    port = int(address.split(":")[2].split("/")[0])
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0
+
+
+@pytest.fixture
+def config(tmp_path: Path) -> Path:
+    file = tmp_path / "small.toml"
+    file.write_text(f'name = "small"\nseed = 5\nduration = 600.0\n{TEAMS}')
+    return file
+
+
+def test_a_match_with_a_page_says_where_it_is_lives_through_the_server_s_death_and_leaves_nothing(
+    start: Callable[..., Any], config: Path, tmp_path: Path, is_running: Callable[[int], bool]
+) -> None:
+    match = start(
+        *("arena", "match", str(config), "--web", "--web-port", "0", "--listen", with_port("tcp/127.0.0.1:0")),
+        folder=tmp_path,
+    )
+    address = said_address(match)
+    with page_at(address) as page:
+        page.hear("frame")
+        assert page.ask("token")["accepted"]
+        assert page.hear("welcome", role="referee")["setup"]["pace"] == "realtime"
+        assert page.ask("action", action={"action": "stop"})["accepted"]
+        while "STOP" not in page.hear("event")["event"]["text"]:
+            pass
+        server = match.child("coach_gateway")
+        os.kill(server, signal.SIGKILL)
+        with pytest.raises(ConnectionClosed):
+            page.hear("nothing")
+    with page_at(address) as page:
+        texts = []
+        while not any("STOP" in text for text in texts):
+            texts.append(page.hear("event")["event"]["text"])
+        assert page.ask("action", action={"action": "start"})["id"] == 7
+        page.hear("frame")
+    processes = list(match.children())
+    assert len(processes) == 5
+    match.popen.send_signal(signal.SIGINT)
+    assert match.status() == 130
+    assert [pid for pid in processes if is_running(pid)] == []
+    assert not is_served(address)
+    (tokens,) = tmp_path.glob("runs/*/tokens.json")
+    assert tokens.stat().st_mode & 0o077 == 0
+    logs = "".join(log.read_text() for log in tmp_path.glob("runs/*/*.log"))
+    assert not any(token in logs for token in json.loads(tokens.read_text()).values())
+
+
+def test_a_page_that_is_served_apart_outlives_the_host_and_meets_the_next_one(
+    start: Callable[..., Any], config: Path, tmp_path: Path
+) -> None:
+    endpoint = with_port("tcp/127.0.0.1:0")
+    meeting = ("--connect", endpoint, "--match", "small")
+    server = start("arena", "coach", "serve", "--port", "0", *meeting, folder=tmp_path, name="server")
+    address = said_address(server)
+    host_words = ("arena", "host", str(config), "--listen", endpoint, "--pace", "realtime")
+    first = start(*host_words, folder=tmp_path, name="first")
+    with page_at(address) as page:
+        page.hear("host", there=True)
+        page.hear("health")
+        first.popen.kill()
+        page.hear("host", there=False)
+        gone = page.ask("action", action={"action": "stop"})
+        assert (gone["accepted"], gone["reason"]) == (False, "the host is gone; wait until it is back")
+        start(*host_words, folder=tmp_path, name="second")
+        page.hear("host", there=True)
+        page.hear("welcome")
+        page.hear("health")
+    server.popen.send_signal(signal.SIGTERM)
+    assert server.status() == 0
+    assert server.err == ""
+
+
+def test_a_replay_with_a_page_is_sought_and_paused_from_it_and_leaves_nothing(
+    start: Callable[..., Any], config: Path, tmp_path: Path, is_running: Callable[[int], bool]
+) -> None:
+    recording = tmp_path / "small.mcap"
+    words = ("--duration", "4", "--listen", with_port("tcp/127.0.0.1:0"), "--record", str(recording))
+    assert start("arena", "match", str(config), *words, folder=tmp_path).status() == 0
+    replay = start(
+        *("arena", "replay", str(recording), "--web", "--web-port", "0", "--listen", with_port("tcp/127.0.0.1:0")),
+        folder=tmp_path,
+        name="replay",
+    )
+    address = said_address(replay)
+    with page_at(address) as page:
+        assert page.hear("welcome", live=False)["setup"]["match"] == "small"
+        events = [page.hear("event")["event"]]
+        while events[-1]["kind"] != "full_time":
+            events.append(page.hear("event")["event"])
+        assert page.ask("replay", request={"deed": "pause"})["accepted"]
+        sought = page.ask("replay", request={"deed": "seek", "to": "2.5"})
+        assert sought["answer"]["time"] == pytest.approx(2.5, abs=0.05)
+        while page.hear("frame")["time"] != pytest.approx(2.5, abs=0.05):
+            pass
+        refused = page.ask("action", action={"action": "stop"})
+        assert (refused["accepted"], refused["reason"][:16]) == (False, "this is a replay")
+        processes = list(replay.children())
+        replay.popen.send_signal(signal.SIGINT)
+    assert replay.status() == 130
+    assert [pid for pid in processes if is_running(pid)] == []
+    assert not is_served(address)
+
+
+def test_a_port_that_is_taken_is_named_before_anything_is_launched(
+    start: Callable[..., Any], config: Path, tmp_path: Path
+) -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        match = start("arena", "match", str(config), "--web", "--web-port", str(port), folder=tmp_path)
+        assert match.status() == 2
+    assert match.err == (
+        f"touchline: the page cannot be served on 127.0.0.1 port {port} (Address already in use); "
+        "choose another port, or 0 for a free one\n"
+    )
+    assert not (tmp_path / "runs").exists()
+
+
+NO_WEB = """
+from importlib.machinery import PathFinder
+find = PathFinder.find_spec
+gone = ("starlette", "uvicorn", "websockets")
+PathFinder.find_spec = lambda name, *more: None if name.partition(".")[0] in gone else find(name, *more)
+"""
+"""As `sitecustomize`, makes the packages of the extra `coach` such as are not installed."""
+
+
+def test_without_the_extra_a_page_says_how_to_get_it_and_everything_else_goes_on(
+    start: Callable[..., Any], config: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "sitecustomize.py").write_text(NO_WEB)
+    path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
+    for number, words in enumerate((("match", "--web"), ("coach", "serve"))):
+        program = start("arena", *words, folder=tmp_path, name=f"without{number}", PYTHONPATH=path)
+        assert program.status() == 2
+        needs = "the page needs starlette, uvicorn and websockets; pip install 'touchline[coach]'"
+        assert program.err == f"touchline: {needs}\n"
+    stop = start(
+        *("arena", "coach", "stop", "--connect", with_port("tcp/127.0.0.1:0")),
+        folder=tmp_path,
+        name="stop",
+        PYTHONPATH=path,
+    )
+    assert stop.status() == 2
+    assert "no host answers there" in stop.err
