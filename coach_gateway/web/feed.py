@@ -86,8 +86,8 @@ class Feed:
         return [self._host(), self._refbox(), *self._known.values(), *self._told]
 
     def frame(self, beliefs: Iterable[Side]) -> str | None:
-        """The newest tick with what robots of these sides believe; nothing before the first."""
-        if self._world is None:
+        """The newest tick with what robots of these sides believe; nothing before it is known what is played."""
+        if self._world is None or self.setup is None:
             return None
         head, world = self._world
         words = ",".join(text for side in beliefs for text in self._beliefs[side].values())
@@ -161,7 +161,7 @@ class Feed:
         self._numbers.clear()
         self._known.clear()
         self._told.clear()
-        self._world = None
+        self._world = self.setup = None
         for words in self._beliefs.values():
             words.clear()
         self._orders.book.forget()

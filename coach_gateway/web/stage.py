@@ -80,8 +80,10 @@ class Stage:
         """Why nobody can do this now, whoever asks; nothing when it can be."""
         if isinstance(ask, AskToken):
             return None
-        if not self.feed.there or self.feed.setup is None:
+        if not self.feed.there:
             return "the host is gone; wait until it is back"
+        if self.feed.setup is None:
+            return "the host has not said yet what it plays; try again"
         if not self.feed.live and isinstance(ask, AskOrder | AskDrive):
             return "this is a replay: what is recorded cannot be changed"
         if self.feed.live and isinstance(ask, AskReplay):

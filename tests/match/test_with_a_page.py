@@ -61,7 +61,7 @@ def page_at(address: str) -> Iterator[Page]:
             opening = connect(f"{origin.replace('http', 'ws')}/ws", origin=origin, max_size=None)  # type: ignore[arg-type]
             opened = opening.__enter__()
             break
-        except (OSError, InvalidHandshake):
+        except (OSError, InvalidHandshake, ConnectionClosed):
             assert time.monotonic() < deadline
             time.sleep(0.05)
     try:
