@@ -18,6 +18,7 @@ from websockets.sync.client import ClientConnection, connect
 from coach_gateway.web.entrance import open_entrance
 from coach_gateway.web.server import WebServer
 from coach_gateway.web.settings import WebSettings
+from coach_gateway.web.tokens import tokens_of
 from schemas.bus.contract import Bus, Subscription
 from schemas.bus.in_process import Medium
 from schemas.clock import WallClock
@@ -143,7 +144,7 @@ class Gateway:
     """The page's server in a thread of its own."""
 
     def __init__(self, medium: Medium, settings: WebSettings) -> None:
-        self.entrance = open_entrance(settings)
+        self.entrance = open_entrance(settings, tokens_of(settings.tokens))
         self.origin = self.entrance.origin
         self.bus = medium.seat("friendly", WallClock())
         self._stop = asyncio.Event()
