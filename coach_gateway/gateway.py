@@ -15,7 +15,8 @@ from schemas.parameters import ParametersReply, ParametersRequest
 from schemas.replay import ReplayReply, ReplayRequest
 from schemas.scene import SceneReply, SceneRequest
 from schemas.side import Side
-from schemas.topics import ACTION, ORDER, PARAMETERS, REPLAY, SCENE, SETUP, Topic
+from schemas.topic import Topic
+from schemas.topics import ACTION, ORDER, PARAMETERS, REPLAY, SCENE, SETUP
 
 _LOOK_S = 0.02
 """s of wall time between two looks for acknowledgements."""

@@ -13,7 +13,8 @@ from schemas.bus.contract import Received, Stamp
 from schemas.clock import WallClock
 from schemas.game import GameState, Phase
 from schemas.message import Message
-from schemas.topics import EVENT, STATE, Topic
+from schemas.topic import Topic
+from schemas.topics import EVENT, STATE
 from schemas.world import World
 
 _BATCH = 500

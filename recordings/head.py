@@ -14,7 +14,8 @@ from schemas.match_config import MatchConfig
 from schemas.message import VERSION, Message
 from schemas.profile import profile_tables, profile_text
 from schemas.rule_book import rule_book_text
-from schemas.topics import TOPICS, Delivery
+from schemas.topic import Delivery
+from schemas.topics import TOPICS
 
 PROFILE = "profile.json"
 """The attachment with the whole profile: laid over those that it extends, as `schemas.profile.profile_of` reads it."""

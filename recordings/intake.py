@@ -3,7 +3,8 @@
 from schemas.bus.contract import Received, Stamp
 from schemas.intake import Intake
 from schemas.message import BadMessageError
-from schemas.topics import TOPICS, Party
+from schemas.topic import Party
+from schemas.topics import TOPICS
 
 _OTHERS = tuple(topic for topic in TOPICS.values() if topic.recorded and topic.writer is not Party.HOST)
 """The rows that are recorded and that others than the host write."""

@@ -7,7 +7,8 @@ stand before the first tick of the next; so they are held for a moment and relea
 from typing import NamedTuple
 
 from schemas.bus.contract import Received
-from schemas.topics import APPLIED, INTAKE, WORLD, Party
+from schemas.topic import Party
+from schemas.topics import APPLIED, INTAKE, WORLD
 
 _EACH_TICK = frozenset({WORLD.key, APPLIED.key, INTAKE.key})
 """What the host says once in every tick: how far each of them has come tells what can be missing still."""

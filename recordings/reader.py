@@ -11,7 +11,8 @@ from recordings.manifest import MANIFEST, RESULT, Manifest, Result, digest, from
 from schemas.bus.contract import Received, Stamp
 from schemas.errors import TouchlineError
 from schemas.message import VERSION, BadMessageError
-from schemas.topics import TOPICS, Topic
+from schemas.topic import Topic
+from schemas.topics import TOPICS
 
 
 class ChannelFacts(NamedTuple):

@@ -23,7 +23,8 @@ from schemas.bus.contract import Answer, Bus, NoAnswerError, Received
 from schemas.host import RecorderProgress, Setup, SetupRequest
 from schemas.match_config import MatchConfig
 from schemas.message import BadMessageError
-from schemas.topics import EVENT, INTAKE, PROGRESS, SETUP, SIGHT, TOPICS, Delivery, Party, Topic
+from schemas.topic import Delivery, Party, Topic
+from schemas.topics import EVENT, INTAKE, PROGRESS, SETUP, SIGHT, TOPICS
 
 REPORT_TICKS = 25
 """Ticks after which a lockstep host is told at once that they were taken in."""

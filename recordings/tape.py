@@ -21,7 +21,8 @@ from mcap.writer import MCAP0_MAGIC
 from recordings.container import BROKEN, DAMAGED
 from recordings.reader import Recorded
 from schemas.errors import TouchlineError
-from schemas.topics import TOPICS, Topic
+from schemas.topic import Topic
+from schemas.topics import TOPICS
 
 _HEAD = struct.Struct("<BQ")
 """Opcode and length of a record."""

@@ -7,19 +7,8 @@ from schemas.bus.contract import Bus, Publisher
 from schemas.game import GameEvent
 from schemas.host import Health, Invalid
 from schemas.side import Side
-from schemas.topics import (
-    APPLIED,
-    BELIEF,
-    EVENT,
-    HEALTH,
-    INVALID,
-    SIGHT,
-    STATE,
-    WORLD,
-    WORLD_BALL,
-    WORLD_ROBOT,
-    Delivery,
-)
+from schemas.topic import Delivery
+from schemas.topics import APPLIED, BELIEF, EVENT, HEALTH, INVALID, SIGHT, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
 from sim_host.referee.state import RefereeState
 from sim_host.simulation import Tick
 from sim_host.snapshot import Roster

@@ -6,7 +6,8 @@ from typing import Any
 import typer
 
 from arena import options
-from schemas.topics import TOPICS, Topic
+from schemas.topic import Topic
+from schemas.topics import TOPICS
 
 _COLUMNS = ("name", "key", "message", "from", "to", "rate", "delivery", "recorded", "says")
 

@@ -15,7 +15,8 @@ from schemas.message import BadMessageError, Message
 from schemas.parameters import ParametersReply
 from schemas.replay import ReplayReply, ReplayRequest
 from schemas.scene import SceneReply
-from schemas.topics import ACTION, PARAMETERS, REPLAY, SCENE, SETUP, Party, Topic
+from schemas.topic import Party, Topic
+from schemas.topics import ACTION, PARAMETERS, REPLAY, SCENE, SETUP
 
 _STILL_S = 1.0
 """Wall time after which a replay that stands still says again how things stand: who has come since must know."""

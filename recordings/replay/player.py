@@ -14,7 +14,8 @@ from schemas.clock import Clock
 from schemas.errors import TouchlineError
 from schemas.game import GameEvent
 from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
-from schemas.topics import APPLIED, BELIEF, COMMAND, HEALTH, ORDER, SIGHT, STANDING_ORDER, STATE, WORLD, Topic
+from schemas.topic import Topic
+from schemas.topics import APPLIED, BELIEF, COMMAND, HEALTH, ORDER, SIGHT, STANDING_ORDER, STATE, WORLD
 
 STANDING = frozenset(
     topic.key for topic in (WORLD, STATE, APPLIED, HEALTH, COMMAND, SIGHT, BELIEF, ORDER, STANDING_ORDER)

@@ -14,7 +14,7 @@ from pydantic_core import to_json
 from schemas.clock import Clock
 from schemas.errors import TouchlineError
 from schemas.message import VERSION, BadMessageError, Message
-from schemas.topics import Delivery, Topic
+from schemas.topic import Delivery, Topic
 
 
 class BusError(TouchlineError):

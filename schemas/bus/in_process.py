@@ -24,7 +24,7 @@ from schemas.bus.contract import (
 from schemas.bus.mailbox import EveryMailbox, Mailbox, NewestMailbox
 from schemas.clock import Clock
 from schemas.message import Message
-from schemas.topics import Delivery, Topic
+from schemas.topic import Delivery, Topic
 
 _KEPT = 1500
 """Messages that are kept of each key for readers of the past."""

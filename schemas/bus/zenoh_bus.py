@@ -33,7 +33,8 @@ from schemas.bus.mailbox import EveryMailbox
 from schemas.bus.session import first_line, open_connection, open_router
 from schemas.clock import Clock
 from schemas.message import Message
-from schemas.topics import TOPICS, Delivery, Topic, root
+from schemas.topic import Delivery, Topic
+from schemas.topics import TOPICS, root
 
 _CACHE = 1500
 """Samples a writer keeps for recovery, per key: 30 s of ticks in real time."""

@@ -14,7 +14,8 @@ from pydantic_core import from_json
 from schemas.message import VERSION, Message
 from schemas.protocol.examples import examples
 from schemas.protocol.fields import is_part, parts_of, rows
-from schemas.topics import TOPICS, Topic
+from schemas.topic import Topic
+from schemas.topics import TOPICS
 
 _NOTE = (
     "<!-- Made by `python -m schemas.protocol > docs/protocol.md`; what is to be changed is changed in schemas/. -->"

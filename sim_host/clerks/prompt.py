@@ -5,7 +5,7 @@ from typing import Any
 
 from schemas.bus.contract import Bus
 from schemas.message import BadMessageError, Message
-from schemas.topics import Topic
+from schemas.topic import Topic
 from sim_host.complaints import Complaints
 
 

@@ -3,7 +3,8 @@
 import pytest
 
 from schemas.errors import TouchlineError
-from schemas.topics import BELIEF, COMMAND, TOPICS, WORLD, Delivery, Party
+from schemas.topic import Delivery, Party
+from schemas.topics import BELIEF, COMMAND, TOPICS, WORLD
 
 
 def test_a_key_is_filled_and_read_back() -> None:

@@ -34,6 +34,7 @@ from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
 from schemas.rule_book import load_rule_book
 from schemas.scene import SceneReply
 from schemas.side import Side
+from schemas.topic import Topic
 from schemas.topics import (
     ACTION,
     BELIEF,
@@ -48,7 +49,6 @@ from schemas.topics import (
     STANDING_ORDER,
     STATE,
     WORLD,
-    Topic,
 )
 from schemas.world import BallTruth, World
 

@@ -17,7 +17,8 @@ from schemas.host import AppliedInput, Health, RecorderProgress
 from schemas.match_config import MatchConfig
 from schemas.side import Side
 from schemas.sight import Sight
-from schemas.topics import APPLIED, EVENT, HEALTH, PROGRESS, WORLD, Topic
+from schemas.topic import Topic
+from schemas.topics import APPLIED, EVENT, HEALTH, PROGRESS, WORLD
 from sim_host.host import Host
 from sim_host.pace import Lockstep
 
