@@ -8,8 +8,9 @@ import re
 from pathlib import Path
 from typing import Any
 
-from schemas.profile import SECTIONS, load_profile
+from schemas.profile import load_profile
 from schemas.quantity import Quantity, meanings
+from schemas.sections import SECTIONS
 
 PAGE = Path(__file__).parent / "physics.md"
 SHOWN = ("msl", "paper")

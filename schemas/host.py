@@ -12,11 +12,12 @@ from schemas.match_config import MatchConfig
 from schemas.message import Message, Name, Part
 from schemas.obstacle import StaticObstacle
 from schemas.parameters import ParameterName, Setting
-from schemas.profile import STANDARD, Ball, Dribble, Kicker, Profile, RobotBody, TimeSteps
-from schemas.profile import Drive as DriveLimits
-from schemas.profile import Field as Pitch
+from schemas.profile import STANDARD, Profile
 from schemas.robot_model import RobotModel, types_of
 from schemas.rule_book import Periods, Restarts, RuleBook
+from schemas.sections import Ball, Dribble, Kicker, RobotBody, TimeSteps
+from schemas.sections import Drive as DriveLimits
+from schemas.sections import Field as Pitch
 from schemas.side import Side
 
 _NOTHING: Mapping[str, Any] = {}

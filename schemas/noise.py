@@ -3,7 +3,8 @@
 from dataclasses import replace
 
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.profile import Sensing, load_profile
+from schemas.profile import load_profile
+from schemas.sections import Sensing
 
 PERFECT = Sensing(
     own_position=0.0,

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.match_config import MatchConfig
-from schemas.profile import STANDARD, Dribble, Drive, Kicker, Profile, RobotBody, Wheels
+from schemas.profile import STANDARD, Profile
+from schemas.sections import Dribble, Drive, Kicker, RobotBody, Wheels
 from schemas.side import Side
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from heapq import heapify, heappop, heappush
 
 from schemas.command import Radio
-from schemas.profile import Radio as Air
+from schemas.sections import Radio as Air
 from schemas.side import Side
 from sim_host.sensing.streams import Block, Streams, What
 from sim_host.snapshot import Roster

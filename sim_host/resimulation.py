@@ -12,8 +12,9 @@ from typing import NamedTuple
 from schemas.errors import TouchlineError
 from schemas.host import Applied, RosterEntry, Setup
 from schemas.obstacle import StaticObstacle
-from schemas.profile import STANDARD, TYPE_SECTIONS, load_profile
+from schemas.profile import STANDARD, load_profile
 from schemas.robot_model import RobotModel
+from schemas.sections import TYPE_SECTIONS
 from schemas.world import World as WorldMessage
 from sim_host.snapshot import BallState, RobotState, Roster
 from sim_host.staging.stage import BALL

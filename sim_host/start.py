@@ -5,9 +5,10 @@ import math
 from schemas.frames import Pose
 from schemas.game import Phase
 from schemas.match_config import MatchConfig
-from schemas.profile import Field, Profile
+from schemas.profile import Profile
 from schemas.rule_book import Restarts
 from schemas.scene import Scene, SceneGame, SceneRobot
+from schemas.sections import Field
 from schemas.side import Side
 from sim_host.snapshot import Roster
 

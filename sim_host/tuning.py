@@ -11,9 +11,10 @@ from schemas.errors import TouchlineError, did_you_mean
 from schemas.match_config import MatchConfig
 from schemas.noise import PRESETS, sensing_of
 from schemas.parameters import Parameter, ParameterDeed, ParametersRequest, Setting, Value
-from schemas.profile import SECTIONS, TYPE_SECTIONS, Changes, Profile, Sensing, check_consistent, load_profile
+from schemas.profile import Changes, Profile, check_consistent, load_profile
 from schemas.quantity import Choice, Quantity, checked, meanings
 from schemas.robot_model import RobotModel, types_of
+from schemas.sections import SECTIONS, TYPE_SECTIONS, Sensing
 
 PRESET = "noise.preset"
 """The one parameter that is no number of the profile: whose noise robots perceive with."""

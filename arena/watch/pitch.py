@@ -10,7 +10,7 @@ from rich.text import Text
 from arena.watch.dots import ACROSS, DOWN, Dots
 from schemas.game import RESTARTS, GameState, Phase
 from schemas.host import Setup
-from schemas.profile import Field
+from schemas.sections import Field
 from schemas.side import Side
 from schemas.world import RobotTruth, World
 

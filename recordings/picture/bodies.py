@@ -13,7 +13,7 @@ from matplotlib.transforms import Affine2D
 
 from schemas.host import Setup
 from schemas.obstacle import Shape
-from schemas.profile import RobotBody
+from schemas.sections import RobotBody
 from schemas.side import Side
 from schemas.world import ObstacleTruth, World
 

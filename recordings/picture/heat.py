@@ -10,7 +10,7 @@ from matplotlib.colors import LinearSegmentedColormap
 
 from recordings.picture.bodies import COLOURS, jumps
 from recordings.picture.story import Goal
-from schemas.profile import Field
+from schemas.sections import Field
 from schemas.world import World
 
 _CELL_M = 0.1

@@ -3,7 +3,7 @@
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Rectangle
 
-from schemas.profile import Field
+from schemas.sections import Field
 
 _GRASS = "#2f6f4e"
 _MOWN = "#33775a"

@@ -8,7 +8,7 @@ from recordings.viz.colours import BOUNDARY, GOAL, LINE, NET, OBSTACLE, PITCH, S
 from recordings.viz.primitives import Place, Values, cube, cylinder, entity, line
 from recordings.viz.transforms import MAP
 from schemas.obstacle import Shape
-from schemas.profile import Field
+from schemas.sections import Field
 from schemas.world import ObstacleTruth
 
 LINE_Z = 0.012

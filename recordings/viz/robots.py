@@ -8,7 +8,8 @@ from recordings.viz.primitives import Values, arrow, cube, cylinder, entity, sph
 from recordings.viz.transforms import BALL as BALL_FRAME
 from recordings.viz.transforms import BALL_SHADOW, base
 from schemas.host import Setup
-from schemas.profile import STANDARD, RobotBody
+from schemas.profile import STANDARD
+from schemas.sections import RobotBody
 from schemas.side import Side
 
 _PLATE = 0.02

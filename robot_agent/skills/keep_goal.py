@@ -6,7 +6,7 @@ from robot_agent.bodies import Ball, Body, Limits
 from robot_agent.skills.go_to import drive, velocity_to
 from robot_agent.skills.turn_to import turn_rate
 from schemas.command import Drive
-from schemas.profile import Field
+from schemas.sections import Field
 
 _OUT = 0.15
 """m between the goal line and the robot's hull."""

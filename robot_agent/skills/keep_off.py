@@ -2,7 +2,7 @@
 
 import math
 
-from schemas.profile import Field
+from schemas.sections import Field
 
 _STEP = math.radians(10.0)
 

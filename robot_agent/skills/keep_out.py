@@ -7,7 +7,7 @@ from robot_agent.bodies import Body, Limits
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.go_to import LAG, drive
 from schemas.command import Drive
-from schemas.profile import Field
+from schemas.sections import Field
 
 MARGIN = 0.15
 """m that the robot's centre stays outside the lines."""

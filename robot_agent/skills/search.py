@@ -1,6 +1,6 @@
 """Look for a lost ball: the quarters of the pitch, one robot in each, every few seconds the next one."""
 
-from schemas.profile import Field
+from schemas.sections import Field
 
 STAYS = 6.0
 """s in each quarter: enough to drive to the next and look around."""

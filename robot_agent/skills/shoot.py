@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from schemas.profile import Field
+from schemas.sections import Field
 
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
 """Where in the goal to aim, as shares of half its width."""

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from schemas.profile import Ball
+from schemas.sections import Ball
 
 Vector = tuple[float, float, float]
 

@@ -7,7 +7,7 @@ step in which a falling ball would reach the ground begins with the velocity and
 
 import math
 
-from schemas.profile import Ball
+from schemas.sections import Ball
 from sim_host.actuation.air import Vector
 from sim_host.world.gravity import GRAVITY
 

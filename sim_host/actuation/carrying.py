@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-from schemas.profile import Dribble
+from schemas.sections import Dribble
 from sim_host.actuation.air import Vector
 from sim_host.snapshot import BallState, RobotState
 

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from schemas.host import AppliedInput
-from schemas.profile import TimeSteps
 from schemas.robot_model import RobotModel
+from schemas.sections import TimeSteps
 from sim_host.actuation.drive import FieldDrive
 from sim_host.actuation.omni_drive import OmniDrive
 from sim_host.actuation.stuck import StuckWatch

@@ -11,7 +11,7 @@ from typing import Any, Self, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from schemas.profile import Drive
+from schemas.sections import Drive
 
 Floats = NDArray[np.float64]
 Vectors = NDArray[np.complex128]

@@ -7,7 +7,7 @@ thin shell. Added here are rolling resistance, the forces of the air, and the bo
 
 import math
 
-from schemas.profile import Ball, Field
+from schemas.sections import Ball, Field
 from sim_host.actuation.air import Air, Vector
 from sim_host.actuation.bounce import NO_BOUNCE, bounce
 

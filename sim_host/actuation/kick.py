@@ -5,7 +5,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from schemas.command import KickMode
-from schemas.profile import Kicker, Profile
+from schemas.profile import Profile
+from schemas.sections import Kicker
 from sim_host.actuation.air import Air
 from sim_host.actuation.lob import Aim, distance_to_goal_plane, solve
 from sim_host.snapshot import BallState

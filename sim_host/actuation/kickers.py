@@ -7,7 +7,7 @@ long after the last kick anyway.
 
 from collections.abc import Sequence
 
-from schemas.profile import Kicker
+from schemas.sections import Kicker
 
 
 class Kickers:

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from schemas.command import Drive
-from schemas.profile import TimeSteps
 from schemas.robot_model import RobotModel
+from schemas.sections import TimeSteps
 from sim_host.actuation.drive import FieldDrive, Flags, Floats, Ramp
 from sim_host.actuation.stuck import MOVING, SHARE, TURNING
 from sim_host.actuation.wheels import WheelSets

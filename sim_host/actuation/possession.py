@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 
-from schemas.profile import Dribble
+from schemas.sections import Dribble
 from sim_host.snapshot import BallState, RobotState
 
 FAIR = 0.005

@@ -20,8 +20,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from schemas.profile import Wheels
 from schemas.robot_model import RobotModel
+from schemas.sections import Wheels
 from sim_host.world.gravity import GRAVITY
 
 Floats = NDArray[np.float64]

@@ -1,6 +1,6 @@
 """The penalty and goal areas; `end` is the sign of the x of the goal they lie before."""
 
-from schemas.profile import Field
+from schemas.sections import Field
 
 
 def in_penalty_area(pitch: Field, end: int, x: float, y: float, margin: float = 0.0) -> bool:

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from schemas.frames import Pose
 from schemas.game import RESTARTS, ActionReply, GameEvent, Mode, Phase, RefereeAction
 from schemas.host import Placement
-from schemas.profile import Ball, Field
 from schemas.rule_book import RuleBook
 from schemas.scene import SceneGame
+from schemas.sections import Ball, Field
 from schemas.side import Side
 from sim_host.referee.actions import obey
 from sim_host.referee.authority import judge, time_is_up

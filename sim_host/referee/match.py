@@ -7,8 +7,8 @@ from schemas.errors import TouchlineError
 from schemas.frames import Pose
 from schemas.game import Mode
 from schemas.goalkeeper import keeper_of
-from schemas.profile import Ball, Field
 from schemas.rule_book import RuleBook
+from schemas.sections import Ball, Field
 from schemas.side import Side
 from sim_host.snapshot import Roster
 

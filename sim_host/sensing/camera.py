@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from schemas.profile import Sensing
+from schemas.sections import Sensing
 from sim_host.sensing.hulls import Hulls
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.sight_lines import Flags

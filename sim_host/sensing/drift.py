@@ -7,7 +7,7 @@ same standard deviation at all times.
 
 import numpy as np
 
-from schemas.profile import Sensing
+from schemas.sections import Sensing
 from sim_host.sensing.streams import Block, Streams, Vectors, What
 from sim_host.snapshot import Roster
 

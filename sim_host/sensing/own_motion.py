@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from schemas.profile import Sensing
+from schemas.sections import Sensing
 from sim_host.sensing.streams import Block, Floats, Streams, What
 from sim_host.sensing.team_frames import Motions, TeamFrames
 from sim_host.snapshot import Roster

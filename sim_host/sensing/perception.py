@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from schemas.profile import Sensing
+from schemas.sections import Sensing
 from sim_host.sensing.camera import Camera, Picture, turned_ball
 from sim_host.sensing.drift import Drift
 from sim_host.sensing.own_motion import OwnMotion

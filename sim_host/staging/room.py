@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from schemas.frames import rotate
-from schemas.profile import Field
+from schemas.sections import Field
 from sim_host.world.pitch import Box, goals
 
 OVERLAP = 0.02

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field, replace
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.host import Placement, RosterEntry
 from schemas.obstacle import Shape, StaticObstacle
-from schemas.profile import Ball, Field
 from schemas.robot_model import RobotModel
 from schemas.scene import Scene, SceneGame, check_names, check_sides
+from schemas.sections import Ball, Field
 from schemas.side import Side
 from sim_host.staging.room import Block, Body, Disc, goal_blocks, in_the_way, outside
 

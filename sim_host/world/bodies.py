@@ -11,8 +11,9 @@ from collections.abc import Iterator
 import pybullet
 
 from schemas.obstacle import Shape
-from schemas.profile import Profile, RobotBody
+from schemas.profile import Profile
 from schemas.robot_model import RobotModel
+from schemas.sections import RobotBody
 from sim_host.snapshot import ObstacleState
 from sim_host.world.pitch import Box, boundary, goals
 

@@ -3,8 +3,8 @@
 import math
 from collections.abc import Iterable, Sequence
 
-from schemas.profile import Field, TimeSteps
 from schemas.robot_model import RobotModel
+from schemas.sections import Field, TimeSteps
 from sim_host.snapshot import ObstacleState, RobotState
 from sim_host.world.pitch import fixed_boxes
 

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from schemas.profile import Field
+from schemas.sections import Field
 
 _WALL = 0.2
 """m, thickness of the boundary and of the net boxes' walls: thicker than a fast ball travels in one step."""

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from schemas.profile import SECTIONS, load_profile
+from schemas.profile import load_profile
+from schemas.sections import SECTIONS
 
 
 def load(root: Path, name: str) -> ModuleType:

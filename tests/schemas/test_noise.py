@@ -6,8 +6,9 @@ import pytest
 
 from schemas.errors import TouchlineError
 from schemas.noise import PRESETS, sensing_of
-from schemas.profile import Sensing, load_profile
+from schemas.profile import load_profile
 from schemas.quantity import Choice, meanings
+from schemas.sections import Sensing
 
 MSL = load_profile("msl").sensing
 

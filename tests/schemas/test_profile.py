@@ -6,11 +6,12 @@ import pytest
 from pytest import approx
 
 from schemas.errors import TouchlineError
-from schemas.profile import SECTIONS, SHIPPED, load_profile
+from schemas.profile import SHIPPED, load_profile
 from schemas.quantity import Quantity, meanings
 from schemas.rule_book import SECTIONS as RULE_SECTIONS
 from schemas.rule_book import SHIPPED as RULE_BOOKS
 from schemas.rule_book import load_rule_book
+from schemas.sections import SECTIONS
 
 
 @pytest.mark.parametrize("name", SHIPPED)

@@ -9,8 +9,8 @@ from pytest import approx
 
 from schemas.command import Radio
 from schemas.match_config import load_match
-from schemas.profile import Radio as Air
 from schemas.profile import load_profile
+from schemas.sections import Radio as Air
 from sim_host.radio import RadioAir
 from sim_host.sensing.streams import Streams
 from sim_host.snapshot import Roster

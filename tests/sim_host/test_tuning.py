@@ -7,7 +7,8 @@ import pytest
 from schemas.errors import TouchlineError
 from schemas.match_config import MatchConfig
 from schemas.parameters import ParameterDeed, ParametersRequest
-from schemas.profile import SECTIONS, load_profile
+from schemas.profile import load_profile
+from schemas.sections import SECTIONS
 from sim_host.tuning import PRESET, Tuning
 
 

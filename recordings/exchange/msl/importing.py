@@ -27,8 +27,9 @@ from schemas.host import Setup, TeamSetup
 from schemas.league.findings import Finding, Findings
 from schemas.match_config import MatchConfig
 from schemas.message import VERSION
-from schemas.profile import TimeSteps, load_profile
+from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
+from schemas.sections import TimeSteps
 from schemas.side import Side
 from schemas.topics import EVENT, STATE, WORLD
 from schemas.world import BallTruth, RobotTruth, World

@@ -13,7 +13,7 @@ from robot_agent.bodies import Body
 from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
 from schemas.command import Kick, KickMode
 from schemas.frames import wrap
-from schemas.profile import Field
+from schemas.sections import Field
 
 REACH = 0.40
 """m, centre to centre; CHASE_BALL ends here."""

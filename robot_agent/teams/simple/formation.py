@@ -4,7 +4,7 @@ import math
 
 from robot_agent.skills.keep_off import inside, keep_off
 from robot_agent.teams.simple.roles import Role
-from schemas.profile import Field
+from schemas.sections import Field
 
 CLEAR = 2.4
 """m that everybody leaves between himself and the ball that a teammate plays."""

@@ -17,7 +17,7 @@ from robot_agent.teams.simple.roles import Role
 from robot_agent.world_model import Mate, places_of
 from schemas.command import Kick, KickMode
 from schemas.host import Setup
-from schemas.profile import Field
+from schemas.sections import Field
 
 Point = tuple[float, float]
 

@@ -7,8 +7,9 @@ from typing import Any, NamedTuple
 import pytest
 
 from schemas.noise import PERFECT
-from schemas.profile import Sensing, load_profile
+from schemas.profile import load_profile
 from schemas.robot_model import RobotModel
+from schemas.sections import Sensing
 from schemas.side import Side
 from sim_host.sensing.perception import Percept, Perception
 from sim_host.sensing.streams import Streams

@@ -9,7 +9,8 @@ from pytest import approx
 
 from schemas.match_config import load_match
 from schemas.noise import sensing_of
-from schemas.profile import Sensing, load_profile
+from schemas.profile import load_profile
+from schemas.sections import Sensing
 from sim_host.snapshot import Roster
 
 ROBOTS = (

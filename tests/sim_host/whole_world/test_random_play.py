@@ -18,9 +18,10 @@ from hypothesis import strategies as st
 
 from schemas.command import Drive, Kick, KickMode
 from schemas.host import AppliedInput, Placement
-from schemas.profile import Dribble, Profile, load_profile
+from schemas.profile import Profile, load_profile
 from schemas.quantity import Choice, meanings
 from schemas.robot_model import RobotModel
+from schemas.sections import Dribble
 from schemas.side import Side
 from sim_host.actuation.carrying import PULL
 from sim_host.snapshot import RobotState, Roster, Snapshot
