@@ -1,4 +1,4 @@
-"""The sections of a profile as frozen data: pitch, bodies, motion, ball handling, sensing, radio; numbers with units."""
+"""The sections of a profile as frozen data: pitch, bodies, drive, ball handling, sensing, radio; numbers with units."""
 
 import math
 from dataclasses import dataclass
