@@ -8,6 +8,7 @@ from pydantic import Field
 
 from schemas.command import Drive, Kick, Radio
 from schemas.foul_book import Fouls, Handling, Scoring
+from schemas.game import Mode
 from schemas.match_config import MatchConfig
 from schemas.message import Message, Name, Part
 from schemas.obstacle import StaticObstacle
@@ -63,6 +64,8 @@ class Setup(Message):
     scoring: Scoring | None = None
     fouls: Fouls | None = None
     """Which fouls are called."""
+    officiating: Mode | None = None
+    """Who decides; nothing in recordings that are older than this word."""
     teams: dict[Side, TeamSetup]
     models: dict[Name, RobotModel] = {}
     """Type → model; `standard` for every robot that no type is given for."""
@@ -98,6 +101,7 @@ class Setup(Message):
             handling=book.handling,
             scoring=book.scoring,
             fouls=book.fouls,
+            officiating=config.referee.mode,
             teams={side: _team(config, side) for side in Side},
             models=types_of(profile.with_types(config.types, f'match "{config.name}"')),
             engine=dict(engine),

@@ -47,7 +47,8 @@ def match(
 
     Logs and recording go to ./runs/. Ctrl-C ends everything; the recording stays readable.
     With --web people watch and command in their browsers; with --udp, --refbox and --refbox-server coach programs,
-    league's boxes and team software take part. Such a match is played in real time unless --pace says else.
+    league's boxes and team software take part. Such a match is played in real time unless --pace says else, and one by
+    a league's box with a referee that leaves it to the box unless --referee says else.
 
     Example: touchline match --seed 7 --duration 60 --pace realtime
     """
@@ -61,6 +62,8 @@ def match(
     bridged = bridges.arguments()
     if (web or bridged) and words.pace is None:
         words = replace(words, pace="realtime")
+    if bridges.refbox is not None and words.referee is None:
+        words = replace(words, referee="manual")  # the league's box decides
     config = words.read(
         **{f"teams__{side}": team for side, team in teams.items()},
         record__sights=sights or None,

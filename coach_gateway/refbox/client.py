@@ -18,7 +18,7 @@ from coach_gateway.refbox.framing import Framer, Protocol
 from coach_gateway.refbox.own_view import own_view
 from schemas.coach import CoachMode
 from schemas.errors import TouchlineError
-from schemas.game import RefereeAction
+from schemas.game import Mode, RefereeAction
 from schemas.league.numbers import numbers_of
 from schemas.league.signals import Signal
 from schemas.side import Side
@@ -152,11 +152,13 @@ class RefBoxClient:
         return names.get(target.lower())
 
     async def _obey(self) -> None:
-        """Pass on the signals, one after the other."""
+        """Pass on the signals, one after the other, once there is a match that can be officiated."""
+        while self._live.state is None or self._live.setup is None:
+            await asyncio.sleep(UPLOAD_S)
+        if self._live.setup.officiating not in (Mode.MANUAL, None):
+            self._say("our own referee goes on deciding beside the box; start the match with --referee manual")
         while True:
             signal, side, number = await self._signals.get()
-            while self._live.state is None or self._live.setup is None:
-                await asyncio.sleep(UPLOAD_S)  # a match that nobody has heard of yet cannot be officiated
             if not is_ours(signal, side, self._box.team, self._live.refboxes):
                 continue
             wanted = deeds(signal, side, self._robot(side, number), self._live.state)

@@ -268,6 +268,14 @@ def test_manual_actions_are_locked_while_the_link_is_up_and_not_after(met: Any, 
     asyncio.run(play())
 
 
+def test_a_referee_of_ours_that_decides_beside_the_box_is_told_of(met: Any, until: Any) -> None:
+    async def play() -> None:
+        async with met() as (bench, _, _):
+            await until(lambda: any("--referee manual" in line for line in bench.said))
+
+    asyncio.run(play())
+
+
 def test_a_link_that_breaks_in_the_middle_of_a_command_is_made_again(met: Any, until: Any) -> None:
     async def play() -> None:
         async with met() as (bench, box, client):

@@ -1,0 +1,57 @@
+"""What the page on the coach gateway says: its tables name all that there is, its command lines can be typed."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+import typer
+
+from arena.__main__ import app
+from coach_gateway.refbox.forwarding import FORWARD
+from coach_gateway.udp import protocol
+from coach_gateway.udp.coach_record import TEST_MODES, MatchMode
+from schemas.message import Part
+
+
+@pytest.fixture(scope="module")
+def page(root: Path) -> str:
+    return (root / "docs" / "coach.md").read_text("utf-8")
+
+
+def kinds(*models: type[Part]) -> set[str]:
+    return {model.model_fields["kind"].annotation.__args__[0] for model in models}  # type: ignore[union-attr]
+
+
+def test_every_datagram_both_ways_has_its_row(page: str) -> None:
+    asked = (protocol.Hello, protocol.AskOrder, protocol.AskMatchMode, protocol.AskAction, protocol.AskEvents)
+    said = (protocol.Ack, protocol.Frame, protocol.BeliefNews, protocol.EventNews, protocol.Farewell)
+    named = set(re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE))
+    assert kinds(*asked, protocol.StayAlive, protocol.Bye, *said) <= named
+
+
+def test_every_match_mode_and_test_mode_has_the_number_that_the_page_says(page: str) -> None:
+    rows = re.findall(r"^\| (\d+)(?:, (\d+))? \| `(\w+)`(?:, `(\w+)`)? \|", page, re.MULTILINE)
+    said = {int(number): word for row in rows for number, word in zip(row[:2], row[2:], strict=True) if number}
+    assert said == {mode.number: mode.value for mode in MatchMode}
+    tests = re.search(r"Test modes: (.*?)\.\n", page, re.DOTALL)
+    assert tests is not None
+    assert [int(number) for number in re.findall(r"\d+", tests[1])] == list(TEST_MODES)
+
+
+def test_every_command_of_the_box_is_in_the_table_of_what_becomes_of_it(page: str) -> None:
+    table = page.split("| command | becomes |")[1].split("\n\n")[0]
+    assert [name for name in FORWARD if re.search(rf"\b{name}\b", table) is None] == []
+
+
+def test_its_command_lines_can_be_typed(page: str, fenced: Callable[[str, str], list[str]]) -> None:
+    root = typer.main.get_command(app)
+    lines = [line for piece in fenced(page, "sh") for line in piece.splitlines() if line.startswith("touchline ")]
+    assert len(lines) > 5
+    for line in lines:
+        words = line.split("#")[0].split()[1:]
+        command = root
+        while hasattr(command, "commands"):
+            command = command.commands[words.pop(0)]
+        known = {option for parameter in command.params for option in parameter.opts}
+        assert [word for word in words if word.startswith("--") and word not in known] == [], line
