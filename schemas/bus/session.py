@@ -1,14 +1,16 @@
-"""A Zenoh session as the host or a client has it: settings, threads, endpoint; open or refused in one line.
+"""A Zenoh session as the host or a client has it: settings, threads, endpoint; opened, or refused in one line.
 
 Multicast scouting, gossip and shared memory are off; a process listens on the address it was told and on nothing else.
 """
 
 import json
 import os
+from dataclasses import dataclass
 
 import zenoh
 
-from schemas.bus.contract import BusError
+from schemas.bus.alarm import Alarm
+from schemas.bus.contract import Bus, BusError
 from schemas.clock import Clock
 
 _LEASE_MS = 2000
@@ -25,6 +27,21 @@ _TRY_S = 0.5
 """One attempt to connect; between attempts Ctrl-C is heard."""
 _ROOM_US = 1_000_000
 """Wall time that a client has to make room for what must not be dropped; then its link is cut and it may come again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Seat:
+    """A session as the writers and readers of one match use it."""
+
+    session: zenoh.Session
+    prefix: str
+    """What stands before every key."""
+    clock: Clock
+    is_client: bool
+    alarm: Alarm
+    """Ends waits that have an end."""
+    owner: Bus
+    """Has to be closed before the interpreter ends, and is there for as long as anything uses the session."""
 
 
 def open_router(listen: str) -> zenoh.Session:
