@@ -1,0 +1,132 @@
+"""What 200 spectators cost the host: its CPU time per tick with their pages open, and without, in one run.
+
+Ten agents in real time, the page's server beside them, and one process that reads all pages and throws away what it
+reads. Without and with take turns, so that whatever else the machine does falls on both.
+"""
+
+import asyncio
+import base64
+import os
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from processes import HERE, field, launch
+
+from coach_gateway.web.listening import free_port
+from schemas.bus.contract import Subscription
+from schemas.bus.zenoh_bus import open_client
+from schemas.clock import WallClock
+from schemas.host import Health
+from schemas.topics import HEALTH
+
+PAGES = 200
+ROUNDS = 3
+SECONDS = 6.0
+_TICKS_A_SECOND = os.sysconf("SC_CLK_TCK")
+
+
+def cpu_s(pid: int) -> float:
+    """CPU time that a process has used, user's and system's."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / _TICKS_A_SECOND
+
+
+def newest(healths: Subscription) -> Health:
+    """The newest word of the host's health."""
+    received = healths.receive(30.0)
+    assert received is not None
+    while (more := healths.receive()) is not None:
+        received = more
+    health: Health = received.message()
+    return health
+
+
+def measure(host: int, server: int, healths: Subscription) -> tuple[float, float, float]:
+    """CPU time of the host in ms per tick, late ticks per second, and the server's share of a core."""
+    began, before, served = time.perf_counter(), newest(healths), cpu_s(server)
+    host_s = cpu_s(host)
+    time.sleep(SECONDS)
+    after = newest(healths)
+    host_s, served, lasted = cpu_s(host) - host_s, cpu_s(server) - served, time.perf_counter() - began
+    late = (after.late_ticks - before.late_ticks) / lasted
+    return 1000.0 * host_s / (after.tick - before.tick), late, served / lasted
+
+
+def with_pages(port: int, host: int, server: int, healths: Subscription) -> tuple[float, float, float, float]:
+    """The same with all pages open, and how many frames each was shown in a second."""
+    readers = subprocess.Popen(
+        [sys.executable, __file__, str(port)], cwd=HERE, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    assert readers.stdin is not None and readers.stdout is not None
+    assert readers.stdout.readline() == "all there\n"
+    figures = measure(host, server, healths)
+    frames = float(readers.communicate("leave\n")[0])
+    return (*figures, frames)
+
+
+def main() -> None:
+    """Print host and server with and without spectators."""
+    with (
+        field("still_brain:act", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, host),
+        open_client(config.name, WallClock(), endpoint, 60.0) as bus,
+    ):
+        port = free_port("127.0.0.1", 0)
+        meeting = ("--connect", endpoint, "--match", config.name)
+        server = launch("coach_gateway", "--web", "--port", str(port), *meeting)
+        try:
+            healths = bus.subscribe(HEALTH)
+            while newest(healths).tick < 100:
+                pass
+            rounds = [
+                (measure(host.pid, server.pid, healths), with_pages(port, host.pid, server.pid, healths))
+                for _ in range(ROUNDS)
+            ]
+        finally:
+            server.terminate()
+            server.wait()
+    alone, late_alone, _ = map(statistics.median, zip(*(without for without, _ in rounds), strict=True))
+    crowd, late_crowd, share, frames = map(statistics.median, zip(*(many for _, many in rounds), strict=True))
+    print(
+        f"spectators: the host takes {crowd:.2f} ms of CPU a tick with {PAGES} pages open, {alone:.2f} without, "
+        f"ratio {crowd / alone:.2f} (at most 1.10); late ticks a second {late_crowd:.1f} and {late_alone:.1f}; "
+        f"each page sees {frames:.0f} frames a second, the page's server takes {share:.0%} of a core"
+    )
+
+
+async def read_pages(port: int) -> None:
+    """Open all pages, say so, and read them until told to leave; then say how many frames each got in a second."""
+    counts = [0] * PAGES
+
+    async def read(number: int, opened: asyncio.Event) -> None:
+        reader, writer = await asyncio.open_connection("127.0.0.1", port)
+        key = base64.b64encode(os.urandom(16)).decode()
+        writer.write(
+            f"GET /ws HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: http://127.0.0.1:{port}\r\nUpgrade: websocket\r\n"
+            f"Connection: Upgrade\r\nSec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n".encode()
+        )
+        assert b" 101 " in await reader.readuntil(b"\r\n\r\n")
+        opened.set()
+        while True:
+            _, length = await reader.readexactly(2)
+            if length == 126:
+                length = int.from_bytes(await reader.readexactly(2))
+            elif length == 127:
+                length = int.from_bytes(await reader.readexactly(8))
+            counts[number] += (await reader.readexactly(length)).startswith(b'{"kind":"frame"')
+
+    opened = [asyncio.Event() for _ in range(PAGES)]
+    tasks = [asyncio.create_task(read(number, event)) for number, event in enumerate(opened)]
+    await asyncio.gather(*(event.wait() for event in opened))
+    print("all there", flush=True)
+    began, before = time.perf_counter(), sum(counts)
+    await asyncio.to_thread(sys.stdin.readline)
+    print((sum(counts) - before) / PAGES / (time.perf_counter() - began))
+    for task in tasks:
+        task.cancel()
+
+
+if __name__ == "__main__":
+    main() if len(sys.argv) == 1 else asyncio.run(read_pages(int(sys.argv[1])))
