@@ -41,6 +41,7 @@ ROWS = {
     33: "base station at a league's referee box",
     34: "referee box for team software",
     35: "world state in the league's schema",
+    37: "the referee's deeds by hand",
     39: "last touch and possession",
     40: "a fair scrum",
     41: "pitches of either year",
@@ -48,6 +49,7 @@ ROWS = {
     43: "driving by hand",
     44: "stuck flag of each robot",
     45: "lifted and tipped robots stand up",
+    51: "spectators who only watch, coaches of their own side alone",
 }
 """Features among those of the seed, in our words."""
 DEFECTS = {
@@ -57,6 +59,7 @@ DEFECTS = {
     4: "physics that decided from noisy data",
     5: "one stuck flag for all robots",
     6: "metres among centimetres",
+    7: "a stop that hears one side's coach alone",
     8: "no arbitration; the ball carried through opponents",
     9: "no watchdog",
     10: "kicks kept for later",

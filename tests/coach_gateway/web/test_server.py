@@ -115,6 +115,7 @@ def test_a_spectator_cannot_command(deed: str, content: dict[str, Any], visit: V
 
 
 def test_a_stop_of_the_referee_reaches_the_match_and_is_named_after_the_page(visit: Visit, host: FakeHost) -> None:
+    """Reference 13, row 37."""
     page = visit("referee")
     assert page.ask("action", action={"action": "stop", "source": "somebody else"})["accepted"]
     refused = page.ask("action", action={"action": "corner", "side": "cyan"})
@@ -127,6 +128,7 @@ def test_a_stop_of_the_referee_reaches_the_match_and_is_named_after_the_page(vis
 
 
 def test_cyan_s_token_cannot_stop_magenta_s_robots(visit: Visit, host: FakeHost) -> None:
+    """Reference 13, row 51."""
     page = visit("cyan")
     for deed, content in (
         ("action", {"action": {"action": "stop"}}),
@@ -145,15 +147,21 @@ def test_cyan_s_token_cannot_stop_magenta_s_robots(visit: Visit, host: FakeHost)
     assert [question for question in host.asked if hasattr(question, "source")] == []
 
 
-def test_a_coach_orders_drives_and_repairs_its_own_robots(visit: Visit, host: FakeHost) -> None:
-    page = visit("cyan")
-    given = page.ask("order", side="cyan", order={"mode": "hold", "max_speed": 1.5})
-    order: CoachOrder = wait_for(host.orders)
+@pytest.mark.parametrize("side", ["cyan", "magenta"])
+def test_a_coach_stops_drives_and_repairs_its_own_robots(side: str, visit: Visit, host: FakeHost) -> None:
+    """Reference 14, defect 7; reference 13, row 43."""
+    page = visit(side)
+    given = page.ask("order", side=side, order={"mode": "hold", "max_speed": 1.5})
+    received = host.orders.receive(SOON)
+    assert received is not None and received.chunks == {"side": side}
+    order: CoachOrder = received.message()
     assert given["accepted"]
     assert (order.mode, order.max_speed, order.sequence) == (CoachMode.HOLD, 1.5, given["answer"]["sequence"])
-    page.say("drive", robot="cyan2", hand={"drive": {"vx": 1.0}})
-    assert wait_for(host.hands).drive.vx == 1.0
-    assert page.ask("action", action={"action": "repair", "robot": "cyan2"})["accepted"]
+    page.say("drive", robot=f"{side}2", hand={"drive": {"vx": 1.0}})
+    driven = host.hands.receive(SOON)
+    assert driven is not None
+    assert (driven.chunks, driven.message().drive.vx) == ({"robot": f"{side}2"}, 1.0)
+    assert page.ask("action", action={"action": "repair", "robot": f"{side}2"})["accepted"]
 
 
 def test_of_two_orders_the_later_one_has_the_larger_number(visit: Visit, host: FakeHost) -> None:
