@@ -46,6 +46,7 @@ class Live:
         self._presence = HostPresence(bus)
         self._threads = ThreadPoolExecutor(_QUESTIONS, thread_name_prefix="question")
         self._ordering = asyncio.Lock()
+        self._ended = False
         self._asked_at = -_ASK_S
         self._asking: asyncio.Task[None] | None = None
         self._stale = True
@@ -73,6 +74,7 @@ class Live:
                 self.update()
                 await pause(stop, _LOOK_S)
         finally:
+            self._ended = True
             if self._asking is not None:
                 self._asking.cancel()
             self._threads.shutdown(wait=False, cancel_futures=True)
@@ -143,6 +145,8 @@ class Live:
             return await self._in_thread(lambda: self._gateway.order(side, **content))
 
     async def _in_thread(self, ask: Callable[[], _T]) -> _T:
+        if self._ended:
+            raise TouchlineError("the gateway ends")
         return await asyncio.get_running_loop().run_in_executor(self._threads, ask)
 
     def _take(self, state: GameState) -> None:

@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import socket
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -36,6 +37,7 @@ class AudienceFeed:
         self._addresses = addresses
         self._say = say
         self._views = views if views is not None else {}
+        self._targets: list[tuple[Any, ...]] = []
         self._audience = Audience()
         self._narrator = Narrator()
         self._transport: asyncio.DatagramTransport | None = None
@@ -48,11 +50,14 @@ class AudienceFeed:
             TouchlineError: an address that nothing can be sent to.
         """
         loop = asyncio.get_running_loop()
-        family = (await loop.getaddrinfo(*self._addresses[0]))[0][0]
         try:
+            family = (await loop.getaddrinfo(*self._addresses[0], type=socket.SOCK_DGRAM))[0][0]
+            for host, port in self._addresses:
+                found = await loop.getaddrinfo(host, port, family=family, type=socket.SOCK_DGRAM)
+                self._targets.append(found[0][4])
             self._transport, _ = await loop.create_datagram_endpoint(asyncio.DatagramProtocol, family=family)
         except OSError as error:
-            raise TouchlineError(f"--audience: nothing can be sent ({error.strerror})") from None
+            raise TouchlineError(f"--audience: nothing can be sent there ({error}); name other addresses") from None
         self._say(f"audience feed to {', '.join(f'{host}:{port}' for host, port in self._addresses)}")
         due = self._live.now
         try:
@@ -86,5 +91,5 @@ class AudienceFeed:
 
     def _send(self, content: Mapping[str, Any]) -> None:
         if self._transport is not None and not self._transport.is_closing():
-            for address in self._addresses:
+            for address in self._targets:
                 self._transport.sendto(json.dumps(content, separators=(",", ":")).encode() + b"\x00", address)

@@ -27,6 +27,8 @@ UPLOAD_S = 0.05
 """s of wall time between two world states. Ours: the league asks for at least ten a second."""
 _FIRST_PAUSE_S, _LONGEST_PAUSE_S = 0.25, 5.0
 """s of wall time before the link is tried again, doubled each time up to the longest."""
+_CONNECT_S = 5.0
+"""s of wall time that one attempt to reach the box lasts at most."""
 _UNREAD = 262_144
 """Bytes of world states that wait for a box that does not read; then newer ones are left out."""
 _DEAF_S = 10.0
@@ -68,9 +70,9 @@ class RefBoxClient:
         told = False
         while not stop.is_set():
             try:
-                reader, writer = await asyncio.open_connection(self._box.host, self._box.port)
+                reader, writer = await self._connect(stop)
             except OSError as error:
-                if not told:
+                if not (told or stop.is_set()):
                     told = True
                     self._say(f"referee box {self._box.host}:{self._box.port} is not there ({error}); trying on")
                 await pause(stop, wait)
@@ -79,6 +81,21 @@ class RefBoxClient:
             wait, told = _FIRST_PAUSE_S, False
             await self._meet(reader, writer, stop)
             await pause(stop, wait)
+
+    async def _connect(self, stop: asyncio.Event) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
+        """Reach the box, unless `stop` is set before.
+
+        Raises:
+            OSError: it is not there.
+        """
+        reached = asyncio.create_task(asyncio.open_connection(self._box.host, self._box.port))
+        stopped = asyncio.create_task(stop.wait())
+        await asyncio.wait((reached, stopped), timeout=_CONNECT_S, return_when=asyncio.FIRST_COMPLETED)
+        stopped.cancel()
+        if not reached.done():
+            reached.cancel()
+            raise TimeoutError(f"no answer within {_CONNECT_S:g} s")
+        return reached.result()
 
     async def _meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, stop: asyncio.Event) -> None:
         """One connection, from its beginning to its end."""

@@ -127,7 +127,7 @@ class RefBoxServer:
 
     async def _meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, door: Door) -> None:
         """One connection, from its beginning to its end."""
-        host, port = writer.get_extra_info("peername")[:2]
+        host, port = (writer.get_extra_info("peername") or ("gone", 0))[:2]
         peer = _Peer(writer, f"{host}:{port}")
         if len(self._peers) >= MOST:
             self._say(f"base station {peer.name} turned away: {MOST} are connected")

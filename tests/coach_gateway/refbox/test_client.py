@@ -1,7 +1,9 @@
 """Our base station at a small referee box, written from the protocol's tables, over real sockets."""
 
 import asyncio
+import contextlib
 import json
+import socket
 from collections.abc import Callable
 from contextlib import asynccontextmanager
 from typing import Any
@@ -324,6 +326,45 @@ def test_a_box_that_never_reads_misses_world_states_and_holds_nobody_up(
             box.say("CORNER", CYAN_AT)
             await until(lambda: bench.stage.asked)
             assert asked(bench) == ["corner cyan"]
+
+    asyncio.run(play())
+
+
+def test_a_box_that_has_not_read_for_long_is_left_and_met_again(
+    met: Any, until: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("coach_gateway.refbox.client._UNREAD", 20_000)
+    monkeypatch.setattr("coach_gateway.refbox.client.UPLOAD_S", 0.0005)
+    monkeypatch.setattr("coach_gateway.refbox.client._DEAF_S", 0.1)
+
+    async def play() -> None:
+        async with met(reads=False) as (bench, _, client):
+            bench.stage.show()
+            await until(lambda: client.counts["connections"] > 1)
+
+    asyncio.run(play())
+
+
+def test_a_gateway_that_waits_for_a_box_ends_when_it_is_told(opened: Any, until: Any) -> None:
+    """The box's machine is there, and nothing accepts."""
+
+    async def play() -> None:
+        with socket.socket() as full:
+            full.bind(("127.0.0.1", 0))
+            full.listen(0)
+            others = [socket.socket() for _ in range(4)]
+            for other in others:
+                other.setblocking(False)
+                with contextlib.suppress(BlockingIOError):
+                    other.connect(full.getsockname())
+            async with opened() as bench:
+                box = BoxAddress(Side.CYAN, "127.0.0.1", full.getsockname()[1])
+                task = bench.start(RefBoxClient(bench.live, box, bench.said.append))
+                await asyncio.sleep(0.05)
+                bench.stop.set()
+                await until(task.done)
+            for other in others:
+                other.close()
 
     asyncio.run(play())
 

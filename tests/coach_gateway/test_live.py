@@ -1,0 +1,80 @@
+"""A match as bridges see it, while hosts come and go."""
+
+import asyncio
+from typing import Any
+
+from coach_gateway.refbox.narration import Narrator
+from schemas.bus.in_process import Medium
+from schemas.clock import WallClock
+from schemas.game import ActionName, Phase, RefereeAction, Score
+from schemas.match_config import load_match
+from schemas.side import Side
+from schemas.topics import BELIEF, EVENT, STATE
+
+
+def test_without_a_host_the_answer_is_a_refusal_that_says_so(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            bench.stage.bus.close()
+            await until(lambda: not bench.live.there)
+            reply = await bench.live.act(RefereeAction(action=ActionName.STOP))
+            assert not reply.accepted and "nobody answers game/action" in reply.reason
+
+    asyncio.run(play())
+
+
+def test_a_host_that_comes_after_another_is_asked_anew_and_nothing_of_the_old_match_counts(
+    opened: Any, until: Any
+) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            told: list[str] = []
+            narrator = Narrator()
+            bench.live.follow(
+                lambda state: told.extend(call.signal.name for call in narrator.take(state, bench.live.sides))
+            )
+            for _ in range(100):
+                bench.stage.say(phase=Phase.STOPPED, score=Score(cyan=2))
+            bench.stage.tell("of the old match")
+            await until(lambda: bench.live.events and bench.live.state.score.cyan == 2)
+            assert len(bench.live.sides) == 6
+            bench.stage.bus.close()
+            await until(lambda: not bench.live.there)
+            another = type(bench.stage)(
+                bench.stage.medium, load_match(None, {f"teams.{side}.size": 1 for side in Side})
+            )
+            bench.start(another)
+            await until(lambda: len(bench.live.sides) == 2)
+            told.clear()
+            another.say(phase=Phase.KICK_OFF, side=Side.CYAN)
+            await until(lambda: bench.live.state.phase is Phase.KICK_OFF)
+            assert bench.live.events == []
+            assert told == ["RESET", "FIRST_HALF", "KICKOFF"]
+
+    asyncio.run(play())
+
+
+def test_what_cannot_be_read_is_counted_and_left_out(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            for topic, chunks in ((STATE, {}), (EVENT, {}), (BELIEF, {"side": "cyan", "robot": "cyan1"})):
+                bench.stage.bus.publisher(topic, **chunks).put_payload(b"{")
+            await until(lambda: bench.live.unreadable >= 2)
+            assert bench.live.beliefs(list(Side)) == {}
+            assert bench.live.unreadable == 3
+
+    asyncio.run(play())
+
+
+def test_a_gateway_that_ends_asks_nobody_any_more() -> None:
+    async def play() -> None:
+        from coach_gateway.live import Live
+
+        live = Live(Medium().seat("friendly", WallClock()))
+        stop = asyncio.Event()
+        stop.set()
+        await live.serve(stop)
+        reply = await live.act(RefereeAction(action=ActionName.STOP))
+        assert (reply.accepted, reply.reason) == (False, "the gateway ends")
+
+    asyncio.run(play())
