@@ -13,6 +13,8 @@ from schemas.host import Setup
 
 Point = tuple[float, float]
 
+MOMENT = 2.0
+"""s; a shorter time is none to leave an area in."""
 HALFWAY = 0.25
 """m beyond the halfway line where the other half begins for sure."""
 GOES_BACK = -0.05
@@ -32,6 +34,8 @@ class Asked(NamedTuple):
     """Nobody but the goalkeeper enters a goal area."""
     takes_turns: bool
     """One field robot of a side at a time is in a penalty area."""
+    at_once: bool
+    """A second one there is a foul at once, or nearly so."""
     passes_first: bool
     """A ball won in the own half is passed in the other before it is shot."""
     roll: float
@@ -42,12 +46,13 @@ class Asked(NamedTuple):
         """Those of the match."""
         fouls, handling, scoring = setup.fouls, setup.handling, setup.scoring
         if fouls is None or handling is None or scoring is None:
-            return cls(math.inf, math.inf, False, False, False, 0.0)
+            return cls(math.inf, math.inf, False, False, False, False, 0.0)
         return cls(
             circle=handling.circle if fouls.dribble_circle != "off" else math.inf,
             backward=handling.backward_once if fouls.backward != "off" else math.inf,
             keeps_out=fouls.goal_area != "off",
             takes_turns=fouls.penalty_area != "off",
+            at_once=setup.areas is not None and setup.areas.penalty_area_duration < MOMENT,
             passes_first=fouls.own_half_goal != "off",
             roll=scoring.pass_roll,
         )

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Self
 from pydantic import Field
 
 from schemas.command import Drive, Kick, Radio
-from schemas.foul_book import Fouls, Handling, Scoring
+from schemas.foul_book import Areas, Fouls, Handling, Scoring
 from schemas.game import Mode
 from schemas.match_config import MatchConfig
 from schemas.message import Message, Name, Part
@@ -66,6 +66,8 @@ class Setup(Message):
     """Which fouls are called."""
     officiating: Mode | None = None
     """Who decides; nothing in recordings that are older than this word."""
+    areas: Areas | None = None
+    """Who may be how long in an area before a goal; nothing in older recordings."""
     teams: dict[Side, TeamSetup]
     models: dict[Name, RobotModel] = {}
     """Type → model; `standard` for every robot that no type is given for."""
@@ -102,6 +104,7 @@ class Setup(Message):
             scoring=book.scoring,
             fouls=book.fouls,
             officiating=config.referee.mode,
+            areas=book.areas,
             teams={side: _team(config, side) for side in Side},
             models=types_of(profile.with_types(config.types, f'match "{config.name}"')),
             engine=dict(engine),

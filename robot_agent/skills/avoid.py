@@ -16,6 +16,8 @@ _MARGIN = 0.02
 """rad; how far beside a blocked arc a direction counts as free."""
 _MOMENTUM = 0.3
 """Weight of turning away from the way one already goes, against turning away from the goal."""
+_BEND = 0.6
+"""Part of the acceleration that following a circle's edge may take."""
 
 
 class Circle(NamedTuple):
@@ -36,6 +38,15 @@ def go_around(me: Body, x: float, y: float, heading: float, blocked: Sequence[Ci
     vx, vy = velocity_to(me, x, y, limits)
     vx, vy = steer(me, vx, vy, math.hypot(x - me.x, y - me.y), blocked)
     return drive(me, vx, vy, turn_rate(me, heading, limits), limits)
+
+
+def bend_speed(away: float, radius: float, limits: Limits) -> float:
+    """How fast a robot may be, m/s, that is `away` m from a circle's centre and is to follow its edge.
+
+    At the edge as fast as part of its acceleration bends its way; before it, as it can brake down to that.
+    """
+    room = max(0.0, away - radius)
+    return math.sqrt(limits.acceleration * (_BEND * radius + room))
 
 
 def steer(me: Body, vx: float, vy: float, distance: float, blocked: Sequence[Circle]) -> tuple[float, float]:
@@ -90,3 +101,8 @@ def _arcs(me: Body, distance: float, blocked: Sequence[Circle]) -> list[tuple[fl
         half = math.asin(radius / away) if away > radius else 0.5 * math.pi + min(1.0, 2.0 * (1.0 - away / radius))
         arcs.append((math.atan2(dy, dx), half))
     return arcs
+
+
+def is_in_the_way(me: Body, x: float, y: float, circle: Circle) -> bool:
+    """Whether the straight way to (x, y) leads into a circle."""
+    return _enters(me, math.atan2(y - me.y, x - me.x), math.hypot(x - me.x, y - me.y), circle)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 
 from robot_agent.bodies import Body, Limits
-from robot_agent.skills.avoid import Circle, go_around
+from robot_agent.skills.avoid import Circle, bend_speed, go_around, is_in_the_way
 from schemas.command import Drive
 
 
@@ -24,4 +24,7 @@ def line_up(
 ) -> Drive:
     """Go around the ball, no closer than 0.8 × `distance`, to the place behind it."""
     x, y, heading = behind(ball, target, distance)
-    return go_around(me, x, y, heading, [*blocked, Circle(*ball, 0.8 * distance)], limits)
+    around = Circle(*ball, 0.8 * distance)
+    if is_in_the_way(me, x, y, around):
+        limits = limits.capped(bend_speed(math.dist(ball, me[:2]), around.radius, limits))
+    return go_around(me, x, y, heading, [*blocked, around], limits)

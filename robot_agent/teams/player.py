@@ -181,12 +181,16 @@ class Player(ABC):
         return action
 
     def _is_second_in_area(self, scene: Scene) -> bool:
-        """Whether a teammate in the field is in the nearer penalty area, and nearer to the ball than this robot."""
+        """Whether a teammate in the field is nearer to the ball than this robot, and in the nearer penalty area.
+
+        Where a second one there is a foul at once, wherever it is: it may be about to enter.
+        """
         end = math.copysign(1.0, scene.me.x)
         ball = scene.ball.now[:2] if scene.ball is not None else (end * self.setup.pitch.goal_line, 0.0)
         mine = math.dist(ball, scene.me[:2])
         return not scene.holding and any(
-            self._penalty_area.has(end, *mate.body[:2]) and math.dist(ball, mate.body[:2]) < mine
+            math.dist(ball, mate.body[:2]) < mine
+            and (self._asked.at_once or self._penalty_area.has(end, *mate.body[:2]))
             for name, mate in scene.mates.items()
             if name != self.keeper
         )

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 
 from robot_agent.bodies import Body, Limits
-from robot_agent.skills.avoid import Circle, circles, go_around
+from robot_agent.skills.avoid import Circle, bend_speed, circles, go_around
 from robot_agent.skills.go_to import drive
 from robot_agent.skills.keep_off import inside, keep_off
 from robot_agent.skills.line_up import line_up
@@ -16,10 +16,8 @@ from schemas.rule_book import Restarts
 
 MARGIN = 0.2
 """m beyond what the rules ask for: noise of the positions, and a little politeness."""
-NEAR = 1.0
-"""m outside the forbidden circle where one drives slowly enough to follow its bend."""
-_BEND = 0.6
-"""Part of the acceleration that following the bend may take."""
+ASIDE = 0.4
+"""m of air, in play, between the ball and the hull of a robot that does not play it."""
 LINE_UP = 0.25
 """m of air between the taker's hull and the ball before START."""
 KICK_OFFS = frozenset({TeamPhase.OUR_KICK_OFF, TeamPhase.THEIR_KICK_OFF})
@@ -57,20 +55,23 @@ def stand(
     setup: Setup,
     limits: Limits,
 ) -> Drive:
-    """Go to a place and face the spot, around everybody and around the circle that the rules draw."""
+    """Go to a place and face the spot, around everybody and around the circle that the rules draw.
+
+    In play the spot is where the ball is: who does not play it runs into neither it nor the way of who does.
+    """
     radius = setup.robot.reach
     x, y = legal_place(*place, game, spot, setup)
     facing = math.atan2(spot[1] - me.y, spot[0] - me.x)
     blocked = circles(others, 2.0 * radius + 0.1)
     asked = asked_distance(game.phase, setup.restarts)
     if asked == 0.0:
+        blocked.append(Circle(*spot, radius + setup.ball.radius + ASIDE))
         return go_around(me, x, y, facing, blocked, limits)
     forbidden = asked + radius + 0.5 * MARGIN
     away = max(0.01, math.hypot(me.x - spot[0], me.y - spot[1]))
     if away > forbidden:
         blocked.append(Circle(*spot, forbidden))
-        if away < forbidden + NEAR:
-            limits = limits.capped(math.sqrt(_BEND * limits.acceleration * forbidden))
+        limits = limits.capped(bend_speed(away, forbidden, limits))
     else:
         out = (forbidden + MARGIN) / away
         x, y = inside(spot[0] + (me.x - spot[0]) * out, spot[1] + (me.y - spot[1]) * out, setup.pitch, radius)

@@ -1,7 +1,8 @@
 """Positions before START: distances to the whole robot, own halves at a kick-off, areas at a penalty.
 
 The taker is the robot of its side nearest to the ball. One defender besides the goalkeeper may stand nearer than the
-others in its own penalty area, not in the goal area. Robots off the field are not looked at.
+others in its own penalty area, not in the goal area. Nobody stands where the ball is to lie. Robots off
+the field are not looked at.
 
 Section: restarts.
 Measures: the way between the ball's spot and the robot's hull, taken as the circle that holds it in any direction.
@@ -21,6 +22,8 @@ from sim_host.referee.match import Match
 from sim_host.referee.state import RefereeState
 from sim_host.snapshot import Snapshot
 
+TOUCHES = 0.02
+"""m that a hull may reach into the ball on its spot: a taker may touch it."""
 _ROOM = 0.2
 """m; how much farther than the rules ask a robot is set down that is moved, and how much air it has to others."""
 _BEARINGS = 24
@@ -89,6 +92,12 @@ def standing_wrong(match: Match, state: RefereeState, restart: Restart, snapshot
                 faults.append(Fault(name, f"{name} stands {wrong.phrase}", wrong.measured, wrong.limit))
                 break
     return tuple(faults)
+
+
+def covered(match: Match, state: RefereeState, spot: Spot, snapshot: Snapshot) -> bool:
+    """Whether a robot stands where the ball is to lie: it cannot be set down in a hull."""
+    line_up = _line_up(match, state, Restart(state.phase, state.side, spot), snapshot)
+    return any(_on_spot(line_up, index) for index in line_up.there)
 
 
 def legal_spot(match: Match, state: RefereeState, restart: Restart, snapshot: Snapshot, fault: Fault) -> Pose:
@@ -190,6 +199,13 @@ def _near_ball(line_up: LineUp, index: int) -> Wrong | None:
     return Wrong(f"{distance:.2f} m from the ball, {asked:.2f} m asked", distance, asked)
 
 
+def _on_spot(line_up: LineUp, index: int) -> Wrong | None:
+    """Nobody's hull is where the ball lies, not even the kicker's."""
+    room = line_up.match.ball.radius - TOUCHES
+    distance = _from_ball(line_up, index)
+    return Wrong("on the ball's spot", distance, room) if distance < room else None
+
+
 def _in_other_half(line_up: LineUp, index: int) -> Wrong | None:
     """The whole robot stays in its own half, of the kicker its centre."""
     hull = 0.0 if index == line_up.kicker else line_up.match.reaches[index]
@@ -236,13 +252,13 @@ def _checks(state: RefereeState, restart: Restart) -> "tuple[Check, ...]":
 Check = Callable[[LineUp, int], Wrong | None]
 
 CHECKS: Mapping[Phase, tuple[Check, ...]] = {
-    Phase.KICK_OFF: (_in_other_half, _near_ball),
-    Phase.FREE_KICK: (_near_ball,),
-    Phase.GOAL_KICK: (_near_ball,),
-    Phase.THROW_IN: (_near_ball,),
-    Phase.CORNER: (_near_ball,),
-    Phase.PENALTY: (_wrong_at_penalty,),
-    Phase.DROP_BALL: (_near_ball,),
+    Phase.KICK_OFF: (_on_spot, _in_other_half, _near_ball),
+    Phase.FREE_KICK: (_on_spot, _near_ball),
+    Phase.GOAL_KICK: (_on_spot, _near_ball),
+    Phase.THROW_IN: (_on_spot, _near_ball),
+    Phase.CORNER: (_on_spot, _near_ball),
+    Phase.PENALTY: (_on_spot, _wrong_at_penalty),
+    Phase.DROP_BALL: (_on_spot, _near_ball),
 }
 """Restart → what is asked of every robot."""
 SHOOT_OUT: tuple[Check, ...] = (_wrong_at_shoot_out,)

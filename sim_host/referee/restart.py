@@ -16,7 +16,7 @@ from schemas.game import Card, EventKind, Mode, Phase, Stage
 from sim_host.referee import discipline, set_piece
 from sim_host.referee.call import Restart
 from sim_host.referee.evidence import NOTHING
-from sim_host.referee.positions import Fault, legal_spot, standing_wrong
+from sim_host.referee.positions import Fault, covered, legal_spot, standing_wrong
 from sim_host.referee.timing import reached
 from sim_host.referee.turn import Turn
 from sim_host.referee.wording import named
@@ -110,7 +110,8 @@ def _awaited(turn: Turn, restart: Restart) -> None:
     """Between signal and START: the ball is kept on its spot, then START as soon as everybody stands legally."""
     numbers, timer = turn.book.restarts, turn.state.timing.timer
     on_spot = from_spot(turn, restart) <= numbers.drift
-    if not on_spot and timer > 0:
+    has_room = on_spot or not covered(turn.match, turn.state, restart.spot, turn.snapshot)
+    if not on_spot and timer > 0 and has_room:
         turn.place_ball(restart.spot)
     if turn.match.mode is Mode.MANUAL or not reached(timer, numbers.signal_to_start):
         return
@@ -119,6 +120,8 @@ def _awaited(turn: Turn, restart: Restart) -> None:
         start(turn, restart)
     elif reached(timer, numbers.signal_to_start + numbers.positions_limit):
         _start_all_the_same(turn, restart, wrong)
+        if not has_room and numbers.moves_offenders:
+            turn.place_ball(restart.spot)
 
 
 def _start_all_the_same(turn: Turn, restart: Restart, wrong: tuple[Fault, ...]) -> None:

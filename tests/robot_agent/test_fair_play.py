@@ -39,13 +39,18 @@ def after(*scenes, before=NOBODYS):
 
 
 def test_a_friendly_asks_nothing_but_to_keep_out_of_areas(setup, league):
-    assert Asked.of(setup) == Asked(math.inf, math.inf, True, True, False, 1.0)
-    assert Asked.of(league) == Asked(3.0, 1.0, True, True, True, 1.0)
+    assert Asked.of(setup) == Asked(math.inf, math.inf, True, True, False, False, 1.0)
+    assert Asked.of(league) == Asked(3.0, 1.0, True, True, False, True, 1.0)
+
+
+def test_where_a_crowded_penalty_area_is_a_foul_at_once_robots_know():
+    simulation_league = Setup.of(MatchConfig(), load_profile("msl"), load_rule_book("china-sim-2020"))
+    assert Asked.of(simulation_league).at_once
 
 
 def test_a_setup_that_is_older_than_these_rules_asks_nothing(league):
     old = league.model_copy(update={"handling": None, "scoring": None, "fouls": None})
-    assert Asked.of(old) == Asked(math.inf, math.inf, False, False, False, 0.0)
+    assert Asked.of(old) == Asked(math.inf, math.inf, False, False, False, False, 0.0)
 
 
 def test_a_carry_knows_its_way_from_the_catch_and_the_way_backward():

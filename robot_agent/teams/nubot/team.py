@@ -15,6 +15,7 @@ from robot_agent.teams.action import Action
 from robot_agent.teams.nubot.machine import KICK, Doing, Machine, Points, Situation, State
 from robot_agent.teams.nubot.trajectory import ROTATION
 from robot_agent.teams.player import Player
+from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
 from robot_agent.world_model import Scene, SeenBall, places_of
 from schemas.coach import CoachOrder, CoachTest
@@ -27,6 +28,8 @@ AHEAD = {2: (3.0, 2.5), 3: (3.0, -2.5)}
 """m on 22 × 14 m; where two robots wait for the pass without which a goal of their side would not count."""
 LOYALTY = 0.5
 """m by which a teammate must be nearer to the ball than the robot that plays it, to play it instead."""
+PROMISED = 3.0
+"""m that the robot which was promised the ball may be farther from it than another."""
 _PREPARED = 1.0
 """m into the other half."""
 _KICKED = 2.0
@@ -61,6 +64,7 @@ class NuBot(Player):
         self._points = Points().on(pitch)
         self._machine = Machine(self._points)
         self._role = HOLDS
+        self._promised: Promise | None = None
         self._shown = 0
         """Number of the order that the machine was last begun for."""
 
@@ -87,6 +91,7 @@ class NuBot(Player):
         """Keep, play the ball, or hold the place."""
         ball = scene.ball
         del order
+        self._promised = promise_after(self._promised, scene)
         if ball is None:
             return self._hold(scene, self._home)
         spot = _spot(scene, ball)
@@ -101,13 +106,14 @@ class NuBot(Player):
         return self._take_restart(scene, ball, spot) if phase.ours else self._run_machine(scene, ball)
 
     def _nearest(self, scene: Scene, spot: tuple[float, float]) -> str:
-        """The field robot that plays the ball: the nearest, and the one that does already unless clearly farther."""
+        """The field robot that plays the ball: the nearest; who does already or was promised it, unless farther."""
         me = self.briefing.robot
+        promised = self._promised.receiver if self._promised is not None else None
         far = {me: math.dist(spot, scene.me[:2]) - (LOYALTY if self._role == PLAYS else 0.0)}
         for name, mate in scene.mates.items():
             if name != self.keeper:
                 far[name] = math.dist(spot, mate.body[:2]) - (LOYALTY if mate.role == PLAYS else 0.0)
-        return min(far, key=lambda name: (far[name], name))
+        return min(far, key=lambda name: (far[name] - (PROMISED if name == promised else 0.0), name))
 
     def _run_machine(self, scene: Scene, ball: SeenBall) -> Action:
         """The paper's machine; when it has kicked and the ball is this robot's own again, it begins anew."""
@@ -133,7 +139,14 @@ class NuBot(Player):
         if receiver is None:
             return None
         motion, kick = pass_to(scene.me, ahead[receiver], self.setup, self.limits)
-        return Action(PLAYS, "pass ahead", motion, dribble=True, kick=kick, pass_to=receiver if kick else None)
+        return self._promising(Action(PLAYS, "pass ahead", motion, dribble=True, kick=kick), receiver)
+
+    def _promising(self, action: Action, receiver: str | None) -> Action:
+        """The same, and with its kick the receiver is told."""
+        if action.kick is None or receiver is None:
+            return action
+        self._promised = Promise(receiver)
+        return action._replace(pass_to=receiver)
 
     def _dribble_point(self, scene: Scene, ball: SeenBall) -> tuple[float, float]:
         """The paper's point or its mirror image on the ball's side; where the robot is, once that is near enough."""
@@ -173,7 +186,7 @@ class NuBot(Player):
 
     def _take_restart(self, scene: Scene, ball: SeenBall, spot: tuple[float, float]) -> Action:
         """Kick to whom a pass reaches, else ahead and run after it; at a penalty, the machine's own kick."""
-        target = self._restart_target(scene, spot)
+        target, receiver = self._restart_target(scene, spot)
         if not scene.game.running:
             motion = wait_behind(scene.me, spot, target, scene.others, self.setup, self.limits)
             return Action(PLAYS, "wait behind the ball", motion)
@@ -184,21 +197,23 @@ class NuBot(Player):
         if scene.game.phase is TeamPhase.OUR_PENALTY:
             mode, speed = KICK.mode, KICK.speed
         motion, kick = kick_at(scene.me, target, speed, _RESTART_ERROR, self.limits, mode)
-        return Action(PLAYS, "kick", motion, dribble=True, kick=kick)
+        return self._promising(Action(PLAYS, "kick", motion, dribble=True, kick=kick), receiver)
 
-    def _restart_target(self, scene: Scene, spot: tuple[float, float]) -> tuple[float, float]:
+    def _restart_target(self, scene: Scene, spot: tuple[float, float]) -> tuple[tuple[float, float], str | None]:
+        """Where to, and to whom."""
         phase = scene.game.phase
         if phase is TeamPhase.OUR_PENALTY:
-            return self._points.goal
+            return self._points.goal, None
         if phase is TeamPhase.OUR_KICK_OFF:
-            return _KICK_OFF_TO
+            return _KICK_OFF_TO, None
         mates = {name: place for name, place in places_of(scene.mates).items() if name != self.keeper}
         receiver = best_receiver(spot, mates, scene.opponents)
-        return mates[receiver] if receiver is not None else self._points.dribble
+        return (mates[receiver], receiver) if receiver is not None else (self._points.dribble, None)
 
     def _hold(self, scene: Scene, spot: tuple[float, float]) -> Action:
         in_play = scene.game.phase is TeamPhase.PLAY
-        home = self._ahead if in_play and self.control.ours and not self.may_score else self._home
+        waits_ahead = in_play and self.control.ours is not False and not self.may_score
+        home = self._ahead if waits_ahead else self._home
         motion = stand(scene.me, home, scene.game, spot, scene.others, self.setup, self.limits)
         return Action(HOLDS, "hold", motion)
 

@@ -11,6 +11,7 @@ from robot_agent.skills.pass_to import ARRIVING, best_receiver, pass_to
 from robot_agent.skills.take_ball import HAS_IT, take_ball
 from robot_agent.teams.action import Action
 from robot_agent.teams.player import Player
+from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
 from robot_agent.teams.simple.formation import places
 from robot_agent.teams.simple.roles import Candidate, Role, share_places, striker_of
@@ -24,8 +25,6 @@ Point = tuple[float, float]
 
 CLEAR = "clear"
 """Intention of a keeper that leaves its line for the ball."""
-PROMISE = 2.0
-"""s for which a receiver counts on the pass it was promised."""
 THREAT = 0.75
 """Share of the own half, from the middle, beyond which an opponent with the ball is met by the defender, too."""
 KICK_OFF_TO = (0.8, 3.0)
@@ -41,8 +40,7 @@ class Simple(Player):
         super().__init__(briefing)
         self._role: Role = Role.KEEPER if self.is_keeper else Role.DEFENDER
         self._held = self._pressed = 0.0
-        self._promised: tuple[str, float] | None = None
-        """Who was promised a pass, and for how many s more."""
+        self._promised: Promise | None = None
         self._receiver: str | None = None
         """Who is meant to get the ball that this robot holds."""
         self._clearance = 2.0 * self.setup.robot.reach + 0.05
@@ -53,7 +51,7 @@ class Simple(Player):
         self._held = self._held + scene.dt if scene.holding else 0.0
         pressed = scene.holding and is_pressed(scene.me, scene.opponents)
         self._pressed = self._pressed + scene.dt if pressed else 0.0
-        self._remember_promise(scene)
+        self._promised = promise_after(self._promised, scene)
         if scene.ball is None:
             return Action(self._role, "wait", Drive())
         ball, phase = scene.ball.now, scene.game.phase
@@ -71,19 +69,10 @@ class Simple(Player):
             return self._support(scene, spot)
         return self._strike(scene, ball)
 
-    def _remember_promise(self, scene: Scene) -> None:
-        """Count down the last promise heard or given; a new one, or the ball in hand, ends it."""
-        if self._promised is not None:
-            name, left = self._promised
-            self._promised = (name, left - scene.dt) if left > scene.dt and not scene.holding else None
-        for mate in scene.mates.values():
-            if mate.pass_to is not None:
-                self._promised = mate.pass_to, PROMISE
-
     def _find_role(self, scene: Scene, ball: Ball, spot: Point) -> Role:
         """The role that everybody's poses and present roles give this robot."""
         me = self.briefing.robot
-        receiver = self._promised[0] if self._promised is not None else None
+        receiver = self._promised.receiver if self._promised is not None else None
         candidates = {me: Candidate(scene.me, self._role, receiver == me)}
         for name, mate in self._field_mates(scene).items():
             candidates[name] = Candidate(mate.body, mate.role, receiver == name)
@@ -124,7 +113,7 @@ class Simple(Player):
             if action.kick is None:
                 return action._replace(pass_to=None)
             if action.pass_to is not None:
-                self._promised = action.pass_to, PROMISE
+                self._promised = Promise(action.pass_to)
             return action
         self._receiver = None
         return Action(Role.STRIKER, "get the ball", self._get(scene, ball), dribble=True)
@@ -169,7 +158,7 @@ class Simple(Player):
             return Action(Role.STRIKER, "step in", motion, dribble=True)
         motion, kick = self._restart_motion(scene, target)
         if kick is not None and receiver is not None:
-            self._promised = receiver, PROMISE
+            self._promised = Promise(receiver)
         return Action(Role.STRIKER, "kick", motion, True, kick, receiver if kick is not None else None)
 
     def _restart_kick(self, scene: Scene, spot: Point) -> tuple[Point, str | None]:

@@ -35,7 +35,7 @@ def test_robots_far_away_stand_legally_at_every_restart(bench):
 )
 def test_distances_are_measured_to_the_whole_robot(bench, phase, robot, number):
     asked = getattr(bench.book.restarts, number) + bench.hull
-    kicker = {} if phase is Phase.DROP_BALL else {"cyan2": (0.0, -0.4)}
+    kicker = {} if phase is Phase.DROP_BALL else {"cyan2": (0.0, -0.5)}
     assert judged(bench, phase, (0.0, 0.0), kicker | {robot: (asked + EDGE, 0.0)}) is None
     fault = judged(bench, phase, (0.0, 0.0), kicker | {robot: (asked - EDGE, 0.0)})
     assert fault.startswith(f"{robot} stands {asked - EDGE - bench.hull:.2f} m from the ball")
@@ -45,25 +45,25 @@ def test_each_robot_is_measured_by_its_own_hull(new_bench):
     """A goalkeeper with a frame of 0.6 m reaches 0.387 m, and stands too near where a round robot does not."""
     bench = new_bench("msl", magenta_types={"magenta3": "keeper"})
     away = bench.book.restarts.opponent_distance + bench.hull + EDGE
-    kicker = {"cyan2": (0.0, -0.4)}
+    kicker = {"cyan2": (0.0, -0.5)}
     assert judged(bench, Phase.FREE_KICK, (0.0, 0.0), kicker | {"magenta2": (away, 0.0)}) is None
     assert "magenta3 stands" in judged(bench, Phase.FREE_KICK, (0.0, 0.0), kicker | {"magenta3": (away, 0.0)})
 
 
 def test_the_nearest_of_the_takers_is_its_kicker_and_may_stand_at_the_ball(bench):
-    assert judged(bench, Phase.FREE_KICK, (0.0, 0.0), {"cyan2": (0.0, -0.4)}) is None
+    assert judged(bench, Phase.FREE_KICK, (0.0, 0.0), {"cyan2": (0.0, -0.5)}) is None
 
 
 @pytest.mark.parametrize(("robot", "own"), [("cyan3", -1), ("magenta3", 1)])
 def test_at_a_kick_off_whole_robots_are_in_their_own_halves(bench, robot, own):
-    aside = {"cyan2": (-0.4, 0.0)}
+    aside = {"cyan2": (-0.5, 0.0)}
     assert judged(bench, Phase.KICK_OFF, (0.0, 0.0), aside | {robot: (own * (bench.hull + EDGE), 4.0)}) is None
     assert "other half" in judged(bench, Phase.KICK_OFF, (0.0, 0.0), aside | {robot: (own * (bench.hull - EDGE), 4.0)})
 
 
 @pytest.mark.parametrize(("x", "legal"), [(-EDGE, True), (EDGE, False)])
 def test_at_a_kick_off_the_kicker_may_lean_over_the_line_with_half_its_body(bench, x, legal):
-    assert (judged(bench, Phase.KICK_OFF, (0.0, 0.0), {"cyan2": (x, 0.4)}) is None) == legal
+    assert (judged(bench, Phase.KICK_OFF, (0.0, 0.0), {"cyan2": (x, 0.5)}) is None) == legal
 
 
 def test_one_defender_may_be_near_in_its_own_penalty_area_but_not_in_the_goal_area_nor_two(bench):

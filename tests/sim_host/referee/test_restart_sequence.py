@@ -1,5 +1,7 @@
 """Whole restart sequences: STOP, ball placed and signal, START, ball in play."""
 
+import math
+
 import pytest
 
 from schemas.game import EventKind, Phase
@@ -79,6 +81,33 @@ def test_start_waits_until_the_ball_lies_on_its_spot(bench):
     assert not bench.state.running
     bench.tick()
     assert bench.state.running
+
+
+@pytest.mark.parametrize("robot", ["magenta2", "cyan2"])
+def test_the_ball_is_not_put_into_a_robot_on_its_spot_and_start_waits_until_it_has_gone(bench, robot):
+    thrown_in(bench).until(lambda state: state.phase is Phase.THROW_IN)
+    x, y = bench.state.spot
+    bench.robots[robot] = (x, y - 0.1)
+    beside = (x + bench.hull + bench.radius, y)
+    for _ in range(round((bench.book.restarts.signal_to_start + 1.0) / bench.dt)):
+        ruling = bench.tick(beside)
+        assert not ruling.placements and not ruling.state.running
+    touching = bench.hull + bench.radius
+    bench.robots[robot] = (x, y - (touching if robot == "magenta2" else touching + 3.5))
+    bench.tick(beside)
+    assert bench.ball[:2] == pytest.approx((x, y))
+    bench.tick()
+    assert bench.state.running
+
+
+def test_who_stands_on_the_balls_spot_at_the_limit_is_moved_and_the_ball_put_there(bench):
+    thrown_in(bench).until(lambda state: state.phase is Phase.THROW_IN)
+    x, y = bench.state.spot
+    bench.robots["magenta2"] = (x, y - 0.1)
+    while not bench.state.running:
+        bench.tick((x + 0.5, y))
+    assert math.dist(bench.robots["magenta2"], (x, y)) > bench.hull + bench.radius
+    assert bench.ball[:2] == pytest.approx((x, y)) and "magenta2 stands on the ball's spot" in bench.events[-1].text
 
 
 def test_start_waits_until_opponents_have_left_and_is_given_at_once_then(bench):

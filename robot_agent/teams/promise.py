@@ -1,0 +1,26 @@
+"""A pass that was promised: to whom, as heard on the radio or given by the robot itself, for a while."""
+
+from typing import NamedTuple
+
+from robot_agent.world_model import Scene
+
+LASTS = 2.0
+"""s for which a receiver counts on the pass it was promised."""
+
+
+class Promise(NamedTuple):
+    """Who is to get the ball, and for how many s more."""
+
+    receiver: str
+    left: float = LASTS
+
+
+def promise_after(before: Promise | None, scene: Scene) -> Promise | None:
+    """The last promise after one more sight; a newer one, time, or the ball in this robot's hold ends it."""
+    kept = None
+    if before is not None and before.left > scene.dt and not scene.holding:
+        kept = before._replace(left=before.left - scene.dt)
+    for mate in scene.mates.values():
+        if mate.pass_to is not None:
+            kept = Promise(mate.pass_to)
+    return kept
