@@ -31,6 +31,7 @@ ROWS = {
     16: "keys by team and robot",
     17: "one command record; refusals with reason",
     18: "watchdog for commands that fail to come",
+    19: "the paper's state machine, state by state",
     21: "live parameters",
     22: "reset with a new episode",
     23: "2 to 100 robots",

@@ -11,6 +11,7 @@ from arena.__main__ import app
 from coach_gateway.refbox.forwarding import FORWARD
 from coach_gateway.udp import protocol
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode
+from schemas.coach import NEEDS
 from schemas.message import Part
 
 
@@ -37,6 +38,13 @@ def test_every_match_mode_and_test_mode_has_the_number_that_the_page_says(page: 
     tests = re.search(r"Test modes: (.*?)\.\n", page, re.DOTALL)
     assert tests is not None
     assert [int(number) for number in re.findall(r"\d+", tests[1])] == list(TEST_MODES)
+
+
+def test_every_test_stands_in_its_table_with_what_it_needs(page: str) -> None:
+    rows = re.findall(r"^\| `(\w+)` \| (.*?) \|", page.split("| test | needs |")[1].split("\n\n")[0], re.MULTILINE)
+    assert {test: tuple(re.findall(r"`(\w+)`", needs)) for test, needs in rows} == {
+        test.value: needs for test, needs in NEEDS.items()
+    }
 
 
 def test_every_command_of_the_box_is_in_the_table_of_what_becomes_of_it(page: str) -> None:

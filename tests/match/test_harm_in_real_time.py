@@ -21,7 +21,8 @@ class Circles:
         pass
 
     def act(self, sight):
-        return Command(answers_tick=sight.tick, drive=Drive(vx=1.0, omega=1.0))
+        heard = sight.order.sequence if sight.order else None
+        return Command(answers_tick=sight.tick, drive=Drive(vx=1.0, omega=1.0), acknowledges_order=heard)
 """
 MATCH = """
 name = "live"
@@ -42,7 +43,7 @@ ASKED = {
     "a free kick": ("freekick", "magenta"),
     "a place off the field": ("place-ball", "50", "2"),
     "start": ("start",),
-    "an order": ("order", "cyan", "--mode", "hold"),
+    "an order": ("order", "cyan", "--mode", "hold", "--wait", "60"),
     "state": ("state", "--json"),
 }
 """What the coach asks for, in this order."""
@@ -161,7 +162,7 @@ def test_late_ticks_are_told(story):
         ("stop", "stop accepted"),
         ("a free kick", "free_kick accepted"),
         ("start", "start accepted"),
-        ("an order", "to cyan: hold"),
+        ("an order", "to cyan: hold; acknowledged by cyan1, cyan2"),
         ("state", '"phase":"free_kick"'),
     ],
 )
