@@ -5,6 +5,8 @@ import socket
 from coach_gateway.web.pages import STUCK_S
 from schemas.errors import TouchlineError
 
+_ROOM_BYTES = 65_536
+"""What the kernel keeps for a page that has not read it yet: some ten frames; of itself it would keep hundreds."""
 _HERE = {"0.0.0.0": "127.0.0.1", "::": "::1"}
 """Every address → the one of this machine that a browser on it can use."""
 
@@ -18,6 +20,7 @@ def listen(address: str, port: int) -> socket.socket:
     family = socket.AF_INET6 if ":" in address else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _ROOM_BYTES)
     if hasattr(socket, "TCP_USER_TIMEOUT"):
         listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, round(2 * STUCK_S * 1000))
     try:

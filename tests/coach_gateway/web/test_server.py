@@ -1,5 +1,6 @@
 """The page's server over real sockets: what pages are told, and that no page can harm another or the match."""
 
+import socket
 import time
 from collections.abc import Callable
 from typing import Any
@@ -12,8 +13,10 @@ from schemas.coach import CoachMode, CoachOrder
 from schemas.game import ActionName
 from schemas.scene import shipped_scenes
 from schemas.side import Side
+from schemas.topics import WORLD
+from schemas.world import ObstacleTruth
 
-from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, event, wait_for
+from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, event, wait_for, world
 
 Visit = Callable[..., Visitor]
 
@@ -292,6 +295,29 @@ def test_a_page_that_does_not_read_keeps_nobody_waiting_and_is_dropped(
     assert len(gateway.server.pages) == 1
     reader.close()
     stuck.socket.socket.close()
+
+
+def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
+    host: FakeHost, gateway_of: Callable[..., Gateway]
+) -> None:
+    gateway = gateway_of()
+    narrow = socket.socket()
+    narrow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    narrow.connect(("127.0.0.1", gateway.port))
+    quick, slow = Visitor(gateway.origin), Visitor(gateway.origin, sock=narrow, max_queue=1)
+    slow.hear("host", there=True)
+    pillar = ObstacleTruth(x=1, y=2, heading=0, radius=0.5, height=1, shape="cylinder", size_x=1, size_y=1)
+    full = world(0).model_copy(update={"obstacles": {f"pillar{number}": pillar for number in range(400)}})
+    for tick in range(1, 101):
+        host.put(WORLD, full.model_copy(update={"tick": tick}))
+        quick.hear("frame", tick=tick)
+    ticks = [slow.hear("frame")["tick"]]
+    while ticks[-1] < 100:
+        ticks.append(slow.hear("frame")["tick"])
+    assert len(ticks) < 30
+    assert ticks == sorted(ticks)
+    quick.close()
+    slow.close()
 
 
 def test_two_pages_see_the_same_match_and_each_gets_its_own_answers(visit: Visit, host: FakeHost) -> None:
