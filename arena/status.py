@@ -26,10 +26,14 @@ def status_line(view: MatchView, total: int) -> str:
 
 
 def robots_words(health: Health, total: int) -> str:
-    """`robots 9/10 (silent: magenta3)`: who answers, or who is there while there is nothing to answer yet."""
+    """`robots 9/10 (silent: magenta3)`: who answers, or who is there while there is nothing to answer yet.
+
+    Robots that stand still in the scene that is played have nobody who could answer.
+    """
     playing = health.tick > 0
-    silent = [name for name, robot in health.robots.items() if not (robot.answering if playing else robot.alive)]
-    words = f"robots {len(health.robots) - len(silent)}/{total}"
+    moving = {name: robot for name, robot in health.robots.items() if not robot.still}
+    silent = [name for name, robot in moving.items() if not (robot.answering if playing else robot.alive)]
+    words = f"robots {len(moving) - len(silent)}/{total}"
     if not silent:
         return words
     return f"{words} ({'silent' if playing else 'missing'}: {', '.join(_few(silent))})"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from arena import options
+from arena.bundle import unbundled
 from arena.keyboard import KEYS, Hand, Speeds, pressed, said, status
 from arena.seat import seat as _seat
 from arena.terminal import Keys, terminal
@@ -23,13 +24,14 @@ _PERIOD = 0.05
 _USUAL = Speeds()
 
 
+@unbundled
 def drive(
     robot: Annotated[str, typer.Argument(metavar="ROBOT", help="cyan1, magenta3, …")],
     speed: Annotated[float, typer.Option(min=0.0, max=20.0, help="m/s along each axis.")] = _USUAL.drive,
     turn: Annotated[float, typer.Option(min=0.0, max=50.0, help="rad/s.")] = _USUAL.turn,
     kick: Annotated[float, typer.Option(min=0.1, max=40.0, help="m/s.")] = _USUAL.kick,
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
+    *,
+    seat: options.Seat,
 ) -> None:
     """Drive one robot of a running match by keys; Ctrl-C gives it back to its brain.
 
@@ -37,7 +39,7 @@ def drive(
 
     Example: touchline drive cyan2 --speed 2
     """
-    with terminal("drive") as keys, _seat(connect, match) as bus:
+    with terminal("drive") as keys, _seat(seat.connect, seat.match) as bus:
         typer.echo(", ".join(f"{'space' if key == ' ' else key}: {words}" for key, (words, _) in KEYS.items()))
         drive_by_keys(bus, robot, keys, Speeds(speed, turn, kick), lambda line: typer.echo(line))
 

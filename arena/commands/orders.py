@@ -69,14 +69,15 @@ class Waiting:
 @unbundled
 def order(
     side: options.ForSide,
-    words: OrderWords,
-    waiting: Waiting,
-    seat: options.Seat,
     mode: Annotated[
         CoachMode | None, typer.Option(help="What the team shall do while the game allows it; otherwise play.")
     ] = None,
     test: Annotated[CoachTest | None, typer.Option(help="What a test shows; the mode is test.")] = None,
     tactic: Annotated[str, typer.Option(help="A word that the team's own code understands.")] = "",
+    *,
+    words: OrderWords,
+    waiting: Waiting,
+    seat: options.Seat,
 ) -> None:
     """Give a side its new standing order, and say which robots have acknowledged it.
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from arena import options
+from arena.bundle import unbundled
 from arena.seat import seat as _seat
 from schemas.errors import MatchFailedError, TouchlineError
 
@@ -23,10 +24,11 @@ Names = Annotated[list[str], typer.Argument(metavar="NAME...", help="Parameters,
 
 
 @app.command("list")
+@unbundled
 def list_all(
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
     json: options.Json = False,
+    *,
+    seat: options.Seat,
 ) -> None:
     """List every parameter: value, unit, range, what it means, and whether it can be changed.
 
@@ -34,15 +36,16 @@ def list_all(
     """
     from schemas.parameters import ParameterDeed, ParametersRequest
 
-    _show(_ask(connect, match, ParametersRequest(deed=ParameterDeed.LIST)), json=json)
+    _show(_ask(seat, ParametersRequest(deed=ParameterDeed.LIST)), json=json)
 
 
 @app.command("get")
+@unbundled
 def get(
     names: Names,
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
     json: options.Json = False,
+    *,
+    seat: options.Seat,
 ) -> None:
     """Show some parameters, or whole sections.
 
@@ -50,15 +53,16 @@ def get(
     """
     from schemas.parameters import ParameterDeed
 
-    _show(_ask(connect, match, _request(deed=ParameterDeed.GET, names=names)), json=json)
+    _show(_ask(seat, _request(deed=ParameterDeed.GET, names=names)), json=json)
 
 
 @app.command("set")
+@unbundled
 def set_values(
     settings: Annotated[list[str], typer.Argument(metavar="NAME=VALUE...", help="In the parameter's own unit.")],
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
     json: options.Json = False,
+    *,
+    seat: options.Seat,
 ) -> None:
     """Change parameters between two ticks: all that are named, or none.
 
@@ -66,17 +70,18 @@ def set_values(
     """
     from schemas.parameters import ParameterDeed
 
-    _show(_ask(connect, match, _request(deed=ParameterDeed.SET, values=dict(map(_setting, settings)))), json=json)
+    _show(_ask(seat, _request(deed=ParameterDeed.SET, values=dict(map(_setting, settings)))), json=json)
 
 
 @app.command("reset")
+@unbundled
 def reset(
     names: Annotated[
         list[str] | None, typer.Argument(metavar="[NAME...]", help="Parameters or sections; none for all.")
     ] = None,
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
     json: options.Json = False,
+    *,
+    seat: options.Seat,
 ) -> None:
     """Bring parameters back to what the match began with.
 
@@ -84,7 +89,7 @@ def reset(
     """
     from schemas.parameters import ParameterDeed
 
-    _show(_ask(connect, match, _request(deed=ParameterDeed.RESET, names=names or [])), json=json)
+    _show(_ask(seat, _request(deed=ParameterDeed.RESET, names=names or [])), json=json)
 
 
 def _setting(word: str) -> "tuple[str, Value]":
@@ -119,10 +124,10 @@ def _request(**content: object) -> "ParametersRequest":
         ) from None
 
 
-def _ask(connect: str, match: str, request: "ParametersRequest") -> "ParametersReply":
+def _ask(seat: options.Seat, request: "ParametersRequest") -> "ParametersReply":
     from coach_gateway.gateway import Gateway
 
-    with _seat(connect, match) as bus:
+    with _seat(seat.connect, seat.match) as bus:
         reply = Gateway(bus).parameters(request)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")

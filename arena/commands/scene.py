@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from arena import options
+from arena.bundle import unbundled
 from arena.seat import seat as _seat
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.side import Side
@@ -31,10 +32,10 @@ Omega = Annotated[float, typer.Option(help="rad/s; of a robot.")]
 
 
 @app.command("load")
+@unbundled
 def load(
     name: Annotated[str, typer.Argument(help="A scene that ships, or the path of a .toml file.")],
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
+    seat: options.Seat,
 ) -> None:
     """Begin another episode with a scene: its robots, its ball, its game.
 
@@ -43,10 +44,11 @@ def load(
     from schemas.scene import load_scene
 
     content = {"scene": load_scene(name).model_dump(mode="json")} if Path(name).suffix == ".toml" else {"load": name}
-    _do(connect, match, deed="load", **content)
+    _do(seat, deed="load", **content)
 
 
 @app.command("place", context_settings=_NUMBERS)
+@unbundled
 def place(
     body: Annotated[str, typer.Argument(help="A robot's name, or ball.")],
     x: X,
@@ -57,18 +59,19 @@ def place(
     omega: Omega = 0.0,
     z: Annotated[float | None, typer.Option(help="m, height of the ball's centre.")] = None,
     vz: Annotated[float, typer.Option(help="m/s; of the ball.")] = 0.0,
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
+    *,
+    seat: options.Seat,
 ) -> None:
     """Set a robot or the ball down, at rest or moving.
 
     Example: touchline scene place ball -3.5 2 --vx 4
     """
     at = {"body": body, "x": x, "y": y, "heading": heading, "z": z, "vx": vx, "vy": vy, "vz": vz, "omega": omega}
-    _do(connect, match, deed="place", place=[at])
+    _do(seat, deed="place", place=[at])
 
 
 @app.command("add", context_settings=_NUMBERS)
+@unbundled
 def add(
     name: Annotated[str, typer.Argument(help="Name of the new robot.")],
     side: Annotated[Side, typer.Argument(help="cyan or magenta")],
@@ -77,18 +80,19 @@ def add(
     heading: Heading = 0.0,
     type_: Annotated[str, typer.Option("--type", help="Type of robot, as the profile names it.")] = "standard",
     still: Annotated[bool, typer.Option("--still", help="It stands still, and needs no agent.")] = False,
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
+    *,
+    seat: options.Seat,
 ) -> None:
     """Add a robot; an agent that connects later moves it, and until then it rests.
 
     Example: touchline scene add magenta6 magenta 5 -2 --type slow
     """
     robot = {"name": name, "side": side, "x": x, "y": y, "heading": heading, "type": type_, "agent": not still}
-    _do(connect, match, deed="add", robots=[robot])
+    _do(seat, deed="add", robots=[robot])
 
 
 @app.command("add-obstacle", context_settings=_NUMBERS)
+@unbundled
 def add_obstacle(
     name: Annotated[str, typer.Argument(help="Name of the new obstacle.")],
     x: X,
@@ -97,8 +101,8 @@ def add_obstacle(
     height: Annotated[float | None, typer.Option(help="m; of a cylinder.")] = None,
     size: Annotated[tuple[float, float, float] | None, typer.Option(metavar="X Y Z", help="m; of a box.")] = None,
     heading: Heading = 0.0,
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
+    *,
+    seat: options.Seat,
 ) -> None:
     """Put up a cylinder or a box that nothing moves.
 
@@ -108,40 +112,41 @@ def add_obstacle(
         raise TouchlineError(f"{name} has no shape; give --radius and --height of a cylinder, or --size of a box")
     shape, box = ("cylinder", None) if size is None else ("box", list(size))
     body = {"name": name, "shape": shape, "place": [x, y], "heading": heading, "radius": radius, "height": height}
-    _do(connect, match, deed="add", obstacles=[body | {"size": box}])
+    _do(seat, deed="add", obstacles=[body | {"size": box}])
 
 
 @app.command("remove")
+@unbundled
 def remove(
     names: Annotated[list[str], typer.Argument(metavar="NAME...", help="Robots and obstacles.")],
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
+    seat: options.Seat,
 ) -> None:
     """Take robots or obstacles off the pitch; a robot's agent gets no sights until it is put back.
 
     Example: touchline scene remove cyan4 magenta4
     """
-    _do(connect, match, deed="remove", remove=names)
+    _do(seat, deed="remove", remove=names)
 
 
 @app.command("reset")
+@unbundled
 def reset(
     to_start: Annotated[bool, typer.Option("--to-start", help="To the start of the match, not of the scene.")] = False,
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
+    *,
+    seat: options.Seat,
 ) -> None:
     """Begin another episode: the scene that was loaded last, or the match, from its start.
 
     Example: touchline scene reset
     """
-    _do(connect, match, deed="reset", to_match=to_start)
+    _do(seat, deed="reset", to_match=to_start)
 
 
-def _do(connect: str, match: str, **content: Any) -> None:
+def _do(seat: options.Seat, **content: Any) -> None:
     from coach_gateway.gateway import Gateway
 
     request = _request(**content)
-    with _seat(connect, match) as bus:
+    with _seat(seat.connect, seat.match) as bus:
         reply = Gateway(bus).scene(request)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")

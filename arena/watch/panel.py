@@ -106,12 +106,13 @@ def events(view: MatchView, count: int) -> list[Text]:
     return [Text(event_line(event), style=LOUD.get(event.kind, QUIET)) for event in last]
 
 
-def foot(view: MatchView, total: int) -> Text:
+def foot(view: MatchView) -> Text:
     """Speed, late ticks, who answers, what recorders miss."""
     health = view.health
     if health is None:
         return Text("the host has not said how it is doing", style=QUIET)
     behind = f"  recorder {max(health.recorders.values())} ticks behind" if health.recorders else "  no recorder"
+    total = sum(not robot.still for robot in health.robots.values())
     words = f"×{health.real_time_factor:.2f} {health.pace}  late {health.late_ticks}  {robots_words(health, total)}"
     line = Text(f"{words}{behind}", style=QUIET)
     losses = losses_words(view)

@@ -26,8 +26,7 @@ def picture(seen: Closeup, setup: Setup, width: int, height: int) -> list[Text]:
     elif len(rows) + len(robots) <= room:
         rows = [*rows, *robots]
     happened = panel.events(view, height - 2 - len(rows))
-    total = sum(len(team.robots) for team in setup.teams.values())
-    whole = [panel.head(setup, view.state), *rows, *happened, panel.foot(view, total)][:height]
+    whole = [panel.head(setup, view.state), *rows, *happened, panel.foot(view)][:height]
     for row in whole:
         row.truncate(width, overflow="ellipsis")
     return whole

@@ -87,3 +87,8 @@ def test_a_robot_that_is_alive_and_does_not_answer_is_named_silent() -> None:
 def test_many_silent_robots_are_counted(silent: int, words: str) -> None:
     robots = {f"r{n}": RobotHealth() for n in range(1, silent + 1)}
     assert robots_words(health(9, **robots), silent + 1) == f"robots 1/{silent + 1} (silent: {words})"
+
+
+def test_a_robot_that_stands_still_in_its_scene_is_not_missed() -> None:
+    said = health(9, magenta1=RobotHealth(still=True))
+    assert robots_words(said, 1) == "robots 1/1"
