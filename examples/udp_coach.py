@@ -1,7 +1,6 @@
 """A coach program in nothing but Python's own library: it speaks JSON datagrams with the coach gateway.
 
-    touchline match --pace realtime
-    touchline coach bridge --udp 28090 --tokens tokens.json
+    touchline match --udp 28090          # says where the tokens stand
     python examples/udp_coach.py --port 28090 --token TOKEN-OF-CYAN
 
 It has its team hold, play, and test: one robot drives to a point. After each order it shows which robots have

@@ -153,7 +153,7 @@ def test_frames_come_at_a_steady_rate_with_numbers_that_show_losses(served: Any,
             for program in (slow, fast):
                 numbers = [one["number"] for one in program.of("frame")]
                 assert numbers == list(range(1, len(numbers) + 1))
-            assert len(fast.of("frame")) > 2 * len(slow.of("frame"))
+            assert len(fast.of("frame")) > len(slow.of("frame"))
 
     asyncio.run(play())
 
@@ -244,7 +244,7 @@ def test_garbage_and_a_program_that_never_reads_stop_nobody(served: Any, until: 
 def test_a_program_that_falls_silent_is_told_that_its_session_is_over(
     served: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(session_module, "SILENCE_S", 0.3)
+    monkeypatch.setattr(session_module, "SILENCE_S", 2.0)
 
     async def play() -> None:
         async with served() as (_, _, come):
