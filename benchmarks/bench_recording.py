@@ -25,6 +25,8 @@ from schemas.topics import HEALTH, WORLD
 
 MATCH_S = 20
 REALTIME_S = 10.0
+PATIENCE_S = 120.0
+"""Wall time that a dozen processes may take to start on a busy machine."""
 MB = 1_000_000
 CHUNK, DATA_END, METADATA, ATTACHMENT = 0x06, 0x0F, 0x0C, 0x09
 """Opcodes of MCAP records."""
@@ -42,9 +44,9 @@ def recorder_share(folder: Path) -> float:
         out = folder / "realtime.mcap"
         recorder = launch("recordings", "--connect", endpoint, "--match", config.name, "--out", str(out))
         try:
-            with open_client(config.name, WallClock(), endpoint) as bus:
+            with open_client(config.name, WallClock(), endpoint, PATIENCE_S) as bus:
                 healths = bus.subscribe(HEALTH)
-                while (received := healths.receive(30.0)) is not None and received.message().tick < 100:
+                while (received := healths.receive(PATIENCE_S)) is not None and received.message().tick < 100:
                     pass
                 busy, began = cpu_seconds(recorder.pid), time.perf_counter()
                 time.sleep(REALTIME_S)

@@ -6,11 +6,12 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from mcap.writer import CompressionType, Writer
+from mcap.writer import CompressionType
 from mcap.writer import IndexType as Index
 
 from recordings.container import ChannelRecord
 from recordings.environment import library
+from recordings.lean_writer import LeanWriter
 from recordings.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
 from recordings.sequences import KeyLedger
 from recordings.sketch import Sketch
@@ -31,7 +32,7 @@ class CopyWriter:
             self._file = self._part.open("wb")
         except OSError as error:
             raise TouchlineError(f"{path}: {error.strerror}; give a path that can be written") from None
-        self._mcap = Writer(
+        self._mcap = LeanWriter(
             self._file,
             chunk_size=CHUNK_BYTES,
             compression=CompressionType.ZSTD,

@@ -1,13 +1,21 @@
 """What robots and coaches sent, out of what the host handed on: each message as it came from its own sender."""
 
+from functools import lru_cache
+
 from schemas.bus.contract import Received, Stamp
 from schemas.intake import Intake
 from schemas.message import BadMessageError
-from schemas.topic import Party
+from schemas.topic import Party, Topic
 from schemas.topics import TOPICS
 
 _OTHERS = tuple(topic for topic in TOPICS.values() if topic.recorded and topic.writer is not Party.HOST)
 """The rows that are recorded and that others than the host write."""
+
+
+@lru_cache(1024)
+def _topic_of(key: str) -> Topic | None:
+    """The row that a key belongs to."""
+    return next((topic for topic in _OTHERS if topic.match(key) is not None), None)
 
 
 def received_of(intake: Received) -> list[Received]:
@@ -23,7 +31,7 @@ def received_of(intake: Received) -> list[Received]:
             payload = entry.payload
         except ValueError as error:
             raise BadMessageError(f"Intake: octets of {entry.key}: {error}") from None
-        topic = next((topic for topic in _OTHERS if topic.match(entry.key) is not None), None)
+        topic = _topic_of(entry.key)
         if topic is None:
             continue
         stamp = Stamp(entry.sequence, entry.sent_ns, entry.sim_ns) if entry.sequence is not None else None

@@ -11,13 +11,14 @@ from pathlib import Path
 from queue import Empty, Queue
 from threading import Thread
 
-from mcap.writer import CompressionType, Writer
+from mcap.writer import CompressionType
 from mcap.writer import IndexType as Index
 from pydantic_core import to_json
 
 from recordings.cast import Cast
 from recordings.environment import library
 from recordings.json_schema import flat_schema
+from recordings.lean_writer import LeanWriter
 from recordings.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
 from recordings.sketch import Sketch
 from recordings.standing import Logged
@@ -66,7 +67,7 @@ class RecordingWriter:
             self._file = self.part.open("wb")
         except OSError as error:
             raise TouchlineError(f"{path}: {error.strerror}; give a path that can be written") from None
-        self._mcap = Writer(
+        self._mcap = LeanWriter(
             self._file,
             chunk_size=CHUNK_BYTES,
             compression=CompressionType.ZSTD,

@@ -1,0 +1,43 @@
+"""The lean writer writes what the stock writer writes, byte for byte."""
+
+import random
+from io import BytesIO
+
+import pytest
+from mcap.writer import CompressionType, IndexType, Writer
+
+from recordings.lean_writer import LeanWriter
+
+
+def written(kind: type[Writer], times: list[int], chunk_size: int) -> bytes:
+    """A file with messages of these log times on three channels, a flush, an attachment and metadata between them."""
+    out = BytesIO()
+    writer = kind(
+        out,
+        chunk_size=chunk_size,
+        compression=CompressionType.ZSTD,
+        index_types=IndexType.ALL,
+        enable_data_crcs=True,
+    )
+    writer.start(profile="", library="test")
+    schema = writer.register_schema("name", "jsonschema", b"{}")
+    channels = [writer.register_channel(key, "json", schema, {"key": key}) for key in ("a", "b", "c")]
+    rng = random.Random(3)
+    for number, log_ns in enumerate(times):
+        writer.add_message(rng.choice(channels), log_ns, rng.randbytes(rng.randrange(300)), log_ns + 7, number)
+        if number == len(times) // 2:
+            writer.flush()
+            writer.add_metadata("between", {"a": "b"})
+            writer.add_attachment(1, 2, "between", "text/plain", b"content")
+    writer.finish()
+    return out.getvalue()
+
+
+@pytest.mark.parametrize("chunk_size", [100, 4096, 1 << 20])
+@pytest.mark.parametrize(
+    "times",
+    [list(range(0, 500_000, 1000)), [2**63] * 50, random.Random(5).sample(range(10**12), 400), [5], []],
+    ids=["in order", "at once and late", "in no order", "one", "none"],
+)
+def test_the_bytes_are_those_of_the_stock_writer(times, chunk_size):
+    assert written(LeanWriter, times, chunk_size) == written(Writer, times, chunk_size)
