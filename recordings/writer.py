@@ -22,6 +22,7 @@ from recordings.lean_writer import LeanWriter
 from recordings.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
 from recordings.sketch import Sketch
 from recordings.standing import Logged
+from recordings.viz.drawing import READS
 from schemas.bus.contract import Received
 from schemas.clock import Clock
 from schemas.errors import TouchlineError
@@ -182,7 +183,7 @@ class RecordingWriter:
                 add(channel, log_ns, received.payload, self._clock.unix_ns())
             else:
                 add(channel, log_ns, received.payload, stamp.sent_ns, stamp.sequence & _SEQUENCES)
-            if sketch is not None:
+            if sketch is not None and received.key in READS:
                 sketch.follow(received, log_ns)
 
     def _open_channel(self, received: Received) -> int:

@@ -8,7 +8,7 @@ from pydantic_core import from_json
 from recordings.viz.field import field_entities, obstacle_entity
 from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE
 from recordings.viz.game import board, log_entry
-from recordings.viz.primitives import Values, scene
+from recordings.viz.primitives import Values, body, scene
 from recordings.viz.robots import Player, ball_entities, robot_entity
 from recordings.viz.transforms import Transforms
 from schemas.bus.contract import Received
@@ -33,6 +33,8 @@ TF_STEP_NS = 19_000_000
 """Least simulated time between two transforms: every tick of 20 ms or more, 50 Hz of shorter ones."""
 REPEAT_NS = 5_000_000_000
 """Simulated time after which what stands still is drawn again, for those who begin to look in the middle."""
+READS = frozenset({WORLD.key, STATE.key, EVENT.key, APPLIED.key})
+"""Keys of the messages that it is made of."""
 _ROSTER = b'"robots":['
 _NO_MESSAGE = (BadMessageError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 """What comes of payloads that are no message: nothing is drawn of these."""
@@ -45,6 +47,17 @@ class Drawn(NamedTuple):
     payload: bytes
 
 
+class _Scene(NamedTuple):
+    """What stands still, as it was drawn."""
+
+    look: Any
+    """What decides how it looks."""
+    bodies: dict[str, bytes]
+    """Entity → its bytes."""
+    gone: list[str]
+    """What was there before, and is not any more."""
+
+
 class Drawing:
     """What viewers see of a match so far."""
 
@@ -53,10 +66,8 @@ class Drawing:
         self._transforms = Transforms()
         self._tf_ns: int | None = None
         self._drawn_ns: int | None = None
-        self._looks: dict[str, Any] = {}
-        """Topic → how it looked when it was drawn last."""
-        self._seen: dict[str, dict[str, None]] = {}
-        """Topic → what was ever there."""
+        self._scenes: dict[str, _Scene] = {}
+        """Topic → what was drawn there last."""
         self._cast = {
             robot: Player(robot, side, team.types.get(robot, STANDARD), team.goalkeeper and robot == team.robots[0])
             for side, team in setup.teams.items()
@@ -85,27 +96,29 @@ class Drawing:
         if self._tf_ns is None or log_ns - self._tf_ns >= TF_STEP_NS:
             out.append(Drawn(TF, self._transforms.encode(world, log_ns)))
             self._tf_ns = log_ns
-        if self._drawn_ns is None or log_ns - self._drawn_ns >= REPEAT_NS:
-            self._looks.clear()
+        again = self._drawn_ns is None or log_ns - self._drawn_ns >= REPEAT_NS
+        if again:
             self._drawn_ns = log_ns
-        return out + self._still(world, log_ns)
+        return out + self._still(world, log_ns, again=again)
 
-    def _still(self, world: dict[str, Any], log_ns: int) -> list[Drawn]:
-        """What moves with its frame alone, where it looks otherwise than before."""
+    def _still(self, world: dict[str, Any], log_ns: int, *, again: bool) -> list[Drawn]:
+        """What moves with its frame alone, where it looks otherwise than before, or is to be said again.
+
+        A scene needs none before it: what was there once and is gone is taken away each time.
+        """
         out = []
         for topic, (look_of, entities_of) in _STILL.items():
-            look = look_of(world)
-            if topic not in self._looks or self._looks[topic] != look:
-                out.append(Drawn(topic, self._whole(topic, entities_of(self, look), log_ns)))
-                self._looks[topic] = look
+            look, still = look_of(world), self._scenes.get(topic)
+            if still is None or still.look != look:
+                bodies = {entity["id"]: body(entity) for entity in entities_of(self, look)}
+                gone = (
+                    [name for name in (*still.bodies, *still.gone) if name not in bodies] if still is not None else []
+                )
+                still = self._scenes[topic] = _Scene(look, bodies, gone)
+            elif not again:
+                continue
+            out.append(Drawn(topic, scene(log_ns, still.bodies.values(), still.gone)))
         return out
-
-    def _whole(self, topic: str, entities: list[Values], log_ns: int) -> bytes:
-        """A scene that needs none before it: what was there once and is gone is taken away each time."""
-        now = dict.fromkeys(entity["id"] for entity in entities)
-        seen = self._seen.setdefault(topic, {})
-        seen.update(now)
-        return scene(log_ns, entities, [name for name in seen if name not in now])
 
     def _field(self, obstacles: dict[str, Any]) -> list[Values]:
         bodies = [obstacle_entity(name, ObstacleTruth.model_validate(one)) for name, one in obstacles.items()]
@@ -135,7 +148,8 @@ class Drawing:
             applied: Applied = received.message()
             for one in applied.robots or ():
                 self._cast[one.name] = Player(one.name, one.side, one.type, one.keeper)
-            self._looks.pop(ROBOTS, None)
+            if ROBOTS in self._scenes:
+                self._scenes[ROBOTS] = self._scenes[ROBOTS]._replace(look=None)
         return []
 
 

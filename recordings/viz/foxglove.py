@@ -120,6 +120,7 @@ _ENUMS: dict[str, tuple[str, ...]] = {
 """Enumeration → its members, numbered from 0."""
 FRAME_TRANSFORMS, SCENE_UPDATE, LOG = "foxglove.FrameTransforms", "foxglove.SceneUpdate", "foxglove.Log"
 """The messages that channels carry."""
+SCENE_ENTITY = "foxglove.SceneEntity"
 
 
 class _Type(IntEnum):

@@ -2,7 +2,7 @@
 
 from recordings.viz.colours import INK, WORDS
 from recordings.viz.foxglove import LOG, encode, stamp
-from recordings.viz.primitives import Values, entity, scene, text
+from recordings.viz.primitives import Values, body, entity, scene, text
 from recordings.viz.transforms import MAP
 from schemas.game import EventKind, GameEvent, GameState
 from schemas.host import Setup
@@ -36,7 +36,7 @@ def board(state: GameState, setup: Setup, log_ns: int) -> bytes:
         attacks = state.cyan_attacks if side is Side.CYAN else -state.cyan_attacks
         x = -attacks * setup.pitch.length / 4
         texts.append(text((x, y + _ROWS, z + _ROWS), setup.teams[side].name, _LARGE, WORDS[side]))
-    return scene(log_ns, [entity("board", MAP, texts=texts)])
+    return scene(log_ns, [body(entity("board", MAP, texts=texts))])
 
 
 def log_entry(event: GameEvent, log_ns: int) -> bytes:

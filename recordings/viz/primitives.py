@@ -1,11 +1,12 @@
 """Shapes of a scene as `foxglove.*` has them, in m of the frame of their entity; and the entities they belong to."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
+from recordings.exchange.protobuf.wire import content
 from recordings.viz.colours import Colour
-from recordings.viz.foxglove import SCENE_UPDATE, encode, stamp
+from recordings.viz.foxglove import SCENE_ENTITY, SCENE_UPDATE, encode, stamp
 
 Values = dict[str, Any]
 """Fields of a message."""
@@ -64,11 +65,17 @@ def entity(name: str, frame: str, *, facts: Values | None = None, **shapes: Sequ
     return {"frame_id": frame, "id": name, "frame_locked": True, "metadata": pairs, **shapes}
 
 
-def scene(log_ns: int, entities: Sequence[Values], gone: Sequence[str] = ()) -> bytes:
+def body(entity: Values) -> bytes:
+    """The bytes of an entity but for its time, to be written again and again."""
+    return encode(SCENE_ENTITY, entity)
+
+
+def scene(log_ns: int, bodies: Iterable[bytes], gone: Iterable[str] = ()) -> bytes:
     """A `foxglove.SceneUpdate`: these entities, in place of what they were, and without those that are gone."""
     now = stamp(log_ns)
     deletions = [{"timestamp": now, "type": "MATCHING_ID", "id": name} for name in gone]
-    return encode(SCENE_UPDATE, {"deletions": deletions, "entities": [{**one, "timestamp": now} for one in entities]})
+    time = content(1, now)
+    return encode(SCENE_UPDATE, {"deletions": deletions, "entities": [time + body for body in bodies]})
 
 
 def _vector(place: Place) -> Values:

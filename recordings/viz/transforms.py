@@ -16,13 +16,12 @@ MAP = "map"
 BALL = "ball"
 BALL_SHADOW = "ball/ground"
 """On the ground below the ball."""
-STEP_M = 2.0**-14
+_PER_M = 2.0**14
+STEP_M = 1 / _PER_M
 """Places are written in steps of 0.06 mm, and turns as finely: numbers of a few digits pack well."""
 
 _PLACE_AND_TURN = struct.Struct("<BBBdBdBdBBBdBd")
 """Fields 4, translation, and 5, rotation about z, of a transform with their tags and lengths."""
-_LENGTH = _PLACE_AND_TURN.size
-_EACH = tag(1, BYTES)
 
 
 def base(robot: str) -> str:
@@ -34,7 +33,8 @@ class Transforms:
     """Writes the transforms of one match."""
 
     def __init__(self) -> None:
-        self._names: dict[str, bytes] = {}
+        self._begins: dict[tuple[str, int], tuple[bytes, bytes]] = {}
+        """Frame and length of the stamp → what stands before the stamp of a transform, and behind it."""
 
     def encode(self, world: Mapping[str, Any], log_ns: int) -> bytes:
         """The transforms of a `World` in plain values.
@@ -43,24 +43,25 @@ class Transforms:
             KeyError, TypeError, ValueError, OverflowError: it is none.
         """
         now = content(1, stamp(log_ns))
-        out: list[bytes] = []
-        for name, robot in world["robots"].items():
+        robots, ball = world["robots"], world["ball"]
+        numbers: list[float] = []
+        for robot in robots.values():
             half = robot["heading"] / 2
-            self._add(out, now, base(name), robot["x"], robot["y"], robot["z"], math.sin(half), math.cos(half))
-        ball = world["ball"]
-        self._add(out, now, BALL, ball["x"], ball["y"], ball["z"], 0.0, 1.0)
-        self._add(out, now, BALL_SHADOW, ball["x"], ball["y"], 0.0, 0.0, 1.0)
+            numbers += (robot["x"], robot["y"], robot["z"], math.sin(half), math.cos(half))
+        numbers += (ball["x"], ball["y"], ball["z"], 0.0, 1.0)
+        numbers += (ball["x"], ball["y"], 0.0, 0.0, 1.0)
+        rounded = iter([round(number * _PER_M) * STEP_M for number in numbers])
+        begins, length = self._begins, len(now)
+        out: list[bytes] = []
+        places = zip(rounded, rounded, rounded, rounded, rounded, strict=True)
+        for frame, (x, y, z, sine, cosine) in zip([*map(base, robots), BALL, BALL_SHADOW], places, strict=True):
+            begin = begins.get((frame, length)) or self._begin(frame, length)
+            turn = _PLACE_AND_TURN.pack(0x22, 27, 0x09, x, 0x11, y, 0x19, z, 0x2A, 18, 0x19, sine, 0x21, cosine)
+            out += (begin[0], now, begin[1], turn)
         return b"".join(out)
 
-    def _add(self, out: list[bytes], now: bytes, child: str, *numbers: float) -> None:
-        names = self._names.get(child)
-        if names is None:
-            names = self._names[child] = content(2, MAP) + content(3, child)
-        x, y, z, sine, cosine = [round(number / STEP_M) * STEP_M for number in numbers]
-        out += (
-            _EACH,
-            varint(len(now) + len(names) + _LENGTH),
-            now,
-            names,
-            _PLACE_AND_TURN.pack(0x22, 27, 0x09, x, 0x11, y, 0x19, z, 0x2A, 18, 0x19, sine, 0x21, cosine),
-        )
+    def _begin(self, frame: str, length: int) -> tuple[bytes, bytes]:
+        names = content(2, MAP) + content(3, frame)
+        whole = length + len(names) + _PLACE_AND_TURN.size
+        begin = self._begins[frame, length] = tag(1, BYTES) + varint(whole), names
+        return begin
