@@ -16,7 +16,7 @@ from schemas.errors import TouchlineError
 from schemas.match_config import MatchConfig, load_match
 from schemas.profile import load_profile
 from schemas.robot_model import models_of
-from schemas.rule_book import load_rule_book
+from schemas.rule_book import SHIPPED, load_rule_book
 from schemas.side import Side
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ Scene = Annotated[str | None, typer.Option(help="Start in this scene, by name or
 Profile = Annotated[
     str | None, typer.Option(help="Field, bodies and limits: msl, omni, omni3, paper, or the path of a file.")
 ]
-Rules = Annotated[str | None, typer.Option(help="Rule book: friendly, msl or paper.")]
+Rules = Annotated[str | None, typer.Option(help=f"Rule book: {', '.join(SHIPPED)}.")]
 Referee = Annotated[
     str | None, typer.Option(help="Who decides: automatic, manual, or mixed: it proposes, people may overrule it.")
 ]

@@ -57,14 +57,16 @@ def stand(
 ) -> Drive:
     """Go to a place and face the spot, around everybody and around the circle that the rules draw.
 
-    In play the spot is where the ball is: who does not play it runs into neither it nor the way of who does.
+    In play the spot is where the ball is: who does not play it runs into neither it nor the way of who does. Before a
+    kick-off, START waits for who is in the other half: he comes home past the ball, through the circle.
     """
     radius = setup.robot.reach
     x, y = legal_place(*place, game, spot, setup)
     facing = math.atan2(spot[1] - me.y, spot[0] - me.x)
     blocked = circles(others, 2.0 * radius + 0.1)
     asked = asked_distance(game.phase, setup.restarts)
-    if asked == 0.0:
+    goes_home = game.phase in KICK_OFFS and not game.running and me.x > 0.0
+    if asked == 0.0 or goes_home:
         blocked.append(Circle(*spot, radius + setup.ball.radius + ASIDE))
         return go_around(me, x, y, facing, blocked, limits)
     forbidden = asked + radius + 0.5 * MARGIN

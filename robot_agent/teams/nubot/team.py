@@ -44,6 +44,8 @@ _RESTART_SPEED = 3.0
 """m/s at most; of the ball kicked at a restart."""
 _KICK_OFF_TO = (0.2, -1.0)
 """m; a kick-off goes softly to the side, and the taker after it."""
+_KICK_OFF_ROLLS = 2.5
+"""m that it rolls, if nobody takes it before."""
 _RESTART_ERROR = 0.4
 """m; how far beside the target it may pass."""
 PLAYS, HOLDS, KEEPS = "plays the ball", "holds its place", "keeper"
@@ -194,6 +196,8 @@ class NuBot(Player):
             motion = step_in(scene.me, ball.now[:2], target, self.setup, self.limits)
             return Action(PLAYS, "step in", motion, dribble=True)
         mode, speed = KickMode.GROUND, min(pass_speed(math.dist(spot, target), self.setup), _RESTART_SPEED)
+        if scene.game.phase is TeamPhase.OUR_KICK_OFF:
+            speed = math.sqrt(2.0 * self.setup.ball.rolling_deceleration * _KICK_OFF_ROLLS)
         if scene.game.phase is TeamPhase.OUR_PENALTY:
             mode, speed = KICK.mode, KICK.speed
         motion, kick = kick_at(scene.me, target, speed, _RESTART_ERROR, self.limits, mode)
