@@ -11,6 +11,7 @@ import typer
 from arena import options
 from arena.bridge_words import NO_BRIDGES, BridgeWords
 from arena.bundle import unbundled
+from arena.record_words import RecordWords
 from coach_gateway.web.settings import DEFAULT_PORT, LOOPBACK
 
 if TYPE_CHECKING:
@@ -26,14 +27,6 @@ def match(
         Path | None, typer.Option(help="Where the recording goes; by default into the run's folder.")
     ] = None,
     no_record: Annotated[bool, typer.Option("--no-record", help="Leave no recording.")] = False,
-    sights: options.Sights = False,
-    include: options.Include = None,
-    exclude: options.Exclude = None,
-    split_size: options.SplitSize = None,
-    split_duration: options.SplitDuration = None,
-    keep: options.Keep = None,
-    snapshot: options.Snapshot = None,
-    no_viz: options.NoViz = False,
     ghost: Annotated[
         list[str] | None, typer.Option(help="A side played by its recorded commands: magenta=RECORDING.mcap.")
     ] = None,
@@ -42,6 +35,8 @@ def match(
     listen_web: options.ListenWeb = LOOPBACK,
     bridges: BridgeWords = NO_BRIDGES,
     json: options.Json = False,
+    *,
+    recording: RecordWords,
 ) -> None:
     """Play a match: launch host, recorder and robots, show it, and leave a recording and a result.
 
@@ -66,14 +61,7 @@ def match(
         words = replace(words, referee="manual")  # the league's box decides
     config = words.read(
         **{f"teams__{side}": team for side, team in teams.items()},
-        record__sights=sights or None,
-        record__include=include or None,
-        record__exclude=exclude or None,
-        record__split_size=split_size,
-        record__split_duration=split_duration,
-        record__keep=keep,
-        record__snapshot=snapshot,
-        record__viz=False if no_viz else None,
+        **recording.flags(),
         record__wait=not no_record,
     )
     check(config, ghost or ())

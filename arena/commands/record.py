@@ -6,21 +6,17 @@ from typing import Annotated
 import typer
 
 from arena import options
+from arena.bundle import unbundled
+from arena.record_words import RecordWords
 
 
+@unbundled
 def record(
     out: Annotated[Path, typer.Option(help="The file, *.mcap.")],
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
     name: Annotated[str, typer.Option(help="What this recorder is called; two of one match differ.")] = "recorder",
-    sights: options.Sights = False,
-    include: options.Include = None,
-    exclude: options.Exclude = None,
-    split_size: options.SplitSize = None,
-    split_duration: options.SplitDuration = None,
-    keep: options.Keep = None,
-    snapshot: options.Snapshot = None,
-    no_viz: options.NoViz = False,
+    *,
+    recording: RecordWords,
+    seat: options.Seat,
 ) -> None:
     """Record a match until its host leaves, or until Ctrl-C.
 
@@ -31,9 +27,5 @@ def record(
     """
     from recordings.__main__ import main
 
-    values = {"split-size": split_size, "split-duration": split_duration, "keep": keep, "snapshot": snapshot}
-    more = [word for word, wanted in (("--sights", sights), ("--no-viz", no_viz)) if wanted]
-    more += [f"--include={expression}" for expression in include or ()]
-    more += [f"--exclude={expression}" for expression in exclude or ()]
-    more += [f"--{word}={value}" for word, value in values.items() if value is not None]
-    raise typer.Exit(main(["--connect", connect, "--match", match, "--out", str(out), "--name", name, *more]))
+    place = ["--connect", seat.connect, "--match", seat.match, "--out", str(out), "--name", name]
+    raise typer.Exit(main([*place, *recording.arguments()]))
