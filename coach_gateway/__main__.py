@@ -68,7 +68,7 @@ def _page(settings: WebSettings, tokens: Tokens) -> Callable[[Bus], Service]:
     entrance = open_entrance(settings, tokens)
     for line in entrance.lines():
         say(line)
-    return lambda bus: WebServer(bus, entrance)
+    return lambda bus: WebServer(bus, entrance, say)
 
 
 def main(arguments: list[str] | None = None) -> int:

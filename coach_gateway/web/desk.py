@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from coach_gateway.gateway import Gateway
@@ -19,12 +20,15 @@ from coach_gateway.web.protocol import (
 from schemas.bus.contract import Bus, Publisher
 from schemas.coach import CoachOrder
 from schemas.errors import TouchlineError
+from schemas.game import ActionName
 from schemas.message import Message
 from schemas.topics import HAND
 
 SOURCES = {Role.REFEREE: "referee's page", Role.CYAN: "cyan's page", Role.MAGENTA: "magenta's page"}
 """How the match names who asked."""
 
+_THREADS = 4
+"""Questions of one role, or stops, that are on their way at once; further ones wait."""
 _SAID_ANYWAY = frozenset({"version", "accepted", "reason"})
 
 
@@ -36,17 +40,20 @@ class Desk:
         self._bus = bus
         self._hands: dict[str, Publisher] = {}
         self._numbering = asyncio.Lock()
+        self._threads = {role: ThreadPoolExecutor(_THREADS, thread_name_prefix=role.value) for role in Role}
+        self._stops = ThreadPoolExecutor(_THREADS, thread_name_prefix="stop")
 
     async def answer(self, role: Role, ask: Ask) -> Reply:
-        """Ask the match, and say what came of it."""
+        """Ask the match, and say what came of it; questions of one role wait for no other's, and a stop for none."""
         try:
             match ask:
                 case AskOrder():
                     async with self._numbering:  # of two orders the later one has the larger number
-                        order = await asyncio.to_thread(self._order, ask)
+                        order = await _in_thread(self._threads[role], lambda: self._order(ask))
                     return _accepted(ask, order)
                 case _:
-                    said = await asyncio.to_thread(self._question(role, ask))
+                    threads = self._stops if is_stop(ask) else self._threads[role]
+                    said = await _in_thread(threads, self._question(role, ask))
         except TouchlineError as error:
             return Reply(id=ask.id, accepted=False, reason=str(error))
         return Reply(id=ask.id, accepted=said.accepted, reason=said.reason, answer=_content(said))
@@ -78,6 +85,15 @@ class Desk:
     def _order(self, ask: AskOrder) -> CoachOrder:
         content = ask.order.model_dump(exclude={"version", "sequence"}, exclude_unset=True)
         return self.gateway.order(ask.side, **content)
+
+
+def is_stop(ask: Ask) -> bool:
+    """Whether the game is to be stopped."""
+    return isinstance(ask, AskAction) and ask.action.action is ActionName.STOP
+
+
+async def _in_thread(threads: ThreadPoolExecutor, ask: Callable[[], Any]) -> Any:
+    return await asyncio.get_running_loop().run_in_executor(threads, ask)
 
 
 def _accepted(ask: Ask, order: CoachOrder) -> Reply:

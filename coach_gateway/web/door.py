@@ -8,7 +8,7 @@ from pydantic_core import from_json
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from coach_gateway.web import access
-from coach_gateway.web.desk import Desk
+from coach_gateway.web.desk import Desk, is_stop
 from coach_gateway.web.origins import Origins
 from coach_gateway.web.pages import Page, Pages
 from coach_gateway.web.protocol import ASK, MAX_BYTES, Ask, AskDrive, AskToken, Refusal, Reply, Role
@@ -62,7 +62,10 @@ class Door:
         finally:
             for task in tasks:
                 task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
+            ends = await asyncio.gather(*tasks, return_exceptions=True)
+        for end in ends:
+            if isinstance(end, Exception) and not isinstance(end, WebSocketDisconnect):
+                raise end  # a fault of ours ends its own page, and stands in the log
         if page.farewell:
             await _part(socket, page.farewell, _POLICY)
 
@@ -118,22 +121,27 @@ class Door:
             page.note_wrong_token()
             _say(page, Reply(id=ask.id, accepted=False, reason=_NOBODY))
             return
-        if isinstance(ask, AskToken):
+        why = access.refusal(role, ask, self._stage.robots()) or self._stage.refusal(ask) or self._in_a_hurry(page, ask)
+        if why is not None:
+            _say(page, Reply(id=ask.id, accepted=False, reason=why))
+        elif isinstance(ask, AskToken):
             _say(page, Reply(id=ask.id, accepted=True))
             page.role = role
             self._stage.welcome(page)
-            return
-        why = access.refusal(role, ask, self._stage.robots()) or self._stage.refusal(ask)
-        if why is None and len(page.asks) >= _ASKS_AT_ONCE and not isinstance(ask, AskDrive):
-            why = f"{_ASKS_AT_ONCE} questions of this page still wait for their answers"
-        if why is not None:
-            _say(page, Reply(id=ask.id, accepted=False, reason=why))
         elif isinstance(ask, AskDrive):
             self._desk.drive(ask)
         else:
             task = asyncio.create_task(self._answer(page, role, ask))
             page.asks.add(task)
             task.add_done_callback(page.asks.discard)
+
+    def _in_a_hurry(self, page: Page, ask: Ask) -> str | None:
+        """Why a page has to wait before it asks this; a stop never has to."""
+        if isinstance(ask, AskToken) and not page.welcomes.take(self._clock.now()):
+            return "this page has asked too often what its token is worth; wait a second"
+        if len(page.asks) >= _ASKS_AT_ONCE and not (isinstance(ask, AskToken | AskDrive) or is_stop(ask)):
+            return f"{_ASKS_AT_ONCE} questions of this page still wait for their answers"
+        return None
 
     async def _answer(self, page: Page, role: Role, ask: Ask) -> None:
         """Put a question to the match, and tell the page what came of it."""

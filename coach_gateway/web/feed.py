@@ -15,6 +15,7 @@ from schemas.host import Setup
 from schemas.message import BadMessageError
 from schemas.side import Side
 from schemas.topics import BELIEF, EVENT, HEALTH, STATE, WORLD
+from schemas.world import World
 
 _EVENTS_KEPT = 2000
 """Events of a match that a page is told of, the newest."""
@@ -39,6 +40,7 @@ class Feed:
         self._known: dict[str, str] = {}
         self._told: dict[str, None] = {}
         self._world: tuple[str, str] | None = None
+        self._cast: tuple[int | str, ...] | None = None
         self._beliefs: dict[Side, dict[str, str]] = {side: {} for side in Side}
         self.setup: Setup | None = None
         """How the match is set up, as whoever owns this has asked."""
@@ -47,7 +49,7 @@ class Feed:
         self.there = False
         """The host is there."""
         self.arrived = False
-        """A host has come, or another than before: whoever owns this asks it, and then says that it is no news."""
+        """A host has come, or others take part: whoever owns this asks it anew, and then says that it is no news."""
         self.moved = False
         """There is another frame than when this was last set back."""
         self.ordered = False
@@ -114,7 +116,9 @@ class Feed:
         return any(self._refboxes.values()) != before
 
     def _refbox(self) -> str:
-        return RefBoxNews(connected=any(self._refboxes.values())).model_dump_json()
+        there = [name for name, alive in self._refboxes.items() if alive]
+        team = Side(there[0]) if len(there) == 1 and there[0] in list(Side) else None
+        return RefBoxNews(connected=bool(there), team=team).model_dump_json()
 
     def _event(self, received: Received) -> list[str]:
         """What to say of an event; nothing of one that was told: a replay says again what has happened."""
@@ -130,6 +134,7 @@ class Feed:
         for received in _all(self._worlds):
             world = self._read(received)
             if world is not None:
+                self._watch_roster(world)
                 self._world = f'"tick":{world.tick},"time":{world.time!r}', received.payload.decode()
                 self.moved = True
         for received in _all(self._said):
@@ -138,6 +143,13 @@ class Feed:
             if belief is not None and side in self._beliefs:
                 robot = received.chunks["robot"]
                 self._beliefs[Side(side)][robot] = f'"{robot}":{received.payload.decode()}'
+
+    def _watch_roster(self, world: World) -> None:
+        """In a match, a scene or an operator may let others take part: then the host is asked again who does."""
+        cast: tuple[int | str, ...] = (world.episode, *world.robots)
+        if self.live and self._cast is not None and cast != self._cast:
+            self.arrived = True
+        self._cast = cast
 
     def _payloads(self, subscription: Subscription) -> list[str]:
         return [received.payload.decode() for received in _all(subscription) if self._read(received) is not None]
@@ -161,7 +173,7 @@ class Feed:
         self._numbers.clear()
         self._known.clear()
         self._told.clear()
-        self._world = self.setup = None
+        self._world = self._cast = self.setup = None
         for words in self._beliefs.values():
             words.clear()
         self._orders.book.forget()

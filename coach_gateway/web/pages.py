@@ -12,10 +12,21 @@ MESSAGES_PER_S = 100.0
 """What a page may say; one that drives a robot says 20."""
 MESSAGES_AT_ONCE = 200.0
 STUCK_S = 5.0
-"""Wall time after which a page that does not read is dropped."""
+"""Wall time in s after which a page that does not read is dropped."""
 _FORBEARANCE = 500
 """Messages that could not be read or were too many, after which a page is sent away."""
 _WRONG_TOKENS = 20
+
+
+_FAULTS = {
+    "foreign": "pages from elsewhere",
+    "full": "pages without room",
+    "bad": "messages that could not be read",
+    "too much": "messages too many",
+    "wrong token": "uses of a token that is nobody's",
+    "stuck": "pages that did not read",
+}
+"""What may go wrong with pages, by kind, in words."""
 
 
 class Page:
@@ -28,6 +39,8 @@ class Page:
         self.allowance = Allowance(MESSAGES_PER_S, MESSAGES_AT_ONCE, now)
         self.scolding = Allowance(1.0, 5.0, now)
         """How often it is told that it says too much."""
+        self.welcomes = Allowance(1.0, 5.0, now)
+        """How often it is welcomed anew because it asks: a welcome brings the whole past with it."""
         self.asks: set[asyncio.Task[None]] = set()
         """What it has asked and not yet been answered."""
         self.sending_since: float | None = None
@@ -70,6 +83,10 @@ class Pages:
         self._open: dict[Page, None] = {}
         self.counts: Counter[str] = Counter()
         """What went wrong, by kind."""
+
+    def account(self) -> str:
+        """What went wrong, in words; empty where nothing did."""
+        return ", ".join(f"{self.counts[kind]} {words}" for kind, words in _FAULTS.items() if self.counts[kind])
 
     def __len__(self) -> int:
         return len(self._open)

@@ -129,6 +129,8 @@ class RefBoxNews(Part):
 
     kind: Literal["refbox"] = "refbox"
     connected: bool
+    team: Side | None = None
+    """As whose base station we are connected; nothing where that is both, or not known."""
 
 
 class Reply(Part):

@@ -3,7 +3,7 @@
 import asyncio
 import contextlib
 import logging
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import uvicorn
 
@@ -25,8 +25,8 @@ _PING_S = 10.0
 class WebServer:
     """Serves the page of one match."""
 
-    def __init__(self, bus: Bus, entrance: Entrance) -> None:
-        self._bus, self._entrance = bus, entrance
+    def __init__(self, bus: Bus, entrance: Entrance, say: Callable[[str], None]) -> None:
+        self._bus, self._entrance, self._say = bus, entrance, say
         settings = entrance.settings
         self.pages = Pages(settings.pages)
         desk = Desk(bus)
@@ -34,7 +34,7 @@ class WebServer:
         self._door = Door(self._stage, self.pages, desk, entrance.tokens, entrance.origins, bus.clock)
 
     async def serve(self, stop: asyncio.Event) -> None:
-        """Serve until `stop` is set; pages are told to come again later."""
+        """Serve until `stop` is set, then say what was refused; pages are told to come again later."""
         server = _Server(
             uvicorn.Config(
                 site(self._door),
@@ -64,6 +64,8 @@ class WebServer:
             stop.set()
             server.should_exit = True
             await asyncio.gather(serving, following, return_exceptions=True)
+        if account := self.pages.account():
+            self._say(f"refused: {account}")
         following.result()
         serving.result()
 

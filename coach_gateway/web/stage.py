@@ -142,7 +142,7 @@ class Stage:
                 self._pages.show(frame, role)
 
     async def _meet_hosts(self) -> None:
-        """Ask each host that comes how its match is set up, then welcome all pages anew."""
+        """Ask a host that comes, and one that lets others play, how its match is set up; welcome all pages anew."""
         while True:
             if self.feed.arrived:
                 self.feed.arrived = False

@@ -28,7 +28,7 @@ from schemas.game import ActionName, ActionReply, EventKind, GameEvent, GameStat
 from schemas.host import Belief, Health, Setup
 from schemas.match_config import load_match
 from schemas.message import Message
-from schemas.parameters import ParametersReply
+from schemas.parameters import ParametersReply, ParametersRequest
 from schemas.profile import load_profile
 from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
 from schemas.rule_book import load_rule_book
@@ -68,18 +68,25 @@ def world(tick: int) -> World:
 class FakeHost:
     """Plays a match of two against two as far as a page sees it; refuses every action but `stop`."""
 
-    def __init__(self, medium: Medium, rules: str = "friendly", recorded: list[GameEvent] | None = None) -> None:
-        """With `recorded` it is a replay of these events."""
+    def __init__(
+        self,
+        medium: Medium,
+        rules: str = "friendly",
+        recorded: list[GameEvent] | None = None,
+        slow: threading.Event | None = None,
+    ) -> None:
+        """With `recorded` it is a replay of these events; with `slow` parameters are told only when that is set."""
         self.bus: Bus = medium.seat("friendly", WallClock())
         self.asked: list[Any] = []
         self._rules = rules
         self._recorded = recorded
+        self._slow = slow
         self._writers: dict[tuple[str, str], Any] = {}
         self.hands, self.orders = self.bus.subscribe(HAND), self.bus.subscribe(ORDER)
         answers: dict[Topic, Callable[[Any], Message]] = {
             SETUP: lambda _: self.setup(),
             ACTION: self._act,
-            PARAMETERS: lambda _: ParametersReply(accepted=True),
+            PARAMETERS: self._tell_parameters,
             SCENE: lambda _: SceneReply(accepted=True, episode=2),
         }
         if recorded is not None:
@@ -131,6 +138,11 @@ class FakeHost:
             self.asked.append(message)
             question.answer(answer(message))
 
+    def _tell_parameters(self, request: ParametersRequest) -> ParametersReply:
+        if self._slow is not None:
+            self._slow.wait(SOON)
+        return ParametersReply(accepted=True)
+
     def _act(self, action: RefereeAction) -> ActionReply:
         accepted = action.action in (ActionName.STOP, ActionName.REPAIR)
         return ActionReply(accepted=accepted, reason="" if accepted else "play is running")
@@ -144,6 +156,7 @@ class Gateway:
     """The page's server in a thread of its own."""
 
     def __init__(self, medium: Medium, settings: WebSettings) -> None:
+        self.said: list[str] = []
         self.entrance = open_entrance(settings, tokens_of(settings.tokens))
         self.origin = self.entrance.origin
         self.bus = medium.seat("friendly", WallClock())
@@ -158,7 +171,7 @@ class Gateway:
     def _run(self) -> None:
         async def main() -> None:
             self._loop = asyncio.get_running_loop()
-            self.server = WebServer(self.bus, self.entrance)
+            self.server = WebServer(self.bus, self.entrance, self.said.append)
             self._ready.set()
             await self.server.serve(self._stop)
 

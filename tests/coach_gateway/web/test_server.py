@@ -1,6 +1,7 @@
 """The page's server over real sockets: what pages are told, and that no page can harm another or the match."""
 
 import socket
+import threading
 import time
 from collections.abc import Callable
 from typing import Any
@@ -14,7 +15,7 @@ from schemas.game import ActionName
 from schemas.scene import shipped_scenes
 from schemas.side import Side
 from schemas.topics import WORLD
-from schemas.world import ObstacleTruth
+from schemas.world import ObstacleTruth, RobotTruth
 
 from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, event, wait_for, world
 
@@ -249,6 +250,22 @@ def test_garbage_is_answered_and_the_page_goes_on(visit: Visit) -> None:
     assert page.ask("token")["accepted"]
 
 
+def test_what_was_refused_is_counted_and_said_at_the_end(host: FakeHost, gateway_of: Callable[..., Gateway]) -> None:
+    gateway = gateway_of()
+    page = Visitor(gateway.origin)
+    for rubbish in ("{", "[]", b"x"):
+        page.send(rubbish)
+        page.hear("reply")
+    page.ask("token", token="nobody's")
+    with pytest.raises(InvalidStatus):
+        Visitor(gateway.origin, claims="http://evil.example")
+    page.close()
+    gateway.close()
+    assert gateway.said == [
+        "refused: 1 pages from elsewhere, 3 messages that could not be read, 1 uses of a token that is nobody's"
+    ]
+
+
 def test_a_broken_message_is_answered_under_its_number_where_it_has_one(visit: Visit) -> None:
     page = visit()
     page.send({"id": 77, "deed": "unknown"})
@@ -377,6 +394,48 @@ def test_a_host_that_goes_is_seen_to_go_and_one_that_comes_is_welcomed_without_t
     late.close()
 
 
+def test_a_scene_with_other_robots_welcomes_all_pages_anew(visit: Visit, host: FakeHost) -> None:
+    page = visit()
+    standing = RobotTruth(x=0, y=0, z=0, heading=0, vx=0, vy=0, omega=0, holding=False)
+    host.play(1)
+    page.hear("frame", tick=1)
+    host.put(WORLD, world(2).model_copy(update={"robots": {"cyan1": standing}}))
+    assert page.hear("welcome")["setup"]["match"] == "friendly"
+    host.put(WORLD, world(3).model_copy(update={"robots": {"cyan1": standing}, "episode": 2}))
+    page.hear("welcome")
+
+
+def test_a_page_that_asks_for_one_welcome_after_another_has_to_wait(visit: Visit) -> None:
+    page = visit()
+    replies = [page.ask("token") for _ in range(10)]
+    assert [reply["accepted"] for reply in replies[:5]] == [True] * 5
+    assert "wait a second" in next(reply["reason"] for reply in replies if not reply["accepted"])
+
+
+def test_questions_that_wait_hold_up_neither_a_stop_nor_another_role(
+    host_of: Callable[..., FakeHost], gateway_of: Callable[..., Gateway]
+) -> None:
+    slow = threading.Event()
+    host_of(slow=slow)
+    gateway = gateway_of()
+    coach, referee = Visitor(gateway.origin), Visitor(gateway.origin)
+    for page, role in ((coach, "cyan"), (referee, "referee")):
+        page.hear("welcome", live=True)
+        while page.hear("host")["there"] is False:
+            pass
+        page.enter(role)
+    for page in (coach, referee):
+        for _ in range(8):
+            page.say("parameters", request={"deed": "list"})
+        refused = page.ask("parameters", request={"deed": "list"})
+        assert refused["reason"] == "8 questions of this page still wait for their answers"
+    assert referee.ask("action", action={"action": "stop"})["accepted"]
+    assert not slow.is_set()
+    slow.set()
+    coach.close()
+    referee.close()
+
+
 def test_a_page_that_comes_before_any_host_waits_and_is_welcomed_again(
     host_of: Callable[..., FakeHost], gateway_of: Callable[..., Gateway]
 ) -> None:
@@ -437,9 +496,9 @@ def test_a_replay_tells_all_its_events_at_once_and_none_again(
 
 def test_a_referee_box_that_connects_is_told(visit: Visit, host: FakeHost, medium: Any) -> None:
     page = visit()
-    host.bus.declare_alive("refbox", "client")
-    page.hear("refbox", connected=True)
-    host.bus.withdraw_alive("refbox", "client")
+    host.bus.declare_alive("refbox", "cyan")
+    page.hear("refbox", connected=True, team="cyan")
+    host.bus.withdraw_alive("refbox", "cyan")
     page.hear("refbox", connected=False)
 
 
