@@ -112,16 +112,20 @@ def test_each_order_reaches_every_robot_of_the_side(served: Any, until: Any) -> 
     asyncio.run(play())
 
 
-def test_several_coaches_command_their_own_sides_at_the_same_time(served: Any, until: Any) -> None:
+def test_several_coaches_stop_each_its_own_side(served: Any, until: Any) -> None:
+    """Reference 14, defect 7: one coach's stop counted for both teams."""
+
     async def play() -> None:
         async with served(real=True) as (bench, _, come):
-            programs = {side: await come(side) for side in ("cyan", "magenta")}
-            for side, program in programs.items():
-                program.send("order", order={"tactic": f"of {side}"})
             brains = bench.stage.brains
-            await until(lambda: all(brain.orders for brain in brains.values()))
-            said = {robot: brain.orders[-1].tactic for robot, brain in brains.items()}
-            assert said == {"cyan1": "of cyan", "cyan2": "of cyan", "magenta1": "of magenta"}
+            cyan, magenta = await come("cyan"), await come("magenta")
+            magenta.send("match_mode", mode="stop")
+            await until(lambda: brains["magenta1"].orders)
+            assert [order.mode for order in brains["magenta1"].orders] == [CoachMode.HOLD]
+            assert brains["cyan1"].orders == []
+            cyan.send("match_mode", mode="stop")
+            await until(lambda: brains["cyan1"].orders and brains["cyan2"].orders)
+            assert len(brains["magenta1"].orders) == 1
 
     asyncio.run(play())
 
