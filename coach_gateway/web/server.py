@@ -25,7 +25,7 @@ _PING_S = 10.0
 class WebServer:
     """Serves the page of one match."""
 
-    def __init__(self, bus: Bus, entrance: Entrance, say: Callable[[str], None]) -> None:
+    def __init__(self, bus: Bus, entrance: Entrance, say: Callable[[str], None] = lambda _: None) -> None:
         self._bus, self._entrance, self._say = bus, entrance, say
         settings = entrance.settings
         self.pages = Pages(settings.pages)
