@@ -40,6 +40,8 @@ ARRIVING = 2.0
 """m/s of a pass when it arrives: slower than in play, where somebody is in the way."""
 PASS_ERROR, SHOT_ERROR = 0.1, 0.15
 """m beside the target."""
+LEAVES = 0.5
+"""s after a kick; a ball that is still held then was not kicked: the kick was refused, and is tried again."""
 LEFT = 1.0
 """m; a ball farther than this from who had it has left: word of where that is comes late, and the ball may swing."""
 _RADIUS = 1.0
@@ -82,7 +84,8 @@ class Progress(NamedTuple):
     """s at that end."""
     place: Place = (0.0, 0.0)
     """m; where the robot was when the order came."""
-    kicked: bool = False
+    kicked: float | None = None
+    """s since the kick; nothing before it."""
     passed: bool = False
     """The ball that is waited for has come, and is this robot's to get."""
 
@@ -97,6 +100,8 @@ def show(now: Moment, done: Progress) -> Shown:
     """What the order's test asks of this robot; a new order begins anew."""
     if done.order != now.order.sequence:
         done = Progress(now.order.sequence, place=now.scene.me[:2])
+    if done.kicked is not None:
+        done = done._replace(kicked=done.kicked + now.scene.dt)
     test = now.order.test
     if now.me == now.order.robot_a and test in ACTS:
         return ACTS[test](now, done)
@@ -193,7 +198,7 @@ def _await_ball(now: Moment, done: Progress, point: Place, angle: float | None, 
 def _ready_to_kick(now: Moment, done: Progress) -> Action | None:
     """What is to be done before the kick, or after it; nothing where the ball is in hand and at its point."""
     scene, point = now.scene, _point(now.order.point_a)
-    if done.kicked:
+    if done.kicked is not None and (done.kicked < LEAVES or not scene.holding):
         return Action(ROLE, "kicked", Drive())
     if not scene.holding:
         return _fetch(now)
@@ -205,7 +210,7 @@ def _ready_to_kick(now: Moment, done: Progress) -> Action | None:
 def _kick(now: Moment, done: Progress, target: Place, speed: float, error: float, mode: KickMode) -> Shown:
     motion, kick = kick_at(now.scene.me, target, speed, error, now.limits, mode)
     kick = kick if now.scene.kicker_ready else None
-    return Action(ROLE, "shoot", motion, dribble=True, kick=kick), done._replace(kicked=kick is not None)
+    return Action(ROLE, "shoot", motion, dribble=True, kick=kick), done._replace(kicked=0.0 if kick else None)
 
 
 def _bring(now: Moment, intention: str, point: Place, angle: float | None, *, with_ball: bool) -> Action:
