@@ -1,5 +1,6 @@
-"""A match seen closely: beside state, events and health, where everybody is and what robots say of themselves."""
+"""A match seen closely: state, events and health, where everybody is, what robots say, what they were ordered."""
 
+from coach_gateway.orders import OrderWatch
 from coach_gateway.view import MatchView
 from schemas.bus.contract import Bus
 from schemas.command import Radio
@@ -17,12 +18,14 @@ class Closeup:
         self.world: World | None = None
         self.words: dict[str, Radio] = {}
         """Robot → what it said last on the radio."""
+        self.orders = OrderWatch(bus)
         self._worlds = bus.subscribe(WORLD, newest=True)
         self._beliefs = bus.subscribe(BELIEF, newest=True)
 
     def update(self) -> None:
         """Take in what has come, without waiting; of the worlds since the last call the newest alone."""
         self.match.update()
+        self.orders.update()
         try:
             while (received := self._worlds.receive()) is not None:
                 self.world = received.message()

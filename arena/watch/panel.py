@@ -1,4 +1,4 @@
-"""What stands beside the pitch: score, every robot, what happened last, and how the host is doing."""
+"""What stands beside the pitch: score, every robot, orders, what happened last, and how the host is doing."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -9,7 +9,9 @@ from rich.text import Text
 from arena.status import losses_words, robots_words
 from arena.watch.pitch import SIDES, arrow
 from coach_gateway.lines import clock_words, event_line, half_words, phase_words
+from coach_gateway.orders import OrderBook
 from coach_gateway.view import MatchView
+from schemas.coach import CoachOrder
 from schemas.command import Radio
 from schemas.game import EventKind, GameState, Standing
 from schemas.host import Health, Setup
@@ -98,6 +100,28 @@ def _troubles(
         yield "silent" if health.tick > 0 else "missing"
     elif account.latency_ms is not None and account.latency_ms * 1e-3 >= tick:
         yield f"answers after {account.latency_ms:.0f} ms"
+
+
+def orders(book: OrderBook) -> list[Text]:
+    """One row for each order that stands: what it says, and who has not taken it in."""
+    rows = []
+    for side in Side:
+        standing = book.standing(side)
+        if standing is None:
+            continue
+        missing = book.receipt(side, standing.order.sequence).missing
+        row = Text.assemble((f" {side.value} ", SIDES[side]), f" {_said(standing.order)}")
+        if missing:
+            row.append(f"  not heard by {', '.join(missing)}", TROUBLE)
+        rows.append(row)
+    return rows
+
+
+def _said(order: CoachOrder) -> str:
+    """`hold`, `test pass, cyan2, cyan3`, `play: press`."""
+    words = [f"test {order.test.value}" if order.test is not None else order.mode.value]
+    words += [name for name in (order.robot_a, order.robot_b) if name is not None]
+    return ", ".join(words) + (f": {order.tactic}" if order.tactic else "")
 
 
 def events(view: MatchView, count: int) -> list[Text]:

@@ -20,6 +20,7 @@ def picture(seen: Closeup, setup: Setup, width: int, height: int) -> list[Text]:
     pitch_width = width - panel.WIDTH - 2 if is_beside else width
     room = max(1, height - 2 - LEAST_EVENTS)
     robots = panel.robots(setup, seen.world, seen.words, view.state, view.health)
+    robots += panel.orders(seen.orders.book)
     rows = field(setup, seen.world, view.state, pitch_width, min(room, rows_for(setup.pitch, pitch_width)))
     if is_beside:
         rows = _beside(rows, pitch_width, robots)[:room]

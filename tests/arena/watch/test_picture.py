@@ -7,13 +7,15 @@ from rich.console import Console
 from rich.text import Text
 
 from arena.commands.watch import watch_on
-from arena.watch.panel import robots
+from arena.watch.panel import orders, robots
 from arena.watch.picture import picture
 from arena.watch.pitch import ARROWS, SIDES, Scale, field
 from coach_gateway.closeup import Closeup
+from coach_gateway.orders import OrderBook
 from schemas.bus.contract import Bus
 from schemas.bus.in_process import Medium
 from schemas.clock import SteppedClock
+from schemas.coach import CoachMode, CoachOrder, CoachTest, StandingOrder
 from schemas.command import Radio
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, GameEvent, GameState, OffField, Phase, Point, Score, Standing
@@ -141,6 +143,19 @@ def test_what_keeps_a_robot_from_playing_stands_beside_it(setup: Setup) -> None:
     assert rows[2].endswith("repair 12 s, 1 yellow")
     assert rows[3].endswith("stuck")
     assert "●" in rows[4]
+
+
+def test_an_order_that_stands_is_shown_with_who_has_not_heard_it() -> None:
+    book = OrderBook()
+    assert orders(book) == []
+    told = CoachOrder(sequence=3, mode=CoachMode.TEST, test=CoachTest.PASS, robot_a="cyan2", robot_b="cyan3")
+    book.take(Side.CYAN, StandingOrder(tick=1, time=0.0, order=told, acknowledged={"cyan2": True, "cyan3": False}))
+    press = CoachOrder(sequence=4, tactic="press")
+    book.take(Side.MAGENTA, StandingOrder(tick=1, time=0.0, order=press, acknowledged={"magenta1": True}))
+    assert [row.plain for row in orders(book)] == [
+        " cyan  test pass, cyan2, cyan3  not heard by cyan3",
+        " magenta  play: press",
+    ]
 
 
 class HostOfTicks(SteppedClock):
