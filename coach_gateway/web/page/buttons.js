@@ -92,7 +92,7 @@ export class Buttons {
     if (!match.live) return "this is a recording";
     const deed = action ?? "order";
     const of = side ?? (robot && seat.robot ? match.sideOf(seat.robot) : null);
-    if (!match.may(deed, deed === action && match.role === "referee" ? null : of)) {
+    if (!match.may(deed, of)) {
       return match.role === "spectator" ? "spectators watch; a token lets you command" : `not for the coach of ${match.role}`;
     }
     if (!match.hostThere) return "the host is not there";

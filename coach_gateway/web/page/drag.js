@@ -17,6 +17,8 @@ export class Drag {
     canvas.addEventListener("pointermove", (event) => this.#move(event));
     canvas.addEventListener("pointerup", (event) => this.#up(event));
     canvas.addEventListener("pointercancel", () => this.cancel());
+    // A finger on a body drags it; beside all bodies it scrolls the page.
+    canvas.addEventListener("touchstart", (event) => this.#takesFinger(event) && event.preventDefault(), { passive: false });
     seat.on(() => this.#hint());
     stage.over.push((context, view) => this.#draw(context, view));
   }
@@ -48,6 +50,10 @@ export class Drag {
     const turned = heading ?? this.match.film.newest?.robots[body]?.heading ?? 0;
     const where = body === "ball" ? { body, x, y } : { body, x, y, heading: turned };
     return this.desk.ask(source, words, "scene", { request: { deed: "place", place: [where] } });
+  }
+
+  #takesFinger(event) {
+    return event.touches.length === 1 && (this.seat.picking !== null || this.#bodyAt(this.#at(event.touches[0])) !== null);
   }
 
   #at(event) {

@@ -41,7 +41,8 @@ export class Scoreboard {
   #notice() {
     const { match, line } = this;
     const words = [];
-    if (!line.up) words.push("The connection is broken; the page tries again by itself.");
+    if (line.sentAway) words.push(`The gateway let this page go: ${line.sentAway}. It tries again by itself.`);
+    else if (!line.up) words.push("The connection is broken; the page tries again by itself.");
     else if (match.setup === null) words.push("No host plays this match yet; the page waits for it.");
     else if (!match.hostThere) words.push(match.live ? "The host is gone; the page waits for it." : "The replay has ended.");
     if (match.refbox.connected) {

@@ -2,6 +2,7 @@
 
 const FIRST_WAIT_MS = 200;
 const LONGEST_WAIT_MS = 3000;
+const SENT_AWAY_MS = 5000;
 const ANSWER_MS = 8000; // the host answers between two ticks; later than this, nobody will
 
 export class Line {
@@ -17,6 +18,8 @@ export class Line {
   constructor(token, take, changed) {
     this.token = token;
     this.up = false;
+    /** Why the gateway closed the line, or nothing. */
+    this.sentAway = "";
     this.#take = take;
     this.#changed = changed;
     addEventListener("online", () => this.#open());
@@ -62,16 +65,22 @@ export class Line {
     const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws`);
     this.#socket = socket;
     socket.addEventListener("open", () => {
-      this.#wait = FIRST_WAIT_MS;
       this.up = true;
+      this.sentAway = "";
       this.#changed(true);
     });
     socket.addEventListener("message", (event) => {
       const message = JSON.parse(event.data);
       if (message.kind === "reply") this.#answer(message);
-      else this.#take(message);
+      else if (message.kind === "refusal") this.sentAway = message.reason;
+      else this.#hear(message);
     });
     socket.addEventListener("close", () => this.#closed());
+  }
+
+  #hear(message) {
+    this.#wait = FIRST_WAIT_MS; // the line is up, and somebody speaks
+    this.#take(message);
   }
 
   #closed() {
@@ -81,6 +90,7 @@ export class Line {
       this.#answer({ id, accepted: false, reason: "the connection to the gateway broke" });
     }
     this.#changed(false);
+    if (this.sentAway) this.#wait = SENT_AWAY_MS;
     this.#waiting = setTimeout(() => this.#open(), this.#wait);
     this.#wait = Math.min(1.6 * this.#wait, LONGEST_WAIT_MS);
   }

@@ -73,6 +73,7 @@ export class Stage {
     this.#trails.draw(context, view, match, layers.trails);
     if (layers.distances) drawDistances(context, view, match, world);
     if (layers.passes) drawPasses(context, view, match, world);
+    if (layers.beliefs !== "none") drawBeliefs(context, view, match, world, layers.beliefs);
     for (const [name, robot] of Object.entries(world.robots)) {
       if (layers.velocities) drawVelocity(context, view, robot, SIDES[match.sideOf(name)].line);
       drawRobot(context, view, match, name, robot, {
@@ -82,7 +83,6 @@ export class Stage {
       });
     }
     drawBall(context, view, world.ball, match.setup.ball.radius, layers.velocities);
-    if (layers.beliefs !== "none") drawBeliefs(context, view, match, world, layers.beliefs);
     if (seat.dragged) drawGhost(context, view, seat.dragged);
   }
 
