@@ -8,6 +8,8 @@ import { drawPitch } from "./pitch.js";
 import { Trails } from "./trails.js";
 import { View } from "./view.js";
 
+const ROOM_PX = 520; // a narrower field has room for the chosen robot's role alone
+
 export class Stage {
   view = new View();
   /** What is drawn now, or nothing. */
@@ -79,7 +81,7 @@ export class Stage {
       drawRobot(context, view, match, name, robot, {
         selected: name === seat.robot,
         holding: world.possession === name,
-        label: layers.roles ? match.wordOf(name)?.role : null,
+        label: layers.roles && (view.width >= ROOM_PX || name === seat.robot) ? match.wordOf(name)?.role : null,
       });
     }
     drawBall(context, view, world.ball, match.setup.ball.radius, layers.velocities);

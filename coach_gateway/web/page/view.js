@@ -1,10 +1,10 @@
 // From metres of the field to pixels of the canvas and back.
 
 export const SEEN_FROM = [
-  ["fixed", "as the field lies"],
-  ["turned", "from the other side"],
-  ["cyan", "cyan plays to the right"],
-  ["magenta", "magenta plays to the right"],
+  ["fixed", "as it lies"],
+  ["turned", "turned round"],
+  ["cyan", "cyan to the right"],
+  ["magenta", "magenta to the right"],
 ];
 const MARGIN_M = 1.0;
 
