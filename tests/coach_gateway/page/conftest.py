@@ -1,0 +1,322 @@
+"""A match in this process, the gateway's server on loopback before it, and real browsers that look at its page."""
+
+import asyncio
+import json
+import os
+import shutil
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Locator, Page, sync_playwright
+
+from coach_gateway.web.server import WebServer
+from coach_gateway.web.settings import WebSettings
+from recordings.account import Account
+from recordings.output import ONE_FILE
+from recordings.record import output_at
+from recordings.recorder import Recorder
+from recordings.replay.host import ReplayHost
+from recordings.replay.programme import Programme, Replay
+from robot_agent.contract import Briefing, load_brain
+from robot_agent.runner import Runner
+from schemas.bus.in_process import Medium
+from schemas.clock import WallClock
+from schemas.game import GameEvent, GameState
+from schemas.match_config import MatchConfig
+from schemas.side import Side
+from schemas.topics import EVENT
+from sim_host.host import Host
+
+SOON = 30.0
+"""s; more than anything takes here, so that only what never comes fails a test."""
+TOKENS = {"referee": "the-referee", "cyan": "cyans-coach", "magenta": "magentas-coach"}
+TEAMS = {
+    "cyan": {"name": "Blues", "brain": "robot_agent.teams.simple:Simple", "size": 2},
+    "magenta": {"name": "Reds", "brain": "robot_agent.teams.simple:Simple", "size": 2},
+}
+
+
+class Match:
+    """Host and robots, each side of the bus in a thread of its own; the host can go and come again."""
+
+    def __init__(self, **words: Any) -> None:
+        content = {"name": "friendly", "seed": 7, "pace": "realtime", "duration": 600.0, "teams": TEAMS, **words}
+        self.config = MatchConfig.model_validate(content)
+        self.medium = Medium()
+        self._over = threading.Event()
+        self._ear = self.medium.seat("friendly", WallClock()).subscribe(EVENT)
+        self._events: list[GameEvent] = []
+        self.start()
+        setup = self.host.simulation.setup()
+        self._runners = []
+        for side in Side:
+            for robot in self.config.robots(side):
+                bus = self.medium.seat("friendly", WallClock())
+                brain = load_brain(self.config.team(side).brain or "", Briefing.of(robot, setup))
+                self._runners.append(Runner(bus, brain, robot))
+                bus.declare_alive("agent", robot)
+        self._robots = threading.Thread(target=self._answer)
+        self._robots.start()
+
+    def start(self) -> None:
+        """A host begins the match."""
+        self._bus = self.medium.seat("friendly", WallClock())
+        self.host = Host(self.config, self._bus)
+        self._hosting = threading.Thread(target=self.host.run)
+        self._hosting.start()
+
+    def stop(self) -> None:
+        """The host goes."""
+        self.host.leave()
+        self._hosting.join(SOON)
+        self.host.simulation.close()
+        self._bus.close()
+
+    def wait_for_end(self) -> None:
+        """Until the match is over."""
+        self._hosting.join(SOON)
+
+    def close(self) -> None:
+        self.stop()
+        self._over.set()
+        self._robots.join(SOON)
+
+    def until(self, holds: Callable[[], Any]) -> None:
+        """Wait until something is true; it is looked at again and again."""
+        deadline = time.monotonic() + SOON
+        while not holds():
+            assert time.monotonic() < deadline, "it never came true"
+            time.sleep(0.01)
+
+    @property
+    def state(self) -> GameState:
+        now = self.host.simulation.now
+        state: GameState = self.host.simulation.state.game_state(now.tick, now.time, 1)
+        return state
+
+    @property
+    def world(self) -> dict[str, Any]:
+        world: dict[str, Any] = self.host.simulation.now.world
+        return world
+
+    @property
+    def events(self) -> list[GameEvent]:
+        """All that has happened so far."""
+        self._events += [received.message() for received in iter(self._ear.receive, None)]
+        return self._events
+
+    def where(self, robot: str) -> tuple[float, float]:
+        truth = self.world["robots"][robot]
+        return truth["x"], truth["y"]
+
+    def _answer(self) -> None:
+        while not self._over.is_set():
+            if not [runner for runner in self._runners if runner.answer_next(0.0)]:
+                time.sleep(0.002)
+
+
+class Gateway:
+    """The page's server in a thread of its own."""
+
+    def __init__(self, medium: Medium, folder: Path, port: int = 0) -> None:
+        tokens = folder / "tokens.json"
+        if not tokens.exists():
+            tokens.touch(0o600)
+            tokens.write_text(json.dumps(TOKENS))
+        self.bus = medium.seat("friendly", WallClock())
+        self._stop = asyncio.Event()
+        self._ready = threading.Event()
+        settings = WebSettings(port=port, tokens=tokens)
+        self._thread = threading.Thread(target=self._run, args=(settings,))
+        self._thread.start()
+        assert self._ready.wait(SOON)
+
+    def _run(self, settings: WebSettings) -> None:
+        async def main() -> None:
+            self._loop = asyncio.get_running_loop()
+            server = WebServer(self.bus, settings, lambda _: None)
+            self.origin = server.origin
+            self._ready.set()
+            await server.serve(self._stop)
+
+        asyncio.run(main())
+
+    @property
+    def port(self) -> int:
+        return int(self.origin.rpartition(":")[2])
+
+    def close(self) -> None:
+        self._loop.call_soon_threadsafe(self._stop.set)
+        self._thread.join(SOON)
+        self.bus.close()
+
+
+class Tab:
+    """The page in a browser, and what it complained of."""
+
+    def __init__(self, context: BrowserContext, origin: str, role: str = "spectator") -> None:
+        self.context = context
+        self.page: Page = context.new_page()
+        self.faults: list[str] = []
+        self.requests: list[str] = []
+        self.origin = origin
+        self.page.on("pageerror", lambda error: self.faults.append(str(error)))
+        self.page.on("console", lambda said: self.faults.append(said.text) if said.type == "error" else None)
+        self.page.on("dialog", lambda dialog: self.faults.append(dialog.message))
+        self.page.on("request", lambda request: self.requests.append(request.url))
+        self.page.goto(f"{origin}/#token={TOKENS[role]}" if role in TOKENS else f"{origin}/")
+        self.until(f"window.touchline?.match.role === '{role}' && window.touchline.stage.world !== null")
+
+    def until(self, holds: str) -> None:
+        """Wait for the page; its own rules let nobody evaluate a text in it, so it is asked from outside."""
+        deadline = time.monotonic() + SOON
+        while not self.page.evaluate(holds):
+            assert time.monotonic() < deadline, f"never came true: {holds}"
+            self.page.wait_for_timeout(20)
+
+    def ask(self, what: str) -> Any:
+        return self.page.evaluate(what)
+
+    def open(self, tab: str) -> None:
+        self.page.locator(f"#to-{tab}").click()
+
+    def button(self, action: str, side: str = "") -> Locator:
+        return self.page.locator(f'[data-action="{action}"][data-side="{side}"]')
+
+    def logged(self) -> str:
+        """The newest line of the log, without its time."""
+        line: str = self.page.locator("#log li").first.evaluate("(line) => line.lastChild.textContent.trim()")
+        return line
+
+    def wait_for_log(self, text: str) -> None:
+        """Until the newest line of the log has this text."""
+        self.until(f"document.querySelector('#log li')?.textContent.includes({json.dumps(text)})")
+
+    def at(self, x: float, y: float) -> tuple[float, float]:
+        """Where a point of the field is in the window, in pixels."""
+        left, top = self.ask(f"[window.touchline.stage.view.x({x}), window.touchline.stage.view.y({y})]")
+        box = self.page.locator("#moving").bounding_box()
+        assert box is not None
+        return box["x"] + left, box["y"] + top
+
+    def drag(self, start: tuple[float, float], end: tuple[float, float]) -> None:
+        """Drag from a point of the field to another."""
+        mouse = self.page.mouse
+        mouse.move(*self.at(*start))
+        mouse.down()
+        for share in (0.3, 0.7, 1.0):
+            mouse.move(*self.at(*(a + share * (b - a) for a, b in zip(start, end, strict=True))))
+        mouse.up()
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if chromium is None:
+        assert os.environ.get("TOUCHLINE_BROWSER") != "needed", "no Chromium where the tests of pages have to run"
+        pytest.skip("no Chromium; apt-get install chromium")
+    with sync_playwright() as playwright:
+        root = ["--no-sandbox"] if os.geteuid() == 0 else []
+        browser = playwright.chromium.launch(executable_path=chromium, args=root)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def match_of() -> Iterator[Callable[..., Match]]:
+    """Makes a match; the words are those of the match file."""
+    made: list[Match] = []
+
+    def make(**words: Any) -> Match:
+        made.append(Match(**words))
+        return made[-1]
+
+    yield make
+    for match in made:
+        match.close()
+
+
+@pytest.fixture
+def match(match_of: Callable[..., Match]) -> Match:
+    return match_of()
+
+
+@pytest.fixture
+def gateway_of(tmp_path: Path) -> Iterator[Callable[..., Gateway]]:
+    made: list[Gateway] = []
+
+    def make(medium: Medium, port: int = 0) -> Gateway:
+        made.append(Gateway(medium, tmp_path, port))
+        return made[-1]
+
+    yield make
+    for gateway in made:
+        gateway.close()
+
+
+@pytest.fixture
+def visit(browser: Browser, gateway_of: Callable[..., Gateway]) -> Iterator[Callable[..., Tab]]:
+    """Opens the page of a match in a window of its own; what it complained of fails the test."""
+    made: list[Tab] = []
+    served: dict[int, str] = {}
+
+    def open_tab(place: Any, role: str = "spectator", width: int = 1360, height: int = 900, **words: Any) -> Tab:
+        origin = place if isinstance(place, str) else served.get(id(place.medium))
+        if origin is None:
+            origin = served[id(place.medium)] = gateway_of(place.medium).origin
+        context = browser.new_context(viewport={"width": width, "height": height}, **words)
+        made.append(Tab(context, origin, role))
+        return made[-1]
+
+    yield open_tab
+    faults = [fault for tab in made for fault in tab.faults]
+    for tab in made:
+        tab.context.close()
+    assert faults == []
+
+
+@pytest.fixture(scope="session")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A recording of 12 s of play, as fast as they can be played."""
+    path = tmp_path_factory.mktemp("recorded") / "match.mcap"
+    match = Match(pace="lockstep", duration=12.0)
+    clock = WallClock()
+    account = Account()
+    bus = match.medium.seat("friendly", clock)
+    recorder = Recorder(bus, output_at(path, clock, "friendly", account, ONE_FILE), account, config=match.config)
+    recording = threading.Thread(target=recorder.run, args=(lambda: False,))
+    recording.start()
+    match.wait_for_end()
+    match.close()
+    recording.join(SOON)
+    return path
+
+
+class Replayed:
+    """A recording that is replayed on a medium of its own."""
+
+    def __init__(self, path: Path) -> None:
+        self.medium = Medium()
+        self.programme = Replay(Programme(path, paused=True, stay=True))
+        clock = WallClock()
+        self._bus = self.medium.seat("friendly", clock)
+        setup = self.programme.recording.manifest.setup
+        self.host = ReplayHost(self._bus, setup, lambda **ears: self.programme.player(clock, **ears))
+        self._thread = threading.Thread(target=self.host.run)
+        self._thread.start()
+
+    def close(self) -> None:
+        self.host.player.ended = True
+        self._thread.join(SOON)
+        self._bus.close()
+
+
+@pytest.fixture
+def replayed(recorded: Path) -> Iterator[Replayed]:
+    replay = Replayed(recorded)
+    yield replay
+    replay.close()

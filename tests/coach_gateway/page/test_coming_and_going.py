@@ -1,0 +1,58 @@
+"""Pages, gateways and hosts that come and go: a page says so, and goes on by itself."""
+
+
+def test_two_browsers_see_the_same_match_and_what_either_does(match, visit) -> None:
+    referee, spectator = visit(match, "referee"), visit(match)
+    referee.button("goal", "cyan").click()
+    for tab in (referee, spectator):
+        tab.until("document.getElementById('score').textContent === '1 : 0'")
+    shown = [tab.ask("window.touchline.match.film.newest.tick") for tab in (referee, spectator)]
+    assert abs(shown[0] - shown[1]) < 100
+    spectator.page.close()
+    referee.button("goal", "cyan").click()
+    referee.until("document.getElementById('score').textContent === '2 : 0'")
+
+
+def test_a_page_that_is_loaded_again_knows_everything_again(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.button("goal", "cyan").click()
+    tab.until("document.querySelector('#events')?.textContent.includes('Goal')")
+    tab.page.reload()
+    tab.until("window.touchline?.match.role === 'referee' && window.touchline.stage.world !== null")
+    tab.until("document.getElementById('score').textContent === '1 : 0'")
+    tab.until("document.querySelector('#events')?.textContent.includes('Goal')")
+    tab.page.locator("#all-events").click()
+    texts = tab.ask("window.touchline.match.events.map((event) => event.tick + event.text)")
+    assert len(texts) == len(set(texts))  # each once
+
+
+def test_a_gateway_that_is_killed_and_started_again_finds_its_pages(match, gateway_of, visit) -> None:
+    gateway = gateway_of(match.medium)
+    tab = visit(gateway.origin, "referee")
+    gateway.close()
+    tab.until("!document.getElementById('notice').hidden")
+    assert "connection is broken" in tab.page.locator("#notice").inner_text()
+    tab.page.keyboard.press("Space")
+    tab.wait_for_log("refused: the page has no connection to the gateway")
+    tab.faults.clear()  # the browser complains of a server that is not there, and is right
+    gateway_of(match.medium, gateway.port)
+    tab.until("document.getElementById('notice').hidden && window.touchline.match.role === 'referee'")
+    tab.faults.clear()
+    tick = tab.ask("window.touchline.match.film.newest?.tick ?? 0")
+    tab.until(f"window.touchline.stage.world?.tick > {tick + 20}")
+    tab.button("goal", "magenta").click()
+    tab.until("document.getElementById('score').textContent === '0 : 1'")
+
+
+def test_a_host_that_is_killed_and_started_again_is_waited_for(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.button("goal", "cyan").click()
+    tab.until("document.getElementById('score').textContent === '1 : 0'")
+    match.stop()
+    tab.until("document.getElementById('notice').textContent.includes('The host is gone')")
+    assert tab.button("start").is_disabled()
+    match.start()
+    tab.until("document.getElementById('notice').hidden && document.getElementById('score').textContent === '0 : 0'")
+    tab.until("window.touchline.stage.world !== null && window.touchline.stage.world.time > 0.5")
+    tab.button("goal", "magenta").click()
+    tab.until("document.getElementById('score').textContent === '0 : 1'")

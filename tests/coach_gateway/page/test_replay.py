@@ -1,0 +1,86 @@
+"""A recording on the same page: scrubbed, stepped, at another rate, from event to event."""
+
+import pytest
+
+from schemas.game import EventKind
+from schemas.world import World
+
+
+def world_at(replayed, time: float) -> World:
+    return next(world for _, world in replayed.programme.recording.decoded("world", start=time - 0.011))
+
+
+def time_of(tab) -> float:
+    return float(tab.ask("window.touchline.stage.world.time"))
+
+
+def scrub(tab, time: float) -> None:
+    tab.page.locator("#scrub").fill(str(time))
+    tab.until(f"Math.abs(window.touchline.stage.world.time - {time}) < 0.021")
+
+
+def test_the_bar_leads_to_any_moment_and_back(replayed, visit) -> None:
+    tab = visit(replayed, "referee")
+    assert tab.page.locator("#replay").is_visible() and tab.page.locator("#role").inner_text() == "recording"
+    for time in (8.0, 3.0, 11.5, 0.5):
+        scrub(tab, time)
+        world = world_at(replayed, time_of(tab))
+        shown = tab.ask("window.touchline.stage.world.robots")
+        for name, robot in world.robots.items():  # paused, so exactly as recorded
+            assert (shown[name]["x"], shown[name]["y"]) == (robot.x, robot.y)
+
+
+def test_it_plays_pauses_steps_and_changes_its_rate(replayed, visit) -> None:
+    tab = visit(replayed, "referee")
+    scrub(tab, 2.0)
+    tab.page.keyboard.press("Space")
+    tab.until("window.touchline.stage.world.time > 2.5")
+    assert tab.page.locator("#play").get_attribute("aria-label") == "Pause (space)"
+    tab.page.locator("#play").click()
+    tab.until("window.touchline.match.replay.paused")
+    tab.until("window.touchline.stage.world.time === window.touchline.match.replay.time")
+    before = time_of(tab)
+    tab.page.locator("#step").click()
+    tab.until(f"window.touchline.stage.world.time > {before}")
+    assert time_of(tab) == pytest.approx(before + 0.02, abs=1e-6)
+    tab.page.locator("#rate").select_option("4")
+    tab.until("window.touchline.match.replay.rate === 4")
+    tab.page.locator("#loop").click()
+    tab.until("window.touchline.match.replay.loop && document.getElementById('loop').ariaPressed === 'true'")
+    tab.page.locator("#to-log").click()
+    tab.page.keyboard.press("Control+Home")
+    tab.page.locator("#moving").focus()
+    before = time_of(tab)
+    tab.page.keyboard.press("ArrowRight")
+    tab.until(f"window.touchline.stage.world.time > {before + 0.9}")
+
+
+def test_each_event_of_the_list_and_each_mark_leads_to_its_moment(replayed, visit) -> None:
+    tab = visit(replayed, "referee")
+    tab.page.locator("#all-events").click()
+    told = [event for _, event in replayed.programme.recording.decoded("game/event")]
+    tab.until(f"document.querySelectorAll('#events button').length === {len(told)}")
+    number = max(place for place, event in enumerate(told) if event.kind is not EventKind.PARAMETERS)
+    tab.page.locator("#events button").nth(number).click()
+    wanted = max(told[number].time - 2.0, 0.0)
+    tab.until(f"Math.abs(window.touchline.stage.world.time - {wanted}) < 0.021")
+    marks = tab.page.locator("#marks").bounding_box()
+    assert marks is not None
+    tab.page.mouse.click(marks["x"] + 0.25 * marks["width"], marks["y"] + 5)
+    tab.until("Math.abs(window.touchline.stage.world.time - 3) < 0.1")
+    tab.page.keyboard.press("n")
+    tab.until("window.touchline.stage.world.time > 3.1")
+
+
+def test_a_spectator_of_a_replay_watches(replayed, visit) -> None:
+    tab = visit(replayed)
+    assert tab.page.locator("#play").is_disabled() and tab.page.locator("#scrub").is_disabled()
+    assert tab.button("start").is_disabled()
+    tab.page.keyboard.press("n")
+    assert tab.page.locator("#log li").count() == 0
+
+
+def test_the_referees_buttons_are_off_in_a_recording(replayed, visit) -> None:
+    tab = visit(replayed, "referee")
+    assert tab.button("start").is_disabled() and tab.button("start").get_attribute("title") == "this is a recording"
+    assert not tab.page.locator("#stop").is_visible()
