@@ -112,17 +112,23 @@ def test_what_a_robot_believes_is_drawn_beside_what_is_true(match, visit) -> Non
     tab.ask("window.touchline.layers.roles = false")
     tab.button("stop").click()
     match.until(lambda: math.hypot(*speed(match, "cyan2")) < 0.02)
-    count = """() => {
-        const { view, world } = window.touchline.stage, { x, y } = world.robots.cyan2, canvas = document.getElementById("moving");
+    drawn = """async () => {
+        const { view, world } = window.touchline.stage, { x, y } = world.robots.cyan2;
         const size = 60 * view.density, at = [view.x(x), view.y(y)].map((pixel) => Math.round(pixel * view.density - size / 2));
-        const { data } = canvas.getContext("2d").getImageData(...at, size, size);
-        return data.filter((value, place) => place % 4 === 3 && value > 40).length;
+        const select = document.getElementById("layer-beliefs"), canvas = document.getElementById("moving");
+        const pixels = [];
+        for (const whose of ["none", "cyan2", "magenta1"]) {
+            select.value = whose;
+            select.dispatchEvent(new Event("change"));
+            for (let frame = 0; frame < 2; frame += 1) await new Promise(requestAnimationFrame);
+            const { data } = canvas.getContext("2d").getImageData(...at, size, size);
+            pixels.push(data.filter((value, place) => place % 4 === 3 && value > 40).length);
+        }
+        return pixels;
     }"""
-    plain = tab.ask(f"({count})()")
-    tab.page.locator("#layer-beliefs").select_option("cyan2")
-    tab.until(f"({count})() > {plain + 20}")
-    tab.page.locator("#layer-beliefs").select_option("magenta1")
-    tab.until(f"({count})() < {plain + 20}")
+    nothing, own, others = tab.ask(drawn)
+    assert own > nothing + 20
+    assert abs(others - nothing) < (own - nothing) / 2
 
 
 def test_restart_distances_are_those_of_the_rules_while_they_matter(match, visit) -> None:
