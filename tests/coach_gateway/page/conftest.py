@@ -27,6 +27,7 @@ from schemas.bus.in_process import Medium
 from schemas.clock import WallClock
 from schemas.game import GameEvent, GameState
 from schemas.match_config import MatchConfig
+from schemas.replay import ReplayDeed, ReplayRequest
 from schemas.side import Side
 from schemas.topics import EVENT
 from sim_host.host import Host
@@ -163,13 +164,19 @@ class Tab:
         self.page: Page = context.new_page()
         self.faults: list[str] = []
         self.requests: list[str] = []
+        self.loses_its_server = False
+        """The browser complains of a server that is not there, and is right."""
         self.origin = origin
         self.page.on("pageerror", lambda error: self.faults.append(str(error)))
-        self.page.on("console", lambda said: self.faults.append(said.text) if said.type == "error" else None)
+        self.page.on("console", lambda said: self._note(said.text) if said.type == "error" else None)
         self.page.on("dialog", lambda dialog: self.faults.append(dialog.message))
         self.page.on("request", lambda request: self.requests.append(request.url))
         self.page.goto(f"{origin}/#token={TOKENS[role]}" if role in TOKENS else f"{origin}/")
         self.until(f"window.touchline?.match.role === '{role}' && window.touchline.stage.world !== null")
+
+    def _note(self, fault: str) -> None:
+        if not (self.loses_its_server and "WebSocket connection to" in fault):
+            self.faults.append(fault)
 
     def until(self, holds: str) -> None:
         """Wait for the page; its own rules let nobody evaluate a text in it, so it is asked from outside."""
@@ -301,11 +308,12 @@ class Replayed:
 
     def __init__(self, path: Path) -> None:
         self.medium = Medium()
-        self.programme = Replay(Programme(path, paused=True, stay=True))
+        self.programme = Replay(Programme(path, start="1", paused=True, stay=True))
         clock = WallClock()
         self._bus = self.medium.seat("friendly", clock)
         setup = self.programme.recording.manifest.setup
         self.host = ReplayHost(self._bus, setup, lambda **ears: self.programme.player(clock, **ears))
+        self.host.player.control(ReplayRequest(deed=ReplayDeed.STEP))
         self._thread = threading.Thread(target=self.host.run)
         self._thread.start()
 

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from schemas.coach import CoachMode
-from schemas.game import Phase
+from schemas.game import Phase, Standing
 from schemas.side import Side
 
 
@@ -67,14 +67,14 @@ def test_cards_repair_and_substitution_are_for_the_robot_that_is_chosen(match, v
     assert tab.button("yellow_card").get_attribute("title") == "choose a robot first"
     tab.page.locator("#robot").select_option("magenta2")
     tab.button("yellow_card").click()
-    match.until(lambda: match.state.robots["magenta2"].yellow == 1)
+    match.until(lambda: standing(match, "magenta2").yellow == 1)
     tab.button("stop").click()
     match.until(lambda: match.state.phase is Phase.STOPPED)
     tab.button("substitute").click()
-    match.until(lambda: match.state.robots["magenta2"].off_field == "substitution")
+    match.until(lambda: standing(match, "magenta2").off_field == "substitution")
     tab.page.locator("#robot").select_option("cyan2")
     tab.button("red_card").click()
-    match.until(lambda: match.state.robots["cyan2"].red == 1)
+    match.until(lambda: standing(match, "cyan2").red == 1)
 
 
 def test_what_ends_a_match_is_pressed_twice(match, visit) -> None:
@@ -87,7 +87,7 @@ def test_what_ends_a_match_is_pressed_twice(match, visit) -> None:
 
 
 def test_a_proposal_is_confirmed_or_overruled(match_of, visit) -> None:
-    match = match_of(referee={"mode": "mixed", "proposal": 500.0})
+    match = match_of(referee={"mode": "mixed", "proposal": 60.0})
     tab = visit(match, "referee")
     match.until(lambda: match.state.phase is Phase.PLAY)
     tab.open("settings")
@@ -224,18 +224,18 @@ def test_speed_and_noise_are_set_within_their_range_and_reset(match, visit) -> N
     before = match.host.simulation.profile.drive.max_speed
     for wrong in ("fast", "1000"):
         row.locator("input").fill(wrong)
-        row.get_by_role("button", name="Set").click()
+        row.get_by_role("button", name="Set drive.max_speed", exact=True).click()
         tab.until("document.querySelector('.verdict.refused') !== null")
     assert match.host.simulation.profile.drive.max_speed == before
     row.locator("input").fill("1.5")
-    row.get_by_role("button", name="Set").click()
+    row.get_by_role("button", name="Set drive.max_speed", exact=True).click()
     match.until(lambda: match.host.simulation.profile.drive.max_speed == 1.5)
     tab.until("document.querySelector('[data-parameter=\"drive.max_speed\"]').classList.contains('changed')")
-    row.get_by_role("button", name="Reset").click()
+    row.get_by_role("button", name="Reset drive.max_speed").click()
     match.until(lambda: match.host.simulation.profile.drive.max_speed == before)
     tab.page.locator("#parameter-filter").fill("noise")
     tab.page.locator("[data-parameter='noise.preset'] select").select_option("perfect")
-    tab.page.locator("[data-parameter='noise.preset']").get_by_role("button", name="Set").click()
+    tab.page.locator("[data-parameter='noise.preset']").get_by_role("button", name="Set noise.preset", exact=True).click()
     tab.wait_for_log("noise.preset = perfect accepted")
 
 
@@ -302,6 +302,10 @@ def test_leaving_the_page_gives_the_robot_back(match, visit) -> None:
     match.until(lambda: said(match, "magenta1 is driven by hand"))
     tab.page.goto("about:blank")
     match.until(lambda: said(match, "magenta1 is given back to its brain"))
+
+
+def standing(match, robot: str) -> Standing:
+    return match.state.robots.get(robot, Standing())
 
 
 def said(match, text: str) -> bool:
