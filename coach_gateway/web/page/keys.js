@@ -58,7 +58,8 @@ export function listenForKeys({ match, buttons, drive, drag, replay, layers, sea
       return;
     }
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const does = typed[event.key] ?? (match.live || event.target.type === "range" ? undefined : replayed[event.key]);
+    const winds = !match.live && match.may("replay") && event.target.type !== "range";
+    const does = typed[event.key] ?? (winds ? replayed[event.key] : undefined);
     if (does === undefined) return;
     event.preventDefault();
     does(event);

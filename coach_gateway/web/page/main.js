@@ -39,7 +39,7 @@ new Panels(match, stage, seat);
 new HealthPanel(match, stage);
 new Coach(match, stage, desk, seat);
 new Scenes(match, desk, drag);
-new Tabs((name) => name === "settings" && parameters.stale && parameters.load());
+const tabs = new Tabs((name) => name === "settings" && parameters.stale && parameters.load());
 listenForKeys({ match, buttons, drive, drag, replay, layers, seat });
 
 seat.on(() => buttons.update());
@@ -48,6 +48,13 @@ stage.over.push(() => {
   replay.tick(stage.world);
   events.follow(stage.world?.time ?? 0);
 });
+
+const SEATS = {
+  spectator: "You watch. Who is to command opens the address that was given out with a token, or types it in here.",
+  referee: "You are the referee, who runs the match and may do everything.",
+  cyan: "You coach cyan: orders, driving, repair and substitution are for your own robots.",
+  magenta: "You coach magenta: orders, driving, repair and substitution are for your own robots.",
+};
 
 /** The line to the gateway came up, or broke. */
 async function changed(up) {
@@ -62,17 +69,22 @@ async function claim(token) {
   keepToken(reply.accepted ? token : "");
   if (!reply.accepted) line.token = "";
   say(byId("token-says"), reply.accepted ? "" : `refused: ${reply.reason}`);
+  if (reply.accepted) byId("seat").close();
 }
 
+byId("role").addEventListener("click", () => byId("seat").showModal());
+byId("seat-close").addEventListener("click", () => byId("seat").close());
+byId("leave").addEventListener("click", () => claim(""));
 byId("token-form").addEventListener("submit", (event) => {
   event.preventDefault();
   claim(byId("token").value.trim());
   byId("token").value = "";
 });
-byId("leave").addEventListener("click", () => claim(""));
 match.on("welcome", () => {
+  say(byId("seat-says"), SEATS[match.role]);
   show(byId("leave"), match.role !== "spectator");
   show(byId("token-form"), match.role === "spectator");
+  if (!match.live && ["match", "coach", "drive", "settings", "log"].includes(tabs.opened)) tabs.open("host");
 });
 byId("help-open").addEventListener("click", () => byId("help").showModal());
 byId("keys").append(...KEYS.map(([keys, does]) => element("div", {}, element("dt", {}, keys), element("dd", {}, does))));

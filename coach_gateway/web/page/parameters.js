@@ -71,6 +71,7 @@ export class Parameters {
     const reset = element("button", { type: "button", aria: { label: `Reset ${one.name}` } }, "Reset");
     set.setAttribute("aria-label", `Set ${one.name}`);
     set.addEventListener("click", () => this.#set(set, one, input.value));
+    input.addEventListener("input", () => { input.dataset.edited = "yes"; });
     input.addEventListener("keydown", (event) => event.key === "Enter" && this.#set(set, one, input.value));
     reset.addEventListener("click", () => this.#change(reset, `Reset ${one.name}`, { deed: "reset", names: [one.name] }));
     const range = element("span", { class: "quiet" }, rangeWords(one));
@@ -86,7 +87,7 @@ export class Parameters {
   #fill(one) {
     const { row, input, set, reset } = this.#rows.get(one.name);
     const may = one.live && this.match.may("parameters");
-    if (document.activeElement !== input) input.value = valueWords(one.value);
+    if (!input.dataset.edited) input.value = valueWords(one.value);
     for (const control of [input, set, reset]) {
       control.disabled = !may;
       control.title = one.live ? "" : one.why_not;
@@ -106,7 +107,11 @@ export class Parameters {
 
   async #change(source, words, request) {
     const reply = await this.desk.ask(source, words, "parameters", { request });
-    if (reply.accepted) this.load();
+    if (!reply.accepted) return;
+    for (const name of Object.keys(request.values ?? {}).concat(request.names ?? (request.values ? [] : [...this.#rows.keys()]))) {
+      delete this.#rows.get(name)?.input.dataset.edited;
+    }
+    this.load();
   }
 
   #filter() {

@@ -77,6 +77,7 @@ export class Replay {
 
   /** Goes to a time in s; while one is on its way, only the newest wish counts. */
   async seek(time) {
+    if (!this.match.may("replay")) return;
     const { start, end } = this.match.replay ?? { start: 0, end: time };
     this.#wanted = Math.min(Math.max(time, start), end);
     if (this.#asking) return;
@@ -109,7 +110,7 @@ export class Replay {
   #pointed(event) {
     const box = byId("marks").getBoundingClientRect();
     const { start, end } = this.match.replay;
-    if (this.match.may("replay")) this.seek(start + ((event.clientX - box.left) / box.width) * (end - start));
+    this.seek(start + ((event.clientX - box.left) / box.width) * (end - start));
   }
 
   #later() {

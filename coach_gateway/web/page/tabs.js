@@ -34,7 +34,7 @@ export class Tabs {
   }
 
   #seen() {
-    return this.#tabs.filter((tab) => this.#narrow.matches || !tab.classList.contains("beside"));
+    return this.#tabs.filter((tab) => getComputedStyle(tab).display !== "none");
   }
 
   #key(event) {

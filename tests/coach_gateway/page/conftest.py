@@ -151,6 +151,8 @@ class Gateway:
         return int(self.origin.rpartition(":")[2])
 
     def close(self) -> None:
+        if not self._thread.is_alive():
+            return
         self._loop.call_soon_threadsafe(self._stop.set)
         self._thread.join(SOON)
         self.bus.close()
@@ -184,6 +186,11 @@ class Tab:
         while not self.page.evaluate(holds):
             assert time.monotonic() < deadline, f"never came true: {holds}"
             self.page.wait_for_timeout(20)
+
+    def until_seen(self, body: str, x: float, y: float) -> None:
+        """Until the page draws a body, `ball` or `robots.cyan1`, at a place."""
+        there = f"window.touchline.stage.world.{body}"
+        self.until(f"Math.hypot({there}.x - {x}, {there}.y - {y}) < 0.05")
 
     def ask(self, what: str) -> Any:
         return self.page.evaluate(what)

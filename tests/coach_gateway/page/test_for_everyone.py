@@ -33,8 +33,8 @@ CONTRASTS = """() => {
         if (!text.textContent.trim() || !node.checkVisibility() || node.closest(":disabled")) continue;
         const style = getComputedStyle(node), [a, b] = [light(rgba(style.color)), light(behind(node))];
         const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
-        const large = parseFloat(style.fontSize) >= 24 || (parseFloat(style.fontSize) >= 18.6 && style.fontWeight >= 700);
-        if (ratio < (large ? 3 : 4.5)) poor.push([text.textContent.trim(), node.className, Math.round(100 * ratio) / 100]);
+        const large = parseFloat(style.fontSize) >= (style.fontWeight >= 700 ? 18.6 : 24);
+        if (ratio < (large ? 3 : 4.5)) poor.push([text.textContent.trim(), node.className, ratio.toFixed(2)]);
     }
     return poor;
 }"""
@@ -90,7 +90,10 @@ def test_every_control_has_a_name(match, visit) -> None:
 
 def test_sides_differ_in_shape_as_well_as_in_colour(match, visit) -> None:
     tab = visit(match)
-    radii = [tab.ask(f"getComputedStyle(document.querySelector('.mark.{side}')).borderRadius") for side in ("cyan", "magenta")]
+    radii = [
+        tab.ask(f"getComputedStyle(document.querySelector('.mark.{side}')).borderRadius")
+        for side in ("cyan", "magenta")
+    ]
     assert radii[0] != radii[1]
 
 

@@ -1,5 +1,6 @@
 """A live match in a real browser: what is drawn is what is played."""
 
+import itertools
 import math
 
 import pytest
@@ -114,7 +115,8 @@ def test_what_a_robot_believes_is_drawn_beside_what_is_true(match, visit) -> Non
     match.until(lambda: math.hypot(*speed(match, "cyan2")) < 0.02)
     drawn = """async () => {
         const { view, world } = window.touchline.stage, { x, y } = world.robots.cyan2;
-        const size = 60 * view.density, at = [view.x(x), view.y(y)].map((pixel) => Math.round(pixel * view.density - size / 2));
+        const size = 60 * view.density;
+        const at = [view.x(x), view.y(y)].map((pixel) => Math.round(pixel * view.density - size / 2));
         const select = document.getElementById("layer-beliefs"), canvas = document.getElementById("moving");
         const pixels = [];
         for (const whose of ["none", "cyan2", "magenta1"]) {
@@ -149,25 +151,29 @@ def test_restart_distances_are_those_of_the_rules_while_they_matter(match, visit
 def test_between_two_pictures_bodies_move_evenly_and_those_set_down_jump(match, visit) -> None:
     film = """async () => {
         const { Film } = await import("/film.js"), film = new Film();
-        const world = (tick, x, far) => ({ tick, time: 0.02 * tick, episode: 1, ball: { x: far, y: 0, z: 0 },
-            robots: { a: { x, y: 0, z: 0, heading: 3.1 + 0.1 * tick } } });
+        const wrapped = (angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
+        const world = (tick) => ({ tick, time: 0.02 * tick, episode: 1, ball: { x: tick < 20 ? 0 : 9, y: 0, z: 0 },
+            robots: { a: { x: 0.08 * tick, y: 0, z: 0, heading: wrapped(0.2 * tick) } } });
         const shown = [];
-        for (let tick = 0; tick < 30; tick += 1) {
-            film.add(world(tick, tick, tick < 20 ? 0 : 9), 20 * tick);
+        for (let tick = 0; tick < 40; tick += 1) {
+            film.add(world(tick), 20 * tick);
             for (const later of [5, 12]) shown.push(film.at(20 * tick + later));
         }
-        return shown.slice(-16).map(({ robots, ball }) => [robots.a.x, robots.a.heading, ball.x]);
+        const off = ({ x, heading }) => wrapped(heading - 2.5 * x);
+        return shown.slice(-50).map(({ robots: { a }, ball }) => [a.x, off(a), ball.x]);
     }"""
     shown = visit(match).ask(film)
-    steps = [after[0] - before[0] for before, after in zip(shown, shown[1:], strict=False)]
-    assert all(0.1 < step < 1.2 for step in steps)
-    assert all(-math.pi - 0.2 <= 0.1 * x + 3.1 - heading <= 0.2 for x, heading, _ in shown)
-    assert {ball for _, _, ball in shown} <= {0, 9}
+    steps = [after[0] - before[0] for before, after in itertools.pairwise(shown)]
+    assert all(0.01 < step < 0.08 for step in steps)  # 0.08 m are one picture
+    assert all(abs(off) < 0.01 for _, off, _ in shown)  # a heading goes the short way round
+    assert {ball for _, _, ball in shown} == {0, 9}
 
 
 def test_names_are_shown_as_they_are_and_never_run(match_of, visit) -> None:
     evil = "<img src=x onerror=alert(1)>"
-    teams = {side: {"name": evil, "brain": "robot_agent.teams.simple:Simple", "size": 1} for side in ("cyan", "magenta")}
+    teams = {
+        side: {"name": evil, "brain": "robot_agent.teams.simple:Simple", "size": 1} for side in ("cyan", "magenta")
+    }
     tab = visit(match_of(teams=teams), "referee")
     assert tab.page.locator("#cyan-name").inner_text() == evil
     tab.open("coach")
