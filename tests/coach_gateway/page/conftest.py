@@ -13,8 +13,10 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, sync_playwright
 
+from coach_gateway.web.entrance import open_entrance
 from coach_gateway.web.server import WebServer
 from coach_gateway.web.settings import WebSettings
+from coach_gateway.web.tokens import tokens_of
 from recordings.account import Account
 from recordings.output import ONE_FILE
 from recordings.record import output_at
@@ -131,16 +133,16 @@ class Gateway:
         self.bus = medium.seat("friendly", WallClock())
         self._stop = asyncio.Event()
         self._ready = threading.Event()
-        settings = WebSettings(port=port, tokens=tokens)
-        self._thread = threading.Thread(target=self._run, args=(settings,))
+        self._entrance = open_entrance(WebSettings(port=port, tokens=tokens), tokens_of(tokens))
+        self.origin = self._entrance.origin
+        self._thread = threading.Thread(target=self._run)
         self._thread.start()
         assert self._ready.wait(SOON)
 
-    def _run(self, settings: WebSettings) -> None:
+    def _run(self) -> None:
         async def main() -> None:
             self._loop = asyncio.get_running_loop()
-            server = WebServer(self.bus, settings, lambda _: None)
-            self.origin = server.origin
+            server = WebServer(self.bus, self._entrance)
             self._ready.set()
             await server.serve(self._stop)
 
