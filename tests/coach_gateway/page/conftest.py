@@ -142,7 +142,7 @@ class Gateway:
     def _run(self) -> None:
         async def main() -> None:
             self._loop = asyncio.get_running_loop()
-            server = WebServer(self.bus, self._entrance)
+            server = WebServer(self.bus, self._entrance, lambda _: None)
             self._ready.set()
             await server.serve(self._stop)
 
