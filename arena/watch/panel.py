@@ -29,6 +29,9 @@ LOUD = {
 WIDTH = 64
 """Cells of a robot's row."""
 
+_DOES = 26
+"""Cells of it that say what it does."""
+
 
 def head(setup: Setup, state: GameState | None) -> Text:
     """Teams and score, clock, half and phase, what is proposed."""
@@ -60,7 +63,9 @@ def robots(
         robot = world.robots.get(name) if world is not None else None
         row = Text.assemble((f"{number}{arrow(robot) if robot is not None else ' '}", SIDES[side]), " ")
         doing = words.get(name)
-        row.append(f"{_does(doing):<26.26} ")
+        does = Text(_does(doing))
+        does.truncate(_DOES, overflow="ellipsis", pad=True)
+        row.append(does).append(" ")
         if robot is not None:
             speed = math.hypot(robot.vx, robot.vy)
             row.append(f"{robot.x:6.1f} {robot.y:5.1f} {speed:4.1f} m/s ")
