@@ -50,6 +50,13 @@ class Page:
         self.say(deed, **content)
         return self.hear("reply", id=7)
 
+    def until_accepted(self, deed: str, **content: Any) -> None:
+        """Ask again until it is accepted, as a person does who waits for the ball to lie."""
+        deadline = time.monotonic() + LIMIT
+        while not (reply := self.ask(deed, **content))["accepted"]:
+            assert time.monotonic() < deadline, reply
+            time.sleep(0.1)
+
     def say(self, deed: str, **content: Any) -> None:
         self.socket.send(json.dumps({"id": 7, "token": self.token, "deed": deed, **content}))
 
@@ -234,3 +241,25 @@ def test_without_the_extra_a_page_says_how_to_get_it_and_everything_else_goes_on
     )
     assert stop.status() == 2
     assert "no host answers there" in stop.err
+
+
+def test_a_person_runs_a_whole_match_from_the_page(start: Callable[..., Any], config: Path, tmp_path: Path) -> None:
+    words = ("--referee", "manual", "--web", "--web-port", "0", "--listen", with_port("tcp/127.0.0.1:0"), "--json")
+    match = start("arena", "match", str(config), *words, folder=tmp_path)
+    with page_at(said_address(match)) as page:
+        page.hear("frame")
+        for action in (
+            {"action": "kick_off", "side": "cyan"},
+            {"action": "start"},
+            {"action": "stop"},
+            {"action": "goal", "side": "cyan", "robot": "cyan1"},
+            {"action": "start"},
+            {"action": "end_half"},
+            {"action": "kick_off", "side": "magenta"},
+            {"action": "start"},
+            {"action": "end_game"},
+        ):
+            page.until_accepted("action", action=action)
+    assert match.status() == 0
+    result = json.loads(match.out)
+    assert result["score"] == {"cyan": 1, "magenta": 0}
