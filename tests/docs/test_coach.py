@@ -11,6 +11,8 @@ from arena.__main__ import app
 from coach_gateway.refbox.forwarding import FORWARD
 from coach_gateway.udp import protocol
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode
+from coach_gateway.web.access import RIGHTS
+from coach_gateway.web.protocol import ASK, Role
 from schemas.coach import NEEDS
 from schemas.message import Part
 
@@ -63,3 +65,26 @@ def test_its_command_lines_can_be_typed(page: str, fenced: Callable[[str, str], 
             command = command.commands[words.pop(0)]
         known = {option for parameter in command.params for option in parameter.opts}
         assert [word for word in words if word.startswith("--") and word not in known] == [], line
+
+
+def test_what_a_program_says_to_the_page_s_server_can_be_said(page: str) -> None:
+    part = page.partition("## The page")[2].partition("## Coach programs")[0]
+    asks = [ASK.validate_json(line[2:]) for line in part.splitlines() if line.startswith("→ {")]
+    assert [ask.deed for ask in asks] == ["action", "action"]
+
+
+@pytest.mark.parametrize(
+    ("row", "deeds"),
+    [
+        ("order a side, tests too; drive a robot by hand", ("order", "drive")),
+        ("repair, substitute a robot, have it come back", ("repair", "substitute", "enter")),
+        ("stop, start, restarts, goals, cards, park, undo, end a half", ("stop", "start", "goal", "undo", "end_half")),
+        ("place ball and robots, load scenes, change parameters", ("scene", "parameters")),
+        ("play, pause and seek a replay", ("replay",)),
+    ],
+)
+def test_who_may_do_what_is_as_the_page_s_server_has_it(row: str, deeds: tuple[str, ...], page: str) -> None:
+    (line,) = [line for line in page.splitlines() if line.startswith(f"| {row} |")]
+    says = [not cell.strip().startswith("no") for cell in line.strip("|").split("|")[1:]]
+    for deed in deeds:
+        assert says == [role in RIGHTS[deed] for role in (Role.SPECTATOR, Role.CYAN, Role.REFEREE)]
