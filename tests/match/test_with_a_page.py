@@ -205,7 +205,8 @@ def test_a_port_that_is_taken_is_named_before_anything_is_launched(
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         port = taken.getsockname()[1]
-        match = start("arena", "match", str(config), "--web", "--web-port", str(port), folder=tmp_path)
+        words = ("--listen", with_port("tcp/127.0.0.1:0"), "--web", "--web-port", str(port))
+        match = start("arena", "match", str(config), *words, folder=tmp_path)
         assert match.status() == 2
     assert match.err == (
         f"touchline: the page cannot be served on 127.0.0.1 port {port} (Address already in use); "
@@ -228,7 +229,8 @@ def test_without_the_extra_a_page_says_how_to_get_it_and_everything_else_goes_on
 ) -> None:
     (tmp_path / "sitecustomize.py").write_text(NO_WEB)
     path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
-    for number, words in enumerate((("match", "--web"), ("coach", "serve"))):
+    free = ("--listen", with_port("tcp/127.0.0.1:0"))
+    for number, words in enumerate((("match", "--web", *free), ("coach", "serve"))):
         program = start("arena", *words, folder=tmp_path, name=f"without{number}", PYTHONPATH=path)
         assert program.status() == 2
         needs = "the page needs starlette, uvicorn and websockets; pip install 'touchline[coach]'"
