@@ -128,6 +128,14 @@ class Tape:
         """Go on behind the message that it stands at."""
         self._next += 1
 
+    def rewind(self) -> None:
+        """Stand before the first message.
+
+        Raises:
+            TouchlineError: the file is damaged there.
+        """
+        self._load(0)
+
     def seek(self, ns: int) -> None:
         """Stand before the first message at `ns` or later.
 
@@ -188,8 +196,9 @@ class Tape:
             self.finished = True
 
     def _load(self, place: int) -> None:
-        self._place, self._next = place, 0
-        self._messages = [message for _, message in self._read(place)] if place < len(self._places) else []
+        is_there = place < len(self._places)
+        self._place, self._next = place if is_there else place - 1, 0
+        self._messages = [message for _, message in self._read(place)] if is_there else []
 
     def _read(self, place: int) -> list[tuple[int, Recorded]]:
         """The kept messages of a chunk, each with the number of its channel."""

@@ -165,11 +165,10 @@ def _play(
     from arena.replay_screen import screen_on
     from arena.terminal import terminal
     from recordings.replay.host import ReplayHost
-    from recordings.replay.moments import moments_of
     from schemas.replay import ReplayDeed, ReplayRequest
 
     by_keys = sys.stdin.isatty() and not quiet
-    moments = moments_of(opened.recording) if by_keys else []
+    moments = opened.moments() if by_keys else []
     keyboard = terminal("replay") if by_keys else nullcontext(_no_keys)
     stream = sys.stderr if quiet else sys.stdout
 

@@ -1,7 +1,8 @@
 """Moments of a recording in words: seconds of simulated time, or an event, `goal:2`, `kick_off:1-5`."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import chain
 from typing import NamedTuple
 
 from recordings.reader import Recording
@@ -21,24 +22,25 @@ class Moment(NamedTuple):
     """The kind of the event, or the phase that begins."""
 
 
-def moments_of(recording: Recording) -> list[Moment]:
-    """Every event, and every phase that begins and is no event itself, in order.
+def moments_of(*recordings: Recording) -> list[Moment]:
+    """Every event, and every phase that begins and is no event itself, in order; of files that follow each other.
 
     Raises:
         TouchlineError: the file is damaged inside.
     """
-    return sorted([*_events(recording), *_phases(recording)])
+    return sorted([*_events(recordings), *_phases(recordings)])
 
 
-def _events(recording: Recording) -> Iterator[Moment]:
-    for recorded, event in recording.decoded(EVENT.key):
+def _events(recordings: Sequence[Recording]) -> Iterator[Moment]:
+    for recorded, event in chain.from_iterable(recording.decoded(EVENT.key) for recording in recordings):
         yield Moment(recorded.time, event.kind.value)
 
 
-def _phases(recording: Recording) -> Iterator[Moment]:
+def _phases(recordings: Sequence[Recording]) -> Iterator[Moment]:
+    """What a file repeats at its beginning is the phase that the file before it ended in."""
     phase: Phase | None = None
     kinds = {kind.value for kind in EventKind}
-    for recorded, state in recording.decoded(STATE.key):
+    for recorded, state in chain.from_iterable(recording.decoded(STATE.key) for recording in recordings):
         if state.phase is not phase and state.phase.value not in kinds:
             yield Moment(recorded.time, state.phase.value)
         phase = state.phase

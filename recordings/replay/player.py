@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from recordings.reader import Recorded
+from recordings.reel import Reel
 from recordings.replay.transport import AS_FAST_AS_POSSIBLE, Transport
 from recordings.tape import Tape
 from schemas.clock import Clock
@@ -46,7 +47,7 @@ class Player:
 
     def __init__(
         self,
-        tape: Tape,
+        tape: Tape | Reel,
         clock: Clock,
         say: Callable[[Recorded], None],
         span: Span | None = None,

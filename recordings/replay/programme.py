@@ -4,12 +4,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from recordings.reader import Recording, open_recording
-from recordings.replay.moments import moments_of, time_of
+from recordings.reader import Recording
+from recordings.reel import Reel
+from recordings.replay.moments import Moment, moments_of, time_of
 from recordings.replay.player import Player, Span
 from recordings.replay.transport import AS_FAST_AS_POSSIBLE
 from recordings.selection import EVERYTHING, Selection, pattern
-from recordings.tape import Tape
 from schemas.clock import Clock
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import GameEvent
@@ -33,7 +33,7 @@ class Programme:
     selection: Selection = EVERYTHING
     """Which keys are played."""
     follow: bool = False
-    """The file is still being written."""
+    """The file is still being written, and those that may come after it."""
     behind: float = 5.0
     """Following: where to begin, s of simulated time before the newest."""
 
@@ -47,17 +47,14 @@ class Replay:
         Raises:
             TouchlineError: no such file, not a recording, damaged, a moment or a key that it does not have.
         """
-        path = _growing(programme.file) if programme.follow else programme.file
         if programme.follow and programme.loop:
             raise TouchlineError(
                 "--follow and --loop are both given; a match that goes on has no end to begin again at"
             )
         self.programme = programme
-        self.recording: Recording = open_recording(path)
-        _check(programme.selection, [channel.key for channel in self.recording.channels])
-        self.tape = Tape(path, programme.selection.wants)
-        if self.recording.complete and not self.tape.finished:
-            raise TouchlineError(f"{path}: damaged inside (its records cannot be followed); take another copy of it")
+        self.tape = Reel(programme.file, programme.selection.wants, follow=programme.follow)
+        self.recording: Recording = self.tape.recording
+        _check(programme.selection, [channel.key for part in self.tape.recordings for channel in part.channels])
         self.span = self._span()
 
     def time_of(self, words: str) -> float:
@@ -66,7 +63,15 @@ class Replay:
         Raises:
             TouchlineError: it is no moment of this recording.
         """
-        return time_of(words, moments_of(self.recording) if not _is_number(words) else [])
+        return time_of(words, self.moments() if not _is_number(words) else [])
+
+    def moments(self) -> list[Moment]:
+        """Everything that can be gone to, as far as it has been written.
+
+        Raises:
+            TouchlineError: a file is damaged inside.
+        """
+        return moments_of(*self.tape.recordings)
 
     def events(self) -> list[GameEvent]:
         """All that happens in the recording, as far as it has been written.
@@ -74,7 +79,7 @@ class Replay:
         Raises:
             TouchlineError: the file is damaged inside.
         """
-        return [event for _, event in self.recording.decoded(EVENT.key)]
+        return [event for part in self.tape.recordings for _, event in part.decoded(EVENT.key)]
 
     def player(self, clock: Clock, **more: Callable[..., object]) -> Player:
         """A player for it; `more` is `say` and `has_room`."""
@@ -122,12 +127,6 @@ def _is_number(words: str) -> bool:
     except ValueError:
         return False
     return True
-
-
-def _growing(path: Path) -> Path:
-    """The file itself, or the part of it that its recorder still writes."""
-    part = path.with_name(path.name + ".part")
-    return part if not path.exists() and part.exists() else path
 
 
 def _check(selection: Selection, keys: Sequence[str]) -> None:
