@@ -44,9 +44,13 @@ def stop(turn: Turn, rule: str, restart: Restart | None) -> None:
 
 
 def signal(turn: Turn, restart: Restart) -> None:
-    """Place the ball and signal the restart; robots take their positions."""
-    turn.place_ball(restart.spot)
+    """Place the ball and signal the restart; robots take their positions.
+
+    Where a robot stands on the spot, the ball is placed as soon as it has gone.
+    """
     state = turn.state
+    if not covered(turn.match, state, restart.spot, turn.snapshot):
+        turn.place_ball(restart.spot)
     turn.state = state._replace(
         phase=restart.phase,
         side=restart.side,

@@ -85,9 +85,11 @@ def test_start_waits_until_the_ball_lies_on_its_spot(bench):
 
 @pytest.mark.parametrize("robot", ["magenta2", "cyan2"])
 def test_the_ball_is_not_put_into_a_robot_on_its_spot_and_start_waits_until_it_has_gone(bench, robot):
-    thrown_in(bench).until(lambda state: state.phase is Phase.THROW_IN)
-    x, y = bench.state.spot
+    thrown_in(bench)
+    x, y = bench.state.pending.spot
     bench.robots[robot] = (x, y - 0.1)
+    bench.until(lambda state: state.phase is Phase.THROW_IN)
+    assert bench.ball[:2] != pytest.approx((x, y))
     beside = (x + bench.hull + bench.radius, y)
     for _ in range(round((bench.book.restarts.signal_to_start + 1.0) / bench.dt)):
         ruling = bench.tick(beside)
