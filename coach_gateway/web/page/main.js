@@ -73,6 +73,10 @@ async function claim(token) {
 }
 
 byId("role").addEventListener("click", () => byId("seat").showModal());
+byId("seat-open").addEventListener("click", () => {
+  byId("help").close();
+  byId("seat").showModal();
+});
 byId("seat-close").addEventListener("click", () => byId("seat").close());
 byId("leave").addEventListener("click", () => claim(""));
 byId("token-form").addEventListener("submit", (event) => {

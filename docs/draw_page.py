@@ -1,0 +1,41 @@
+"""Takes a picture of the page: `python docs/draw_page.py ADDRESS PICTURE [WIDTH HEIGHT [WORDS]]`.
+
+ADDRESS is what `touchline match --web` or `touchline replay FILE --web` says. The picture is taken when the page's
+phase, score or event list has WORDS, at once without them. `docs/images/page_live.png` and `page_phone.png` were taken
+of a match with seed 7, `page_replay.png` of its recording.
+"""
+
+import os
+import shutil
+import sys
+import time
+
+from playwright.sync_api import sync_playwright
+
+PATIENCE_S = 300.0
+DRAWN = "window.touchline?.stage.world != null && window.touchline.stage.drawn > 60"
+SAID = "(words) => ['phase', 'score', 'events'].some((id) => document.getElementById(id).textContent.includes(words))"
+
+
+def main(address: str, picture: str, width: int = 1440, height: int = 900, words: str = "") -> None:
+    """Open the page, wait for the words, take the picture."""
+    chromium = shutil.which("chromium") or shutil.which("google-chrome")
+    with sync_playwright() as playwright:
+        root = ["--no-sandbox"] if os.geteuid() == 0 else []
+        browser = playwright.chromium.launch(executable_path=chromium, args=root)
+        page = browser.new_page(viewport={"width": width, "height": height})
+        page.goto(address)
+        deadline = time.monotonic() + PATIENCE_S
+        while not (page.evaluate(DRAWN) and page.evaluate(SAID, words)):
+            if time.monotonic() > deadline:
+                sys.exit(f"the page never said {words!r}")
+            page.wait_for_timeout(50)
+        page.wait_for_timeout(1200)
+        page.screenshot(path=picture)
+        browser.close()
+
+
+if __name__ == "__main__":
+    if len(sys.argv) not in (3, 5, 6):
+        sys.exit(__doc__)
+    main(*sys.argv[1:3], *map(int, sys.argv[3:5]), *sys.argv[5:])
