@@ -12,6 +12,7 @@ export class Events {
   #shown = 0;
   #all = false;
   #rows = [];
+  #now;
 
   constructor(match, jump) {
     Object.assign(this, { match, jump });
@@ -30,13 +31,18 @@ export class Events {
   /** Marks the event that the shown moment follows. */
   follow(time) {
     if (this.match.live) return;
-    const now = this.#rows.findLast(({ event }) => event.time <= time + 1e-6);
-    for (const { row, event } of this.#rows) mark(row, "now-is", event === now?.event);
+    const now = this.#rows.findLast(({ event }) => event.time <= time + 1e-6)?.row;
+    if (now === this.#now) return;
+    this.#now = now;
+    for (const { row } of this.#rows) mark(row, "now-is", row === now);
+    const list = byId("events-panel");
+    if (now) list.scrollTop += now.getBoundingClientRect().top - list.getBoundingClientRect().top - list.clientHeight / 2;
   }
 
   #anew() {
     this.#shown = 0;
     this.#rows = [];
+    this.#now = undefined;
     byId("events").replaceChildren();
     this.#later();
   }

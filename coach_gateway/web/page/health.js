@@ -6,8 +6,7 @@ const EVERY_MS = 500;
 const COLUMNS = [
   ["answers", ({ answers }) => answers],
   ["missed", ({ missed }) => missed],
-  ["twice", ({ duplicates }) => duplicates],
-  ["invalid", ({ invalid }) => invalid],
+  ["wrong", ({ duplicates, invalid }) => duplicates + invalid],
   ["refused", ({ refused }) => refused],
   ["ms", ({ latency_ms: latency }) => (latency === null ? "–" : latency.toFixed(1))],
 ];

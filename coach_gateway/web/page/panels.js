@@ -100,7 +100,7 @@ function stateOf({ body, holds, health }) {
   if (health && !health.alive) return ["no program", "bad"];
   if (body.stuck) return ["stuck", "bad"];
   if (holds) return ["ball", "ball"];
-  if (health && !health.answering) return ["silent", "bad"];
+  if (health && !health.answering && health.latency_ms === null) return ["silent", "bad"]; // for a second
   return ["", ""];
 }
 
