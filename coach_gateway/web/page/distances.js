@@ -28,8 +28,9 @@ export function drawDistances(context, view, match, world) {
     circle(context, view, spot, radius);
     context.stroke();
     context.setLineDash([]);
-    const above = view.y(spot.y) - view.length(radius);
-    const top = above > 12 ? above : view.y(spot.y) + view.length(radius);
+    const ends = [-1, 1].map((end) => view.y(spot.y) + end * view.length(radius));
+    const [first, second] = place ? ends.toReversed() : ends; // labels of two circles stand at two ends
+    const top = first > 12 && first < view.height - 12 ? first : second;
     write(context, `${radius} m: ${who}`, clamp(view.x(spot.x), 70, view.width - 70), top, 11, {
       colour: side ? SIDES[side].line : "#ffffff", ground: "#0b1c14cc",
     });

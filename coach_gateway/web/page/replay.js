@@ -135,7 +135,7 @@ export class Replay {
     context.textBaseline = "middle";
     const ink = getComputedStyle(canvas).color;
     for (const event of events) {
-      if (!MARKED[event.kind]) continue;
+      if (!MARKED[event.kind] || event.time < replay.start || event.time > replay.end) continue;
       const left = ((event.time - replay.start) / Math.max(replay.end - replay.start, 0.01)) * width;
       context.fillStyle = event.kind === "goal" && event.side ? SIDES[event.side].fill : ink;
       context.font = `${event.kind === "goal" ? 17 : 12}px system-ui, "DejaVu Sans", sans-serif`;

@@ -1,0 +1,112 @@
+"""The page in a headless browser: pictures a second with ten robots, and how soon a pressed stop reaches every robot.
+
+A match of ten agent processes in real time, the gateway beside it, one page. The time of a stop runs from the key to
+the first sight that is seen to tell the last robot of it, by the clock of this machine.
+"""
+
+import json
+import os
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from playwright.sync_api import Page, sync_playwright
+from processes import field
+
+from schemas.bus.contract import Bus, Subscription
+from schemas.bus.zenoh_bus import open_client
+from schemas.clock import WallClock
+from schemas.game import TeamPhase
+from schemas.match_config import MatchConfig
+from schemas.side import Side
+from schemas.topics import SIGHT
+
+SECONDS = 8.0
+STOPS = 5
+
+
+def main() -> None:
+    """Print both."""
+    with (
+        field("robot_agent.teams.simple:Simple", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, _),
+        tempfile.TemporaryDirectory() as folder,
+        open_client(config.name, WallClock(), endpoint, patience=60.0) as bus,
+        sync_playwright() as playwright,
+    ):
+        tokens = Path(folder) / "tokens.json"
+        words = ["--web", "--port", "0", "--tokens", str(tokens), "--connect", endpoint, "--match", config.name]
+        gateway = subprocess.Popen([sys.executable, "-m", "coach_gateway", *words], stdout=subprocess.PIPE, text=True)
+        try:
+            address = _address(gateway)
+            root = ["--no-sandbox"] if os.geteuid() == 0 else []
+            chromium = shutil.which("chromium") or shutil.which("google-chrome")
+            browser = playwright.chromium.launch(executable_path=chromium, args=root)
+            page = browser.new_page(viewport={"width": 1440, "height": 900})
+            page.goto(f"{address}#token={json.loads(tokens.read_text())['referee']}")
+            _until(page, "window.touchline?.match.role === 'referee' && window.touchline.stage.world !== null")
+            rate = _rate(page)
+            reached = [_stop(page, bus, config) for _ in range(STOPS)]
+            browser.close()
+        finally:
+            gateway.terminate()
+            gateway.wait()
+    print(
+        f"page: {rate:.0f} pictures a second with ten robots (30 at least), stop to the last robot's sight "
+        f"median {statistics.median(reached):.0f} ms, worst {max(reached):.0f} ms of {STOPS} (at most 100)"
+    )
+
+
+def _address(gateway: subprocess.Popen[str]) -> str:
+    """Where the page is, as its server says."""
+    assert gateway.stdout is not None
+    for line in gateway.stdout:
+        if "http://" in line:
+            return "http://" + line.split("http://")[1].split("#")[0].strip().rstrip(";,")
+    raise RuntimeError("the gateway ended before it said where its page is")
+
+
+def _rate(page: Page) -> float:
+    began, drawn = time.perf_counter(), page.evaluate("window.touchline.stage.drawn")
+    page.wait_for_timeout(1000 * SECONDS)
+    return float((page.evaluate("window.touchline.stage.drawn") - drawn) / (time.perf_counter() - began))
+
+
+def _stop(page: Page, bus: Bus, config: MatchConfig) -> float:
+    """Let the game run, stop it by the space bar; ms until the last robot was told."""
+    page.locator("[data-action=drop_ball]").click()
+    page.locator("[data-action=start]").click()
+    _until(page, "window.touchline.match.state.running && window.touchline.match.state.phase !== 'stopped'")
+    robots = [robot for side in Side for robot in config.robots(side)]
+    sights = {robot: bus.subscribe(SIGHT, robot=robot) for robot in robots}
+    for sight in sights.values():
+        while sight.receive(1.0) is None:
+            pass
+    page.locator("#moving").focus()
+    began = time.time_ns()
+    page.keyboard.press("Space")
+    told = max(_told(sight, began) for sight in sights.values())
+    for sight in sights.values():
+        sight.close()
+    return (told - began) / 1e6
+
+
+def _told(sights: Subscription, began: int) -> int:
+    """Wall time in ns of a robot's first sight of the stopped game, as the host sent it."""
+    while (received := sights.receive(10.0)) is not None:
+        sent = received.stamp.sent_ns if received.stamp is not None else 0
+        if sent > began and received.message().game.phase is TeamPhase.STOPPED:
+            return sent
+    raise RuntimeError("a robot was never told")
+
+
+def _until(page: Page, holds: str) -> None:
+    while not page.evaluate(holds):
+        page.wait_for_timeout(20)
+
+
+if __name__ == "__main__":
+    main()
