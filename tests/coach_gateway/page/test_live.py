@@ -74,6 +74,7 @@ def test_score_clock_phase_and_half_are_those_of_the_match(match, visit) -> None
 
 def test_a_panel_tells_of_each_robot(match, visit) -> None:
     tab = visit(match)
+    tab.until("document.querySelectorAll('.panel').length === 4")
     panels = tab.page.locator(".panel")
     assert [panels.nth(number).get_attribute("data-robot") for number in range(panels.count())] == [
         "cyan1", "cyan2", "magenta1", "magenta2",
