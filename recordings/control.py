@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from recordings.account import Account
 from recordings.output import Output
 from schemas.bus.contract import Bus, Question
 from schemas.control import RecorderDeed, RecorderReply, RecorderRequest
@@ -24,7 +25,7 @@ class Controls:
             RecorderDeed.SNAPSHOT: lambda: output.snapshot("request"),
         }
 
-    def attend(self, messages: int, lost: int, tick: int) -> None:
+    def attend(self, messages: int, account: Account, tick: int) -> None:
         """Do what was asked for, and answer with how the recorder is doing."""
         while (question := self._server.receive()) is not None:
             try:
@@ -32,7 +33,7 @@ class Controls:
             except BadMessageError as error:
                 question.fail(str(error))
                 continue
-            self._answer(question, self._deeds[request.deed](), messages, lost, tick)
+            self._answer(question, self._deeds[request.deed](), messages, sum(account.losses.values()), tick)
 
     def _answer(self, question: Question, reason: str, messages: int, lost: int, tick: int) -> None:
         question.answer(

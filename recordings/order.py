@@ -4,7 +4,8 @@ Messages come through as many mailboxes as there are topics. Written as they are
 stand before the first tick of the next; so they are held for a moment and released tick by tick.
 """
 
-from typing import NamedTuple
+from bisect import bisect_left
+from operator import itemgetter
 
 from schemas.bus.contract import Received
 from schemas.topic import Party
@@ -14,15 +15,11 @@ _EACH_TICK = frozenset({WORLD.key, APPLIED.key, INTAKE.key})
 """What the host says once in every tick: how far each of them has come tells what can be missing still."""
 
 
-class Timed(NamedTuple):
-    """A message and its place; compares by time, topic, key and number on the key."""
+Timed = tuple[int, int, str, int, Received]
+"""A message behind its place: simulated time in ns, topic of the table, key, and number on the key; sorts by these."""
 
-    sim_ns: int
-    row: int
-    """Which topic of the table."""
-    key: str
-    number: int
-    received: Received
+
+_FIRST = (0, 0)
 
 
 class SimOrder:
@@ -60,10 +57,13 @@ class SimOrder:
 
     def add(self, row: int, received: Received) -> None:
         """Take a message in; the order of calls is the order of its key."""
-        last, number = self._of_key.get(received.key, (0, 0))
-        moment = max(self._moment(received), last)
-        self._of_key[received.key] = moment, number + 1
-        self._held.append(Timed(moment, row, received.key, number, received))
+        key = received.key
+        last, number = self._of_key.get(key, _FIRST)
+        moment = self._moment(received)
+        if moment < last:
+            moment = last
+        self._of_key[key] = moment, number + 1
+        self._held.append((moment, row, key, number, received))
 
     def release(self, before_ns: int | None = None) -> list[tuple[int, Received]]:
         """Give out what is older than `before_ns`, or everything: log time in ns, never running backward, and message.
@@ -73,11 +73,12 @@ class SimOrder:
         self._held.sort()
         count = len(self._held)
         if before_ns is not None:
-            count = next((i for i, timed in enumerate(self._held) if timed.sim_ns >= before_ns), count)
-        out = []
-        for timed in self._held[:count]:
-            self._released_ns = max(self._released_ns, timed.sim_ns)
-            out.append((self._released_ns, timed.received))
+            count = bisect_left(self._held, before_ns, key=itemgetter(0))
+        out, released_ns = [], self._released_ns
+        for sim_ns, _, _, _, received in self._held[:count]:
+            released_ns = max(released_ns, sim_ns)
+            out.append((released_ns, received))
+        self._released_ns = released_ns
         del self._held[:count]
         return out
 

@@ -132,9 +132,9 @@ class Files:
         if self._passed_over_ns is not None:
             self._writer.write(self._standing.messages(since_ns=self._passed_over_ns))
             self._passed_over_ns = None
-        begin = 0
+        begin, may_be_full = 0, self._limits.in_many
         for index, logged in enumerate(batch):
-            if self._is_full(logged[0]):
+            if may_be_full and self._is_full(logged[0]):
                 self._hand_on(batch[begin:index])
                 begin = index
                 self._next(Ended.SPLIT)

@@ -124,7 +124,7 @@ class Recorder:
             return 0
         came = self._take_in()
         self._hand_on()
-        self._controls.attend(self._messages, sum(self._account.losses.values()), self._notes.tick)
+        self._controls.attend(self._messages, self._account, self._notes.tick)
         self._report(idle=came == 0)
         return came
 
