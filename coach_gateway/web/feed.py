@@ -9,7 +9,7 @@ from typing import Any
 from coach_gateway.orders import OrderWatch
 from coach_gateway.presence import HostPresence
 from coach_gateway.web.protocol import EventNews, OrdersNews, RefBoxNews, SideOrders
-from schemas.bus.contract import Bus, Received, Subscription
+from schemas.bus.contract import Bus, Received, Stamp, Subscription
 from schemas.game import REFBOX, GameEvent
 from schemas.host import Setup
 from schemas.message import BadMessageError
@@ -36,7 +36,7 @@ class Feed:
         self._presence = HostPresence(bus)
         self._others = bus.watch_alive()
         self._refboxes: dict[str, bool] = {}
-        self._numbers: dict[str, int] = {}
+        self._stamps: dict[str, Stamp] = {}
         self._known: dict[str, str] = {}
         self._told: dict[str, None] = {}
         self._world: tuple[str, str] | None = None
@@ -155,22 +155,26 @@ class Feed:
         return [received.payload.decode() for received in _all(subscription) if self._read(received) is not None]
 
     def _read(self, received: Received) -> Any:
-        """The valid message; nothing when it is none. A writer that counts from its beginning is another host's."""
+        """The valid message; nothing when it is none.
+
+        A writer that counts from its beginning is another host's, unless what came is only told again, as it is when a
+        link comes back.
+        """
         try:
             message = received.message()
         except BadMessageError:
             self.unreadable += 1
             return None
-        if received.stamp is not None:
-            before = self._numbers.get(received.key)
-            if before is not None and received.stamp.sequence <= before:
+        stamp, before = received.stamp, self._stamps.get(received.key)
+        if stamp is not None and (before is None or stamp.sent_ns > before.sent_ns):
+            if before is not None and stamp.sequence <= before.sequence:
                 self._forget()
-            self._numbers[received.key] = received.stamp.sequence
+            self._stamps[received.key] = stamp
         return message
 
     def _forget(self) -> None:
         """Another host plays: nothing of the one before counts."""
-        self._numbers.clear()
+        self._stamps.clear()
         self._known.clear()
         self._told.clear()
         self._world = self._cast = self.setup = None

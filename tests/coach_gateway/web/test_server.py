@@ -10,11 +10,12 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from coach_gateway.web.protocol import SAID
+from schemas.bus.in_process import Medium
 from schemas.coach import CoachMode, CoachOrder
 from schemas.game import ActionName
 from schemas.scene import shipped_scenes
 from schemas.side import Side
-from schemas.topics import WORLD
+from schemas.topics import EVENT, WORLD
 from schemas.world import ObstacleTruth, RobotTruth
 
 from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, event, wait_for, world
@@ -434,6 +435,23 @@ def test_questions_that_wait_hold_up_neither_a_stop_nor_another_role(
     slow.set()
     coach.close()
     referee.close()
+
+
+def test_what_is_told_again_when_a_link_comes_back_is_neither_news_nor_another_host(
+    visit: Visit, host: FakeHost, medium: Medium
+) -> None:
+    page = visit()
+    readers = tuple(medium.subscriptions["friendly/game/event"])
+    past = host.bus.subscribe(EVENT)
+    for tick in range(3):
+        host.happen(tick, f"event {tick}")
+    page.hear("event", event=event(2, "event 2").model_dump(mode="json"))
+    for received in iter(past.receive, None):
+        for reader in readers:
+            reader.bring(received.key, received)
+    host.happen(3, "event 3")
+    heard = page.hear()
+    assert (heard["kind"], heard["event"]["text"]) == ("event", "event 3")
 
 
 def test_a_page_that_comes_before_any_host_waits_and_is_welcomed_again(
