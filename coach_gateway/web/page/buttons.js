@@ -96,7 +96,7 @@ export class Buttons {
       return match.role === "spectator" ? "spectators watch; a token lets you command" : `not for the coach of ${match.role}`;
     }
     if (!match.hostThere) return "the host is not there";
-    if (action && match.refbox.connected) return "the referee box commands the match";
+    if (action && action !== "stop" && match.refbox.connected) return "the referee box commands the match";
     return robot && !seat.robot ? "choose a robot first" : null;
   }
 
@@ -120,7 +120,7 @@ export class Buttons {
     say(byId("proposed"), proposal ?? "");
     for (const id of ["confirm", "overrule"]) byId(id).disabled = this.why({ action: id }) !== null;
     show(byId("stop"), match.live && (match.may("stop") || match.may("order", match.role)));
-    byId("stop").disabled = !match.hostThere || (match.may("stop") && match.refbox.connected);
+    byId("stop").disabled = !match.hostThere; // also while a referee box commands the match: a stop is always heard
   }
 
   #group(title, rows) {

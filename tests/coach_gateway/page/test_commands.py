@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from schemas.clock import WallClock
 from schemas.coach import CoachMode
 from schemas.game import Phase, Standing
 from schemas.side import Side
@@ -325,3 +326,16 @@ def said(match, text: str) -> bool:
 def ahead(match, robot: str, heading: float) -> float:
     truth = match.world["robots"][robot]
     return float(truth["vx"] * math.cos(heading) + truth["vy"] * math.sin(heading))
+
+
+def test_while_a_referee_box_commands_all_buttons_are_locked_but_stop(match, visit) -> None:
+    tab = visit(match, "referee")
+    box = match.medium.seat("friendly", WallClock())
+    box.declare_alive("refbox", "cyan")
+    tab.until("document.querySelector('[data-action=corner]').disabled")
+    assert "the referee box commands the match" in (tab.button("corner", "cyan").get_attribute("title") or "")
+    tab.button("stop").click()
+    match.until(lambda: match.state.phase is Phase.STOPPED)
+    tab.wait_for_log("Stop accepted")
+    box.close()
+    tab.until("!document.querySelector('[data-action=corner]').disabled")
