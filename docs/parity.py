@@ -39,6 +39,7 @@ ROWS = {
     29: "each coach's command reaches every robot",
     30: "the coach record, in SI and acknowledged",
     31: "match modes and test modes by number, both ways",
+    32: "the coach's window: controls, panels, stop by the space bar",
     33: "base station at a league's referee box",
     34: "referee box for team software",
     35: "world state in the league's schema",

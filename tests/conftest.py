@@ -1,6 +1,9 @@
 """The process of the tests plays hosts and clients by turns, and takes a host's threads for both."""
 
-from collections.abc import Callable, Sequence
+import os
+import shutil
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -11,6 +14,9 @@ from schemas.host import Applied, noted
 from schemas.match_config import MatchConfig
 from sim_host.resimulation import InForce, Resimulation
 from sim_host.tuning import Tuning
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 
 def pytest_configure() -> None:
@@ -29,3 +35,19 @@ def simulated_again() -> Callable[[MatchConfig, Sequence[bytes]], list[str]]:
         return chains
 
     return simulate
+
+
+@pytest.fixture(scope="module")
+def browser() -> "Iterator[Browser]":
+    """A headless Chromium of the system's; tests of pages are skipped where there is none, unless they have to run."""
+    from playwright.sync_api import sync_playwright
+
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if chromium is None:
+        assert os.environ.get("TOUCHLINE_BROWSER") != "needed", "no Chromium where the tests of pages have to run"
+        pytest.skip("no Chromium; apt-get install chromium")
+    with sync_playwright() as playwright:
+        root = ["--no-sandbox"] if os.geteuid() == 0 else []
+        browser = playwright.chromium.launch(executable_path=chromium, args=root)
+        yield browser
+        browser.close()

@@ -5,6 +5,7 @@ import { standingWords } from "./scoreboard.js";
 import { degreeWords, metres, numberOf, placeWords, spoken } from "./words.js";
 
 const EVERY_MS = 200;
+const HIGH_M = 0.25; // the centre of a ball that is off the ground
 /** Key, word before it, and the text from what is known of the robot; an empty text hides the line. */
 const LINES = [
   ["intention", "means", ({ word }) => word?.intention ?? ""],
@@ -34,6 +35,7 @@ export class Panels {
     if (match.setup === null) return;
     if (match.robots.join() !== this.#robots) this.#lay();
     for (const [name, panel] of this.#panels) this.#fill(name, panel);
+    if (this.stage.world) say(byId("ball-says"), ballWords(this.stage.world));
   }
 
   #lay() {
@@ -102,6 +104,13 @@ function stateOf({ body, holds, health }) {
   if (holds) return ["ball", "ball"];
   if (health && !health.answering && health.latency_ms === null) return ["silent", "bad"]; // for a second
   return ["", ""];
+}
+
+/** Where the ball is, how fast, how high, and who has it. */
+function ballWords({ ball, possession }) {
+  const words = [`at ${placeWords(ball)}`, `${metres(Math.hypot(ball.vx, ball.vy))} m/s`];
+  if (ball.z > HIGH_M) words.push(`${metres(ball.z)} m high`);
+  return [...words, possession ? `${possession} has it` : "nobody has it"].join(", ");
 }
 
 /** A share up to 1 in percent; a larger number is a voltage. */

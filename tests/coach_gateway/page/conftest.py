@@ -2,8 +2,6 @@
 
 import asyncio
 import json
-import os
-import shutil
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -11,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Locator, Page, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Locator, Page
 
 from coach_gateway.web.entrance import open_entrance
 from coach_gateway.web.server import WebServer
@@ -31,7 +29,7 @@ from schemas.game import GameEvent, GameState
 from schemas.match_config import MatchConfig
 from schemas.replay import ReplayDeed, ReplayRequest
 from schemas.side import Side
-from schemas.topics import EVENT
+from schemas.topics import EVENT, Topic
 from sim_host.host import Host
 
 SOON = 30.0
@@ -111,6 +109,11 @@ class Match:
         """All that has happened so far."""
         self._events += [received.message() for received in iter(self._ear.receive, None)]
         return self._events
+
+    def hear(self, topic: Topic) -> Callable[[], list[Any]]:
+        """What is said on a topic from now on, each time since the last."""
+        ear = self.medium.seat("friendly", WallClock()).subscribe(topic)
+        return lambda: [received.message() for received in iter(ear.receive, None)]
 
     def where(self, robot: str) -> tuple[float, float]:
         truth = self.world["robots"][robot]
@@ -227,19 +230,6 @@ class Tab:
         for share in (0.3, 0.7, 1.0):
             mouse.move(*self.at(*(a + share * (b - a) for a, b in zip(start, end, strict=True))))
         mouse.up()
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    if chromium is None:
-        assert os.environ.get("TOUCHLINE_BROWSER") != "needed", "no Chromium where the tests of pages have to run"
-        pytest.skip("no Chromium; apt-get install chromium")
-    with sync_playwright() as playwright:
-        root = ["--no-sandbox"] if os.geteuid() == 0 else []
-        browser = playwright.chromium.launch(executable_path=chromium, args=root)
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

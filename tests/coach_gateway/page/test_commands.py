@@ -6,11 +6,14 @@ import pytest
 
 from schemas.clock import WallClock
 from schemas.coach import CoachMode
+from schemas.command import Kick, KickMode
 from schemas.game import Phase, Standing
 from schemas.side import Side
+from schemas.topics import HAND
 
 
 def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> None:
+    """Reference 13, row 32."""
     tab = visit(match, "referee")
     places = ["#moving", "[data-action=corner][data-side=cyan]", "#to-log", "#layer-roles", "#parameter-filter"]
     tab.open("settings")
@@ -31,7 +34,6 @@ def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> No
 
 
 def test_buttons_refuse_what_the_referee_refuses_and_say_why(match, visit) -> None:
-    """Reference 14: nothing is asked for without an answer."""
     tab = visit(match, "referee")
     tab.button("enter").page.locator("[data-robot=cyan1] .who").click()
     tab.button("enter").click()
@@ -283,7 +285,7 @@ def test_an_order_that_lacks_something_is_refused_with_the_reason(match, visit) 
 
 
 def test_a_robot_is_driven_by_keys_in_place_of_its_brain_and_given_back(match, visit) -> None:
-    """Reference 13, row 32; the kick and the dribbler go the same way."""
+    """Reference 13, row 43."""
     tab = visit(match, "cyan")
     tab.open("drive")
     options = tab.page.locator("#drive-robot option")
@@ -303,6 +305,30 @@ def test_a_robot_is_driven_by_keys_in_place_of_its_brain_and_given_back(match, v
     tab.page.keyboard.press("Escape")
     match.until(lambda: said(match, "cyan2 is given back to its brain"))
     assert tab.page.locator("#drive-take").inner_text() == "Take in hand"
+
+
+def test_a_gamepad_drives_kicks_and_dribbles(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.page.evaluate(
+        """() => {
+            const buttons = Array.from({ length: 8 }, () => ({ pressed: false }));
+            window.pad = { connected: true, axes: [0, 0, 0, 0], buttons };
+            navigator.getGamepads = () => [null, window.pad];
+        }"""
+    )
+    hands = match.hear(HAND)
+    tab.open("drive")
+    tab.page.locator("#drive-robot").select_option("cyan2")
+    tab.page.locator("#drive-take").click()
+    tab.ask("window.pad.axes[1] = -0.5, window.pad.axes[2] = 0.05")
+    match.until(lambda: any(hand.drive.vx == pytest.approx(0.75) and hand.drive.omega == 0.0 for hand in hands()))
+    tab.ask("window.pad.axes[1] = 0, window.pad.axes[2] = -1")
+    match.until(lambda: any(hand.drive.omega == pytest.approx(2.0) for hand in hands()))
+    tab.ask("window.pad.buttons[4].pressed = true")
+    match.until(lambda: any(hand.dribble for hand in hands()))
+    tab.ask("window.pad.buttons[1].pressed = true")
+    match.until(lambda: any(hand.kick == Kick(mode=KickMode.LOB, speed=8.0) for hand in hands()))
+    assert tab.page.locator("#dribble").get_attribute("aria-pressed") == "true"
 
 
 def test_leaving_the_page_gives_the_robot_back(match, visit) -> None:

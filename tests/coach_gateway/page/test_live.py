@@ -81,6 +81,7 @@ def test_a_panel_tells_of_each_robot(match, visit) -> None:
     ]  # fmt: skip
     tab.until("document.querySelector('[data-robot=cyan2] .does').textContent !== ''")
     tab.until("document.querySelector('[data-robot=cyan2] [data-is=latency]').textContent.endsWith('ms')")
+    tab.until("/^at .* m.s, .* has it$/.test(document.getElementById('ball-says').textContent)")
     for line, ending in (("pose", "°"), ("speed", "m/s"), ("intention", "")):
         text = tab.ask(f"document.querySelector('[data-robot=cyan2] [data-is={line}]').textContent")
         assert text and text.endswith(ending)

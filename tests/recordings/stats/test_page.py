@@ -1,13 +1,11 @@
 """The page in a real browser: what is drawn is what was recorded, wherever one jumps."""
 
-import os
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page
 
 from recordings.reader import Recording, open_recording
 from recordings.stats.figures import Figures
@@ -25,19 +23,6 @@ PIXEL = """([x, y]) => {
     const at = [canvas.width / 2 + x * unit, canvas.height / 2 - y * unit];
     return [...context.getImageData(Math.round(at[0]), Math.round(at[1]), 1, 1).data].slice(0, 3);
 }"""
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    if chromium is None:
-        assert os.environ.get("TOUCHLINE_BROWSER") != "needed", "no Chromium where the tests of pages have to run"
-        pytest.skip("no Chromium; apt-get install chromium")
-    with sync_playwright() as playwright:
-        root = ["--no-sandbox"] if os.geteuid() == 0 else []
-        browser = playwright.chromium.launch(executable_path=chromium, args=root)
-        yield browser
-        browser.close()
 
 
 @pytest.fixture(scope="module")
