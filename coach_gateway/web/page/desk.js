@@ -11,8 +11,8 @@ export class Desk {
 
   constructor(line) {
     this.line = line;
-    addEventListener("scroll", () => this.#clear(), { capture: true, passive: true });
-    addEventListener("resize", () => this.#clear());
+    addEventListener("scroll", () => this.#follow(), { capture: true, passive: true });
+    addEventListener("resize", () => this.#follow());
   }
 
   /** Asks for a deed called `words`; the verdict stands beside `source`, an element or nothing. */
@@ -44,10 +44,7 @@ export class Desk {
     this.#remove(source);
     const bubble = element("div", { class: `verdict ${accepted ? "accepted" : "refused"}`, aria: { hidden: "true" } }, text);
     document.body.append(bubble);
-    const place = source.getBoundingClientRect(), size = bubble.getBoundingClientRect();
-    const below = place.bottom + size.height + 8 < innerHeight;
-    bubble.style.left = `${Math.max(6, Math.min(place.left, innerWidth - size.width - 6))}px`;
-    bubble.style.top = `${below ? place.bottom + 4 : place.top - size.height - 4}px`;
+    lay(bubble, source);
     const gone = setTimeout(() => this.#remove(source), accepted ? ACCEPTED_MS : REFUSED_MS);
     this.#bubbles.set(source, { bubble, gone });
   }
@@ -60,7 +57,19 @@ export class Desk {
     this.#bubbles.delete(source);
   }
 
-  #clear() {
-    for (const source of [...this.#bubbles.keys()]) this.#remove(source);
+  /** What asked has moved, or is hidden by now. */
+  #follow() {
+    for (const [source, { bubble }] of [...this.#bubbles]) {
+      if (source.offsetParent === null) this.#remove(source);
+      else lay(bubble, source);
+    }
   }
+}
+
+/** Lays a bubble below what asked, or above it where there is no room, and within the window. */
+function lay(bubble, source) {
+  const place = source.getBoundingClientRect(), size = bubble.getBoundingClientRect();
+  const below = place.bottom + size.height + 8 < innerHeight;
+  bubble.style.left = `${Math.max(6, Math.min(place.left, innerWidth - size.width - 6))}px`;
+  bubble.style.top = `${below ? place.bottom + 4 : place.top - size.height - 4}px`;
 }
