@@ -1,0 +1,132 @@
+"""Commands from pages, over real sockets: who may do what, and what reaches the match."""
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from schemas.coach import CoachMode, CoachOrder
+from schemas.game import ActionName
+
+from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, wait_for
+
+Visit = Callable[..., Visitor]
+
+
+@pytest.mark.parametrize(
+    ("deed", "content"),
+    [
+        ("action", {"action": {"action": "stop"}}),
+        ("order", {"side": "cyan", "order": {"mode": "hold"}}),
+        ("scene", {"request": {"deed": "reset"}}),
+        ("parameters", {"request": {"deed": "reset"}}),
+        ("parameters", {"request": {"deed": "list"}}),
+        ("drive", {"robot": "cyan1", "hand": {}}),
+        ("replay", {"request": {"deed": "pause"}}),
+    ],
+)
+def test_a_spectator_cannot_command(deed: str, content: dict[str, Any], visit: Visit, host: FakeHost) -> None:
+    reply = visit().ask(deed, **content)
+    assert not reply["accepted"]
+    assert "this page has none" in reply["reason"]
+    assert [question for question in host.asked if hasattr(question, "source")] == []
+    assert host.orders.receive() is None
+    assert host.hands.receive() is None
+
+
+def test_a_stop_of_the_referee_reaches_the_match_and_is_named_after_the_page(visit: Visit, host: FakeHost) -> None:
+    """Reference 13, row 37."""
+    page = visit("referee")
+    assert page.ask("action", action={"action": "stop", "source": "somebody else"})["accepted"]
+    refused = page.ask("action", action={"action": "corner", "side": "cyan"})
+    assert (refused["accepted"], refused["reason"]) == (False, "play is running")
+    asked = [question for question in host.asked if hasattr(question, "action")]
+    assert [(question.action, question.source) for question in asked] == [
+        (ActionName.STOP, "referee's page"),
+        (ActionName.CORNER, "referee's page"),
+    ]
+
+
+def test_cyan_s_token_cannot_stop_magenta_s_robots(visit: Visit, host: FakeHost) -> None:
+    """Reference 13, row 51."""
+    page = visit("cyan")
+    for deed, content in (
+        ("action", {"action": {"action": "stop"}}),
+        ("action", {"action": {"action": "park", "robot": "magenta1"}}),
+        ("action", {"action": {"action": "repair", "robot": "magenta1"}}),
+        ("action", {"action": {"action": "substitute", "robot": "magenta1"}}),
+        ("action", {"action": {"action": "repair"}}),
+        ("order", {"side": "magenta", "order": {"mode": "hold"}}),
+        ("drive", {"robot": "magenta1", "hand": {}}),
+        ("scene", {"request": {"deed": "remove", "remove": ["magenta1"]}}),
+        ("parameters", {"request": {"deed": "set", "values": {"drive.max_speed": 0.1}}}),
+    ):
+        assert not page.ask(deed, **content)["accepted"], (deed, content)
+    assert host.orders.receive() is None
+    assert host.hands.receive() is None
+    assert [question for question in host.asked if hasattr(question, "source")] == []
+
+
+@pytest.mark.parametrize("side", ["cyan", "magenta"])
+def test_a_coach_stops_drives_and_repairs_its_own_robots(side: str, visit: Visit, host: FakeHost) -> None:
+    """Reference 14, defect 7; reference 13, row 43."""
+    page = visit(side)
+    given = page.ask("order", side=side, order={"mode": "hold", "max_speed": 1.5})
+    received = host.orders.receive(SOON)
+    assert received is not None and received.chunks == {"side": side}
+    order: CoachOrder = received.message()
+    assert given["accepted"]
+    assert (order.mode, order.max_speed, order.sequence) == (CoachMode.HOLD, 1.5, given["answer"]["sequence"])
+    page.say("drive", robot=f"{side}2", hand={"drive": {"vx": 1.0}})
+    driven = host.hands.receive(SOON)
+    assert driven is not None
+    assert (driven.chunks, driven.message().drive.vx) == ({"robot": f"{side}2"}, 1.0)
+    assert page.ask("action", action={"action": "repair", "robot": f"{side}2"})["accepted"]
+
+
+def test_of_two_orders_the_later_one_has_the_larger_number(visit: Visit, host: FakeHost) -> None:
+    page = visit("referee")
+    numbers = [page.say("order", side="cyan", order={"tactic": tactic}) for tactic in ("one", "two", "three")]
+    for number in numbers:
+        assert page.hear("reply", id=number)["accepted"]
+    orders = [wait_for(host.orders) for _ in numbers]
+    assert [order.tactic for order in sorted(orders, key=lambda order: order.sequence)] == ["one", "two", "three"]
+    assert len({order.sequence for order in orders}) == 3
+
+
+def test_an_order_that_makes_no_sense_is_refused_with_the_reason(visit: Visit, host: FakeHost) -> None:
+    page = visit("cyan")
+    reply = page.ask("order", side="cyan", order={"mode": "hold", "robot_a": "magenta1"})
+    assert (reply["accepted"], "no robot of cyan" in reply["reason"]) == (False, True)
+
+
+def test_the_token_counts_in_each_message_and_not_who_the_page_was(visit: Visit) -> None:
+    page = visit("referee")
+    assert page.ask("action", action={"action": "stop"})["accepted"]
+    assert not page.ask("action", token="", action={"action": "stop"})["accepted"]
+    assert not page.ask("action", token=TOKENS["cyan"], action={"action": "stop"})["accepted"]
+
+
+def test_questions_that_wait_hold_up_neither_a_stop_nor_another_role(
+    host_of: Callable[..., FakeHost], gateway_of: Callable[..., Gateway]
+) -> None:
+    slow = threading.Event()
+    host_of(slow=slow)
+    gateway = gateway_of()
+    coach, referee = Visitor(gateway.origin), Visitor(gateway.origin)
+    for page, role in ((coach, "cyan"), (referee, "referee")):
+        page.hear("welcome", live=True)
+        while page.hear("host")["there"] is False:
+            pass
+        page.enter(role)
+    for page in (coach, referee):
+        for _ in range(8):
+            page.say("parameters", request={"deed": "list"})
+        refused = page.ask("parameters", request={"deed": "list"})
+        assert refused["reason"] == "8 questions of this page still wait for their answers"
+    assert referee.ask("action", action={"action": "stop"})["accepted"]
+    assert not slow.is_set()
+    slow.set()
+    coach.close()
+    referee.close()
