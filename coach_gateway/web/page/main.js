@@ -72,7 +72,7 @@ async function claim(token) {
   if (reply.accepted) byId("seat").close();
 }
 
-byId("role").addEventListener("click", () => byId("seat").showModal());
+for (const id of ["role", "sit"]) byId(id).addEventListener("click", () => byId("seat").showModal());
 byId("seat-open").addEventListener("click", () => {
   byId("help").close();
   byId("seat").showModal();
@@ -87,7 +87,7 @@ byId("token-form").addEventListener("submit", (event) => {
 match.on("welcome", () => {
   say(byId("seat-says"), SEATS[match.role]);
   show(byId("leave"), match.role !== "spectator");
-  show(byId("token-form"), match.role === "spectator");
+  for (const id of ["token-form", "watching"]) show(byId(id), match.role === "spectator");
   if (!match.live && ["match", "coach", "drive", "settings", "log"].includes(tabs.opened)) tabs.open("host");
 });
 byId("help-open").addEventListener("click", () => byId("help").showModal());

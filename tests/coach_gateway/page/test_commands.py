@@ -160,7 +160,7 @@ def test_a_token_is_taken_from_the_address_kept_and_given_up(match, visit) -> No
     tab.until("window.touchline.match.role === 'spectator'")
     tab.page.reload()
     tab.until("window.touchline?.match.setup && window.touchline.match.role === 'spectator'")
-    tab.page.locator("#role").click()
+    tab.page.locator("#sit").click()
     tab.page.locator("#token").fill("nonsense")
     tab.page.keyboard.press("Enter")
     tab.until("document.getElementById('token-says').textContent.startsWith('refused: nobody has this token')")
