@@ -31,6 +31,10 @@ STOPS = 5
 
 def main() -> None:
     """Print both."""
+    chromium = shutil.which("chromium") or shutil.which("google-chrome")
+    if chromium is None:
+        print("page: not measured, there is no Chromium; apt-get install chromium")
+        return
     with (
         field("robot_agent.teams.simple:Simple", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, _),
         tempfile.TemporaryDirectory() as folder,
@@ -43,7 +47,6 @@ def main() -> None:
         try:
             address = _address(gateway)
             root = ["--no-sandbox"] if os.geteuid() == 0 else []
-            chromium = shutil.which("chromium") or shutil.which("google-chrome")
             browser = playwright.chromium.launch(executable_path=chromium, args=root)
             page = browser.new_page(viewport={"width": 1440, "height": 900})
             page.goto(f"{address}#token={json.loads(tokens.read_text())['referee']}")
