@@ -2,7 +2,7 @@
 
 ADDRESS is what `touchline match --web` or `touchline replay FILE --web` says. The picture is taken when the page's
 phase, score or event list has WORDS, at once without them. `docs/images/page_live.png` and `page_phone.png` were taken
-of a match with seed 7, `page_replay.png` of its recording.
+of a match with seed 9, `page_replay.png` of its recording.
 """
 
 import os
