@@ -52,6 +52,6 @@ def test_a_host_that_is_killed_and_started_again_is_waited_for(match, visit) -> 
     assert tab.button("start").is_disabled()
     match.start()
     tab.until("document.getElementById('notice').hidden && document.getElementById('score').textContent === '0 : 0'")
-    tab.until("window.touchline.stage.world !== null && window.touchline.stage.world.time > 0.5")
+    tab.until("window.touchline.stage.world !== null && window.touchline.stage.world?.time > 0.5")
     tab.button("goal", "magenta").click()
     tab.until("document.getElementById('score').textContent === '0 : 1'")

@@ -221,7 +221,7 @@ def test_a_scene_is_loaded_and_left(match, visit) -> None:
     assert tab.page.locator("#scene-says").inner_text()
     tab.page.locator("#scene-load").click()
     match.until(lambda: match.world["episode"] == 2)
-    tab.until("window.touchline.stage.world.episode === 2")
+    tab.until("window.touchline.stage.world?.episode === 2")
     tab.page.locator("#match-reset").click()
     match.until(lambda: match.world["episode"] == 3)
 

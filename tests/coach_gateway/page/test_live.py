@@ -28,7 +28,7 @@ def test_drawing_goes_on_while_the_match_is_played(match_of, visit) -> None:
     sides = {side: {"brain": "robot_agent.teams.simple:Simple", "size": 5} for side in ("cyan", "magenta")}
     tab = visit(match_of(teams=sides))
     drawn, time = tab.ask("[window.touchline.stage.drawn, window.touchline.stage.world.time]")
-    tab.until(f"window.touchline.stage.drawn > {drawn + 60} && window.touchline.stage.world.time > {time + 0.5}")
+    tab.until(f"window.touchline.stage.drawn > {drawn + 60} && window.touchline.stage.world?.time > {time + 0.5}")
     assert tab.ask("Object.keys(window.touchline.stage.world.robots).length") == 10
 
 
