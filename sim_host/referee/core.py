@@ -1,7 +1,7 @@
 """The referee: (state, snapshot, actions, dt) → ruling; it remembers nothing and sees nothing else."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from schemas.frames import Pose
 from schemas.game import RESTARTS, ActionReply, GameEvent, Mode, Phase, RefereeAction
@@ -24,8 +24,7 @@ from sim_host.referee.turn import Turn
 from sim_host.snapshot import Roster, Snapshot
 
 
-@dataclass(frozen=True, slots=True)
-class Ruling:
+class Ruling(NamedTuple):
     """What the referee made of one tick."""
 
     state: RefereeState

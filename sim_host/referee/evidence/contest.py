@@ -31,7 +31,8 @@ def contest_after(
 ) -> Contest | None:
     """The contest after one more tick of `dt` in s, or nothing."""
     sides, ball = match.roster.sides, snapshot.ball
-    both = len(around.near) > 1 and any(sides[index] is not sides[around.near[0]] for index in around.near)
+    near = around.near
+    both = len(near) > 1 and len({sides[index] for index in near}) > 1
     place = (ball.x, ball.y)
     if before is None:
         return Contest(place, robots=around.near) if both else None
