@@ -54,7 +54,7 @@ class Reel:
             TouchlineError: the newest is damaged.
         """
         if not self._recordings[-1].complete:
-            self._recordings[-1] = open_recording(_named(self._recordings[-1].path))
+            self._recordings[-1] = _opened_again(self._recordings[-1].path)
         return self._recordings
 
     @property
@@ -178,7 +178,7 @@ class Reel:
     def _is_split(self) -> bool:
         """Whether the last file, which is finished, says that it goes on in another."""
         if self._ended is None:
-            self._recordings[-1] = open_recording(_named(self._recordings[-1].path))
+            self._recordings[-1] = _opened_again(self._recordings[-1].path)
             result = self._recordings[-1].result
             self._ended = result.ended if result is not None else Ended.HOST_GONE
         return self._ended is Ended.SPLIT
@@ -193,6 +193,14 @@ def _named(path: Path) -> Path:
     """A file by the name that it has now: it loses `.part` when it is finished."""
     finished = path.with_suffix("") if path.suffix == ".part" else path
     return finished if finished.exists() or not _part(finished).exists() else _part(finished)
+
+
+def _opened_again(path: Path) -> Recording:
+    """A file as it is now; it may be given its name between a look for it and opening it."""
+    try:
+        return open_recording(_named(path))
+    except TouchlineError:
+        return open_recording(_named(path))
 
 
 def _first(path: Path, *, follow: bool) -> Path:

@@ -110,10 +110,9 @@ def test_only_what_is_kept_is_on_it(split, whole):
     assert told(rest(reel)) == [message for message in told(whole) if message[0] == "world"]
 
 
-def test_a_recording_is_followed_from_file_to_file_while_it_is_written(make_stage, tmp_path, whole):
+def test_a_recording_is_followed_from_file_to_file_while_it_is_written(make_stage, tmp_path, whole, written):
     stage = make_stage(path=tmp_path / "live" / "match.mcap", limits=Limits(duration=0.5))
     stage.begin()
-    stage.output.sync()
     stage.host.referee(0, Phase.PLAY, Score())
     reel: Reel | None = None
     found: list[tuple[str, bytes, int]] = []
@@ -125,7 +124,7 @@ def test_a_recording_is_followed_from_file_to_file_while_it_is_written(make_stag
             stage.host.goal(170)
         stage.play(range(tick, tick + 1), pump_every=1)
         if tick % 7 == 6:
-            stage.output.sync()
+            written(stage)
             reel = reel or Reel(stage.path, follow=True)
             reel.grow()
             found += told(rest(reel))
@@ -139,11 +138,11 @@ def test_a_recording_is_followed_from_file_to_file_while_it_is_written(make_stag
     assert reel.finished
 
 
-def test_a_replay_behind_a_split_recording_says_everything_in_order(make_stage, tmp_path):
+def test_a_replay_behind_a_split_recording_says_everything_in_order(make_stage, tmp_path, written):
     stage, clock = make_stage(path=tmp_path / "live" / "match.mcap", limits=Limits(duration=0.5)), SteppedClock()
     stage.begin()
     stage.play(range(30), pump_every=1)
-    stage.output.sync()
+    written(stage)
     heard: list[Recorded] = []
     player = Replay(Programme(stage.path, follow=True, behind=0.2)).player(clock, say=heard.append)
     for tick in range(30, TICKS):
