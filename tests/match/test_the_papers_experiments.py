@@ -105,6 +105,11 @@ class Experiment:
         assert isinstance(brain, NuBot)
         return brain._machine.state
 
+    def ball_lies_on_its_spot(self) -> bool:
+        """Whether the ball lies where the restart is taken from."""
+        spot, ball = self.host.simulation.state.spot, self.trace[-1]["ball"]
+        return spot is not None and math.dist(spot, (ball["x"], ball["y"])) < 0.01
+
     def where(self, name: str) -> tuple[float, float]:
         """Where a robot is, in truth."""
         robot = self.trace[-1]["robots"][name]
@@ -211,6 +216,7 @@ def test_one_every_robot_receives_the_coachs_command(static: Experiment, action:
     assert static.seen.match.state is not None and static.seen.match.state.phase is phase
     if phase is Phase.STOPPED:
         return
+    assert static.play(static.ball_lies_on_its_spot, 20.0)  # as soon as nobody stands there
     reply = static.asked(lambda: static.gateway.act(RefereeAction(action=ActionName.START)))
     assert reply.accepted, reply.reason
     assert static.play(lambda: all(static.sights[name].game.running for name in CYAN), 1.0)
