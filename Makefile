@@ -12,8 +12,8 @@ help: ## show this list
 match: $(READY) ## play a match, for example: make match ARGS="--seed 7 --duration 60"
 	@.venv/bin/touchline match $(ARGS)
 
-test: $(READY) ## run the tests, for example: make test ARGS=tests/arena
-	.venv/bin/pytest $(ARGS)
+test: $(READY) ## run the tests, file by file in two processes, for example: make test ARGS=tests/arena
+	.venv/bin/pytest -n 2 --dist loadfile $(ARGS)
 
 check: $(READY) ## format, lint, types, and which package may import which
 	.venv/bin/ruff format --check

@@ -134,7 +134,7 @@ def test_what_robots_perceive_changes_nothing_in_the_world() -> None:
     changed = simulate()
     for tick, _ in enumerate(drive(changed, 40)):
         if tick == 20:
-            changed._perception.change(replace(changed.profile.sensing, ball_range=1.0, latency=0.1))
+            changed._crew._perception.change(replace(changed.profile.sensing, ball_range=1.0, latency=0.1))
     chains.append(changed.now.applied["chain"])
     changed.close()
     assert len(set(chains)) == 1

@@ -87,7 +87,7 @@ def viewer(recorded) -> Iterator[Viewer]:
     replay, clock = Replay(Programme(recorded.path, stay=True)), SteppedClock()
     with LiveView("a match", recorded.manifest.setup, (replay.tape.start_ns, replay.tape.end_ns), 0) as view:
         player = replay.player(clock, say=view.say)
-        with connect(view.address, subprotocols=["foxglove.sdk.v1"]) as socket:
+        with connect(view.address, subprotocols=["foxglove.sdk.v1"], close_timeout=0.5) as socket:
             viewer = Viewer(socket, view, player, clock)
             viewer.play(0.5)
             viewer.until(lambda: len(viewer.topics) >= len(SCHEMAS) + 6)
