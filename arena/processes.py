@@ -121,7 +121,7 @@ class Plan:
     @property
     def recording_files(self) -> list[Path]:
         """The finished files of the recording: one, or numbered ones."""
-        from recordings.output import files_at
+        from recordings.numbering import files_at
 
         return files_at(self.recording) if self.recording is not None else []
 

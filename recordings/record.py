@@ -4,9 +4,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 from recordings.account import Account
-from recordings.output import ONE_FILE, Files, Limits, Output, Snapshots
+from recordings.output import ONE_FILE, Files, Limits, Output
 from recordings.recorder import Recorder, RecordingSummary
 from recordings.selection import EVERYTHING, Selection
+from recordings.snapshots import Snapshots
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.zenoh_bus import open_client
 from schemas.clock import Clock, WallClock

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from recordings.manifest import Ended
-from recordings.output import numbered, numbered_files
+from recordings.numbering import numbered, numbered_files
 from recordings.reader import Recorded, Recording, open_recording
 from recordings.tape import Tape
 from schemas.errors import TouchlineError

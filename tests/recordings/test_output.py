@@ -4,7 +4,8 @@ import pytest
 
 from recordings.info import facts_of
 from recordings.manifest import Ended
-from recordings.output import Limits, files_at
+from recordings.numbering import files_at
+from recordings.output import Limits
 from recordings.reader import open_recording
 from recordings.selection import Selection, pattern
 from schemas.control import RecorderDeed, RecorderRequest

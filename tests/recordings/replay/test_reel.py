@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from recordings.output import Limits, numbered
+from recordings.numbering import numbered
+from recordings.output import Limits
 from recordings.reader import Recorded, open_recording
 from recordings.reel import Reel
 from recordings.replay.moments import Moment

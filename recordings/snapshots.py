@@ -1,0 +1,127 @@
+"""Where a recorder's messages go when only the last seconds count: files of their own, each from a goal or a wish."""
+
+from collections import deque
+from pathlib import Path
+
+from recordings.account import Account
+from recordings.cast import Cast
+from recordings.manifest import Ended, Result
+from recordings.numbering import check_free, drop_oldest, numbered
+from recordings.output import Head, Limits, Tail
+from recordings.standing import Logged, Standing
+from recordings.writer import RecordingWriter
+from schemas.clock import Clock
+from schemas.game import EventKind, GameEvent
+from schemas.message import BadMessageError
+from schemas.topics import EVENT
+
+
+class Snapshots:
+    """Holds the last seconds in memory, and writes them to a file of their own at a goal, or on request."""
+
+    def __init__(
+        self, path: Path, clock: Clock, match: str, account: Account, limits: Limits, *, viz: bool = True
+    ) -> None:
+        """Checks that a file can be written there; with `viz`, what viewers draw is written, too.
+
+        Raises:
+            TouchlineError: it cannot.
+        """
+        self._viz = viz
+        assert limits.snapshot is not None
+        self._base, self._clock, self._match, self._account, self._keep = path, clock, match, account, limits.keep
+        self._horizon_ns = round(limits.snapshot * 1e9)
+        self._held: deque[Logged] = deque()
+        self._before = Standing()
+        """What stood when the oldest message that is held came."""
+        self._number = 0
+        self.files: list[Path] = []
+        check_free(path)
+        probe = RecordingWriter(numbered(path, 1), clock, match)
+        probe.discard()
+
+    @property
+    def path(self) -> Path:
+        """The newest snapshot, or where the first one will be."""
+        return self.files[-1] if self.files else numbered(self._base, 1)
+
+    def begin(self, head: Head, tail: Tail, cast: Cast) -> None:
+        """Remember how to make a file."""
+        self._head, self._tail, self._cast = head, tail, cast
+
+    def write(self, batch: list[Logged]) -> None:
+        """Hold messages, forget those that are too old, and write all when there was a goal."""
+        for logged in batch:
+            self._account.enter(logged[1])
+            self._held.append(logged)
+        if batch:
+            self._forget(batch[-1][0] - self._horizon_ns)
+        if any(_is_goal(logged) for logged in batch):
+            self.snapshot("goal")
+
+    def pass_over(self, batch: list[Logged]) -> None:
+        """Follow what stands: a pause is a hole in what is held, and what was before it is forgotten."""
+        for logged in batch:
+            self._account.enter(logged[1], left_out=True)
+        self._forget(None)
+        for logged in batch:
+            self._before.take(logged)
+
+    def sync(self) -> None:
+        """Snapshots are on the disk when they are written."""
+
+    def split(self) -> str:
+        """There is no file to go on with."""
+        return "it writes snapshots; ask it for one"
+
+    def snapshot(self, why: str) -> str:
+        """Write what is held."""
+        if not self._held:
+            return "it holds nothing yet"
+        self._number += 1
+        path = numbered(self._base, self._number)
+        writer = RecordingWriter(path, self._clock, self._match, self._cast, viz=self._viz)
+        manifest, attachments = self._head()
+        made = {"part": self._number, "made": f"snapshot: {why}"}
+        try:
+            writer.begin(manifest.model_copy(update=made), attachments, self._before.messages())
+            writer.write(list(self._held))
+            writer.finish(self._result())
+        finally:
+            writer.abandon()
+        self.files.append(writer.path)
+        drop_oldest(self.files, self._keep)
+        return ""
+
+    def finish(self, ended: Ended) -> int:
+        """What is held and nobody wanted is forgotten."""
+        del ended
+        return sum(file.stat().st_size for file in self.files)
+
+    def abandon(self) -> None:
+        """No file is open between two calls."""
+
+    def _forget(self, before_ns: int | None) -> None:
+        while self._held and (before_ns is None or self._held[0][0] < before_ns):
+            self._before.take(self._held.popleft())
+
+    def _result(self) -> Result:
+        """The result of these seconds alone."""
+        account = Account()
+        for _, received in self._held:
+            account.enter(received)
+        counts = {
+            key: count.model_copy(update={"missed_before_start": 0}) for key, count in account.of_this_file().items()
+        }
+        return self._tail(Ended.SNAPSHOT).counted(counts)
+
+
+def _is_goal(logged: Logged) -> bool:
+    received = logged[1]
+    if received.key != EVENT.key:
+        return False
+    try:
+        event: GameEvent = received.message()
+    except BadMessageError:
+        return False
+    return event.kind is EventKind.GOAL
