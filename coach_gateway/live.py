@@ -26,6 +26,8 @@ _LOOK_S = 0.01
 """s of wall time between two looks at the bus."""
 _ASK_S = 1.0
 """s of wall time until a host that did not answer is asked again how its match is set up."""
+_CATCH_UP_S = 1.0
+"""s of wall time that a state which was told before an answer may come after it."""
 _LATE_TICKS = 50
 """Ticks that a state may be older than one before it; one that is older still is another match's."""
 _QUESTIONS = 4
@@ -108,6 +110,12 @@ class Live:
         return self._read(self._world) if self._world is not None else None
 
     @property
+    def time(self) -> float:
+        """Simulated time of the newest tick in s; 0 before the first."""
+        world = self.world
+        return world.time if world is not None else 0.0
+
+    @property
     def refboxes(self) -> list[Side]:
         """The sides whose base stations hear a league's referee box."""
         return [side for side in Side if self._refboxes.get(side, False)]
@@ -129,11 +137,24 @@ class Live:
         (self._bus.declare_alive if connected else self._bus.withdraw_alive)(REFBOX, side.value)
 
     async def act(self, action: RefereeAction) -> ActionReply:
-        """Ask the referee; without a host the answer is a refusal that says so."""
+        """Ask the referee; without a host the answer is a refusal that says so.
+
+        When it returns, `state` is what the action has led to, so that who asks on decides by no older one.
+        """
         try:
-            return await self._in_thread(lambda: self._gateway.act(action))
+            reply = await self._in_thread(lambda: self._gateway.act(action))
         except TouchlineError as error:
             return ActionReply(accepted=False, reason=str(error))
+        if reply.tick is not None:
+            await self._catch_up(reply.tick)
+        return reply
+
+    async def _catch_up(self, tick: int) -> None:
+        """Wait for the state of a tick, which the host has told; one that is lost on its way is not waited for long."""
+        until = self.now + _CATCH_UP_S
+        while (self.state is None or self.state.tick < tick) and self.now < until:
+            await asyncio.sleep(_LOOK_S)
+            self.update()
 
     async def order(self, side: Side, **content: Any) -> CoachOrder:
         """Give a side its new standing order.

@@ -301,3 +301,5 @@ class ActionReply(Message):
     accepted: bool
     reason: str = ""
     """Why it was refused."""
+    tick: int | None = None
+    """Tick that the referee judged it in, whose state the host tells before it answers; none where he was not asked."""

@@ -65,7 +65,7 @@ class Outbox:
         self._sights[robot].put_payload(self._sent[robot])
 
     def truth(self, tick: Tick, state: RefereeState) -> None:
-        """Send world, inputs, words, events, and the game's state when it changed or once a second."""
+        """Send world, inputs, words, events, and the game's state when it changed, was acted on, or once a second."""
         for event in tick.events:
             self._event.put(event)
         episode = tick.world["episode"]
@@ -82,7 +82,7 @@ class Outbox:
             state.proposal is None,
             episode,
         )
-        if news != self._said or tick.tick % self._state_every == 0:
+        if news != self._said or tick.replies or tick.tick % self._state_every == 0:
             self._state.put(state.game_state(tick.tick, tick.time, episode))
             self._said = news
         for side, robot, fields in tick.beliefs:

@@ -34,8 +34,9 @@ _UNREAD = 262_144
 _DEAF_S = 10.0
 """s of wall time that a box may go without reading before the link is given up."""
 _START_S = 10.0
-"""s of wall time that START is asked for again."""
+"""s of simulated time that START is asked for again: the rules' pauses are in simulated time, too."""
 _START_AGAIN_S = 0.1
+"""s of wall time between two of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,12 +207,12 @@ class RefBoxClient:
 
     async def _start(self, action: RefereeAction) -> None:
         """Bring the game on until it runs, unless the box says something else meanwhile."""
-        until = self._live.now + _START_S
+        until = self._live.time + _START_S
         reason = ""
-        while self._signals.empty() and self._live.now < until and self._waits_for_start():
+        while self._signals.empty() and self._live.there and self._live.time < until and self._waits_for_start():
             reply = await self._live.act(action)
             reason = reply.reason
-            await asyncio.sleep(_START_AGAIN_S)  # the state that follows is on its way
+            await asyncio.sleep(_START_AGAIN_S)
         lost = bool(reason) and self._waits_for_start()
         self.counts["refused" if lost else "forwarded"] += 1
         if lost:

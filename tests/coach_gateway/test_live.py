@@ -23,6 +23,20 @@ def test_without_a_host_the_answer_is_a_refusal_that_says_so(opened: Any, until:
     asyncio.run(play())
 
 
+def test_after_an_action_the_state_is_what_it_has_led_to(kicked_off: Any, until: Any) -> None:
+    """Who decides by the state, as base stations do, would decide by one from before his own last action."""
+
+    async def play() -> None:
+        async with kicked_off(**{"referee.mode": "manual", "duration": 3600.0}) as bench:
+            for action, score in [(ActionName.GOAL, 1), (ActionName.CANCEL_GOAL, 0)] * 3:
+                reply = await bench.live.act(RefereeAction(action=action, side=Side.CYAN))
+                assert reply.accepted and bench.live.state.score.cyan == score
+                refused = await bench.live.act(RefereeAction(action=ActionName.ENTER, robot="cyan1"))
+                assert not refused.accepted and bench.live.state.tick >= refused.tick > reply.tick
+
+    asyncio.run(play())
+
+
 def test_a_host_that_comes_after_another_is_asked_anew_and_nothing_of_the_old_match_counts(
     opened: Any, until: Any
 ) -> None:

@@ -77,7 +77,7 @@ def obey(turn: Turn, action: RefereeAction) -> ActionReply:
     row = ACTIONS[action.action]
     reason = row.why_illegal(turn, action)
     if reason is not None:
-        return ActionReply(accepted=False, reason=f"{action.action}: {reason}")
+        return ActionReply(accepted=False, reason=f"{action.action}: {reason}", tick=turn.snapshot.tick)
     place = (action.place.x, action.place.y) if action.place is not None else None
     owner = f" for {action.side}" if action.side is not None else ""
     where = f" at {at(place)}" if place is not None else ""
@@ -87,4 +87,4 @@ def obey(turn: Turn, action: RefereeAction) -> ActionReply:
     if row.can_be_undone:
         remember(turn)
     row.apply(turn, action)
-    return ActionReply(accepted=True)
+    return ActionReply(accepted=True, tick=turn.snapshot.tick)

@@ -84,6 +84,34 @@ def test_a_whole_match_is_played_by_the_commands_of_the_box(kicked_off: Callable
     asyncio.run(play())
 
 
+def test_a_box_need_not_wait_between_its_commands(kicked_off: Callable[..., Any], until: Any) -> None:
+    """All in one breath: each is taken as what the one before has led to asks for."""
+
+    async def play() -> None:
+        words = {"referee.mode": "manual", "rules": "friendly", "duration": 3600.0}
+        async with kicked_off(**words) as bench:
+            box = Box()
+            server = await asyncio.start_server(box.meet, "127.0.0.1", 0)
+            port = server.sockets[0].getsockname()[1]
+            bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append))
+            await until(lambda: box.link and bench.live.refboxes)
+            box.say("KICKOFF", US)
+            box.say("FIRST_HALF")
+            box.say("START")
+            await until(lambda: bench.stage.state.running, "the first half")
+            box.say("STOP")
+            box.say("GOAL", THEM)
+            box.say("HALF_TIME")
+            box.say("KICKOFF", THEM)
+            box.say("SECOND_HALF")
+            box.say("START")
+            await until(lambda: bench.stage.state.half == 2 and bench.stage.state.running, "the second half")
+            assert bench.stage.state.score.magenta == 1
+            server.close()
+
+    asyncio.run(play())
+
+
 def test_a_team_of_the_league_hears_the_match_that_our_referee_officiates(
     kicked_off: Callable[..., Any], until: Any
 ) -> None:
