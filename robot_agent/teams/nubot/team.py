@@ -67,6 +67,8 @@ class NuBot(Player):
         self._machine = Machine(self._points)
         self._role = HOLDS
         self._promised: Promise | None = None
+        self._receiver: str | None = None
+        """Who is meant to get the ball that this robot plays."""
         self._shown = 0
         """Number of the order that the machine was last begun for."""
 
@@ -127,6 +129,7 @@ class NuBot(Player):
             Situation(scene.me, ball.now[:2], scene.holding, scene.dt, kicker_ready=scene.kicker_ready)
         )
         if self._machine.state is State.CHASE_BALL:
+            self._receiver = None
             return Action(PLAYS, self._machine.state.value, self._meet(scene, ball), dribble=True)
         if scene.holding and not self.may_score:
             prepared = self._pass_ahead(scene)
@@ -137,7 +140,7 @@ class NuBot(Player):
     def _pass_ahead(self, scene: Scene) -> Action | None:
         """Where a goal would not count, to a teammate in the other half, if there is one whom a pass reaches."""
         ahead = {name: place for name, place in places_of(scene.mates).items() if place[0] > _PREPARED}
-        receiver = best_receiver(scene.me[:2], ahead, scene.opponents)
+        self._receiver = receiver = best_receiver(scene.me[:2], ahead, scene.opponents, chosen=self._receiver)
         if receiver is None:
             return None
         motion, kick = pass_to(scene.me, ahead[receiver], self.setup, self.limits)
@@ -211,7 +214,7 @@ class NuBot(Player):
         if phase is TeamPhase.OUR_KICK_OFF:
             return _KICK_OFF_TO, None
         mates = {name: place for name, place in places_of(scene.mates).items() if name != self.keeper}
-        receiver = best_receiver(spot, mates, scene.opponents)
+        self._receiver = receiver = best_receiver(spot, mates, scene.opponents, chosen=self._receiver)
         return (mates[receiver], receiver) if receiver is not None else (self._points.dribble, None)
 
     def _hold(self, scene: Scene, spot: tuple[float, float]) -> Action:

@@ -42,7 +42,7 @@ class Simple(Player):
         self._held = self._pressed = 0.0
         self._promised: Promise | None = None
         self._receiver: str | None = None
-        """Who is meant to get the ball that this robot holds."""
+        """Who is meant to get the ball that this robot holds or is about to play."""
         self._clearance = 2.0 * self.setup.robot.reach + 0.05
 
     def play(self, scene: Scene, order: CoachOrder | None) -> Action:
@@ -168,7 +168,7 @@ class Simple(Player):
             return (pitch.goal_line, 0.35 * pitch.goal_width), None
         if scene.game.phase is TeamPhase.OUR_KICK_OFF:
             return KICK_OFF_TO, next((name for name, mate in mates.items() if mate.role == Role.LEFT), None)
-        receiver = best_receiver(spot, places_of(mates), scene.opponents)
+        self._receiver = receiver = best_receiver(spot, places_of(mates), scene.opponents, chosen=self._receiver)
         if receiver is None:
             return (pitch.goal_line - pitch.penalty_mark, 0.0), None
         return mates[receiver].body[:2], receiver
@@ -205,7 +205,8 @@ class Simple(Player):
     def _play_out(self, scene: Scene) -> Action:
         """To a teammate, or far up the side that the ball is on."""
         mates = self._field_mates(scene)
-        receiver = best_receiver(scene.me[:2], places_of(mates), scene.opponents)
+        receiver = best_receiver(scene.me[:2], places_of(mates), scene.opponents, chosen=self._receiver)
+        self._receiver = receiver
         up_the_wing = 0.0, math.copysign(0.4 * self.setup.pitch.width, scene.me.y)
         target = mates[receiver].body[:2] if receiver is not None else up_the_wing
         motion, kick = pass_to(scene.me, target, self.setup, self.limits)

@@ -109,6 +109,17 @@ def test_a_pass_goes_to_the_one_farthest_ahead_whose_lane_is_free():
     assert best_receiver((0.0, 0.0), mates, [(2.5, -1.5), (2.0, 1.5)]) is None
 
 
+def test_the_chosen_receiver_stays_until_another_is_clearly_better_or_his_lane_closes():
+    mates = {"a": (4.0, 3.0), "b": (4.3, -3.0)}
+    assert best_receiver((0.0, 0.0), mates, []) == "b"
+    assert best_receiver((0.0, 0.0), mates, [], chosen="a") == "a"
+    assert best_receiver((0.0, 0.0), {"a": (4.0, 3.0), "b": (5.2, -3.0)}, [], chosen="a") == "b"
+    nearly_closed = [(1.6 + 0.6 * 0.55, 1.2 - 0.8 * 0.55)]
+    assert best_receiver((0.0, 0.0), {"a": (4.0, 3.0)}, nearly_closed) is None
+    assert best_receiver((0.0, 0.0), {"a": (4.0, 3.0)}, nearly_closed, chosen="a") == "a"
+    assert best_receiver((0.0, 0.0), mates, [(2.0, 1.5)], chosen="a") == "b"
+
+
 def test_a_lane_is_as_wide_as_the_nearest_opponent_beside_it_allows():
     assert lane_width((0.0, 0.0), (5.0, 0.0), [(2.0, 1.0)], 0.0) == pytest.approx(1.0)
     assert lane_width((0.0, 0.0), (5.0, 0.0), [(2.0, 1.0)], 0.1) == pytest.approx(0.8)

@@ -56,6 +56,22 @@ def test_who_plays_does_not_change_each_tick_with_two_robots_equally_near(squad,
 
 
 @pytest.mark.parametrize("team", TEAMS)
+@pytest.mark.parametrize("is_held", [False, True])
+def test_a_taker_between_two_receivers_who_are_as_good_turns_to_one_of_them(squad, team, is_held):
+    """As seen in a match: the noise made now one, now the other the better one, and the taker danced for 6 s."""
+    poses = {1: (-10.5, 0.0, 0.0), 2: (-7.75, 0.0, 0.0), 3: (-4.0, 3.4, 3.0), 4: (-4.0, -3.4, 3.0)}
+    made, turns, spot = squad(team, poses), [], Point(x=-7.4, y=0.0)
+    for tick in range(100):
+        better = 3 if tick // 10 % 2 else 4
+        for number in (3, 4):
+            made.poses[f"cyan{number}"] = (-3.95 if number == better else -4.05, *poses[number][1:])
+        said = made.act(ball=(-7.4, 0.0), phase=TeamPhase.OUR_GOAL_KICK, running=True, spot=spot, holding=is_held)
+        turns.append(said["cyan2"].drive.omega if is_held else said["cyan2"].drive.vy)
+    settled = turns[20:]
+    assert min(settled) > 0.0 or max(settled) < 0.0
+
+
+@pytest.mark.parametrize("team", TEAMS)
 @pytest.mark.parametrize("phase", SET_PIECES)
 def test_before_start_everybody_stands_as_far_from_the_ball_as_the_rules_ask(squad, setup, team, phase):
     made = squad(team)
