@@ -6,7 +6,7 @@ off, so that the rebound would depend on chance.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from schemas.profile import Profile
 from sim_host.actuation.drive import FieldDrive
@@ -19,7 +19,7 @@ _BROUGHT_TO = 0.001
 _STIRS = 0.03
 """m that a robot may move in a step."""
 _APPROACHES = 6
-"""Rounds in which a ball comes to touch a hull that it meets off its axis."""
+"""Rounds in which bodies come to touch that turn, or meet off their axes: where they are nearest changes on the way."""
 _TOP_SPEED = 60.0
 """m/s; no two bodies close in faster: twice the most that a drive may have, and the turn of their frames."""
 
@@ -43,17 +43,25 @@ class Touch:
         """
         bodies, standing = self._engine.robots, self._engine.standing() if fixed else []
         for one, other in robots:
-            time = self._time_to_touch(bodies[one], bodies[other], drives[one], drives[other])
-            if time > 0.0:
-                self._move_on(bodies[one], drives[one], time)
-                self._move_on(bodies[other], drives[other], time)
+            self._bring({bodies[one]: drives[one], bodies[other]: drives[other]})
         for one, other in fixed:
-            time = self._time_to_touch(bodies[one], standing[other], drives[one], _STANDS)
-            if time > 0.0:
-                self._move_on(bodies[one], drives[one], time)
+            self._bring({bodies[one]: drives[one], standing[other]: _STANDS})
 
-    def _time_to_touch(self, one: int, other: int, drive: FieldDrive, others: FieldDrive) -> float:
-        """s after which two bodies touch, if the next step would bring them deep into each other; else 0."""
+    def _bring(self, drives: Mapping[int, FieldDrive]) -> None:
+        """Move two bodies with these velocities to where they touch, if the next step would bring them too deep."""
+        (one, drive), (other, others) = drives.items()
+        deep = DEEP
+        for _ in range(_APPROACHES):
+            time = self._time_to_touch(one, other, drive, others, deep)
+            if time == 0.0:
+                return
+            for body, moving in drives.items():
+                if any(moving):
+                    self._move_on(body, moving, time)
+            deep = 0.0  # the engine finds no contact of two frames that a hair's breadth of air is left between
+
+    def _time_to_touch(self, one: int, other: int, drive: FieldDrive, others: FieldDrive, deep: float) -> float:
+        """s after which two bodies touch, if the next step would bring them `deep` m into each other; else 0."""
         gap = self._engine.gap(one, other, self._step * _TOP_SPEED)
         if gap is None or gap.width <= 0.0:
             return 0.0
@@ -61,7 +69,7 @@ class Touch:
         for body, at, (vx, vy, omega), sign in ((one, gap.on_one, drive, -1.0), (other, gap.on_other, others, 1.0)):
             x, y, _ = self._engine.state(body).position
             closing += sign * (gap.normal[0] * (vx - omega * (at[1] - y)) + gap.normal[1] * (vy + omega * (at[0] - x)))
-        return 0.0 if closing * self._step < gap.width + DEEP else (gap.width + _BROUGHT_TO) / closing
+        return 0.0 if closing * self._step < gap.width + deep else (gap.width + _BROUGHT_TO) / closing
 
     def _move_on(self, body: int, drive: FieldDrive, time: float) -> None:
         """Move a robot on by `time` s."""
