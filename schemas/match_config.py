@@ -1,12 +1,10 @@
 """The match file: one frozen `MatchConfig` from TOML, with errors that name file, key, value and remedy."""
 
-import json
-import re
 import tomllib
 from pathlib import Path
-from typing import Annotated, Any, get_args, get_origin
+from typing import Annotated, Any
 
-from pydantic import Field, ValidationError, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import Mode
@@ -14,6 +12,7 @@ from schemas.message import Name, Part
 from schemas.noise import PRESETS
 from schemas.obstacle import Shape, StaticObstacle
 from schemas.side import Side
+from schemas.toml_file import validated
 
 MAX_ROBOTS = 5
 """Robots of one side, rule book 10.2."""
@@ -24,7 +23,10 @@ REMEDIES = {
     "name": "a match name is a key chunk: small letters, digits and _",
     "seed": "a whole number from 0 to 2^63 - 1",
     "pace": 'write "lockstep", "realtime", or "x4" for four times real time',
-    "duration": "playing time of all halves in s, above 0",
+    "duration": "playing time of all halves in s, above 0 and at most 86400",
+    "teams": "write [teams.cyan] and [teams.magenta]",
+    "teams.cyan": "write [teams.cyan], and below it what the team is",
+    "teams.magenta": "write [teams.magenta], and below it what the team is",
     "teams.cyan.size": f"a side has 1 to {MAX_ROBOTS} robots",
     "teams.magenta.size": f"a side has 1 to {MAX_ROBOTS} robots",
     "teams.cyan.robots": f"1 to {MAX_ROBOTS} different names of small letters, digits and _",
@@ -33,6 +35,7 @@ REMEDIES = {
     "teams.magenta.brain": 'write "module:Class"',
     "teams.cyan.types": 'write robot = "type", as in { cyan1 = "keeper" }',
     "teams.magenta.types": 'write robot = "type", as in { magenta1 = "keeper" }',
+    "obstacles": "write [[obstacles]] above each of them",
     "obstacles.shape": f"one of {', '.join(Shape)}",
     "obstacles.place": "x and y of the centre in m",
     "obstacles.size": "x, y and z of a box in m",
@@ -153,7 +156,7 @@ class MatchConfig(Part):
 
     name: Name = "friendly"
     seed: Annotated[int, Field(ge=0, lt=2**63)] = 1
-    pace: Annotated[str, Field(pattern=r"^(lockstep|realtime|x\d+(\.\d+)?)$")] = "lockstep"
+    pace: Annotated[str, Field(pattern=r"^(lockstep|realtime|x\d{1,6}(\.\d{1,6})?)$")] = "lockstep"
     duration: Annotated[float, Field(gt=0, le=86_400)] | None = None
     """Playing time of all halves in s; by default the rule book's."""
     scene: str | None = None
@@ -170,6 +173,13 @@ class MatchConfig(Part):
     referee: Officiating = Officiating()
     record: Recording = Recording()
     patience: Patience = Patience()
+
+    @field_validator("pace")
+    @classmethod
+    def _goes_on(cls, pace: str) -> str:
+        if pace.startswith("x") and not float(pace[1:]):
+            raise ValueError("time would stand still")
+        return pace
 
     @model_validator(mode="after")
     def _different_names(self) -> "MatchConfig":
@@ -267,33 +277,4 @@ def _validated(content: dict[str, Any], where: str) -> MatchConfig:
         if isinstance(team, dict) and not {"brain", "command"} & set(team):
             team["brain"] = default.brain
             team.setdefault("name", default.name)
-    try:
-        return MatchConfig.model_validate_json(json.dumps(content, default=str), strict=True)
-    except ValidationError as error:
-        raise TouchlineError(f"{where}: {_sentence(error.errors(include_url=False)[0])}") from None
-
-
-def _sentence(error: Any) -> str:
-    key = ".".join(str(step) for step in error["loc"] if step not in ("constrained-str", "str", "int", "float"))
-    value = error["input"]
-    if error["type"] == "extra_forbidden":
-        parent = _model_at(error["loc"][:-1])
-        known = parent.model_fields if parent is not None else ()
-        return f"{key} is not known; {did_you_mean(str(error['loc'][-1]), known)}"
-    said = re.sub(r"^Value error, ", "", error["msg"])
-    if not key:
-        return said
-    remedy = REMEDIES.get(re.sub(r"\.\d+(?=\.|$)", "", key))
-    return f"{key} is {value!r}; {remedy or said}"
-
-
-def _model_at(path: tuple[Any, ...]) -> type[Part] | None:
-    model: type[Part] | None = MatchConfig
-    for step in path:
-        if isinstance(step, int):
-            continue  # a place in a list of the model that was found last
-        field = model.model_fields.get(str(step)) if model is not None else None
-        kind: Any = field.annotation if field is not None else None
-        kind = get_args(kind)[0] if get_origin(kind) is list else kind
-        model = kind if isinstance(kind, type) and issubclass(kind, Part) else None
-    return model
+    return validated(MatchConfig, content, where, REMEDIES)

@@ -40,8 +40,10 @@ def _sentence(model: type[BaseModel], error: Any, remedies: Mapping[str, str]) -
         return f"{key} is not known; {did_you_mean(str(steps[-1]), parent.model_fields if parent is not None else ())}"
     if error["type"] == "missing":
         return f"{key} is missing; {remedies.get(_without_places(key), 'it must be given')}"
-    if not key or error["type"] == "value_error":
-        return f"{key}: {said}" if key else said
+    if not key:
+        return said
+    if error["type"] == "value_error" and isinstance(error["input"], dict):
+        return f"{key}: {said}"  # of a whole table, what is said names what is wrong in it
     return f"{key} is {error['input']!r}; {remedies.get(_without_places(key)) or said}"
 
 
