@@ -8,7 +8,6 @@ from robot_agent.bodies import Ball, Limits
 from robot_agent.contract import Briefing
 from robot_agent.fair_play import Asked, Carry, Control, carried, control_after
 from robot_agent.skills.avoid import circles, go_around
-from robot_agent.skills.go_to import go_to
 from robot_agent.skills.keep_goal import keep_goal
 from robot_agent.skills.keep_out import Area, keep_out
 from robot_agent.skills.let_go import let_go
@@ -266,7 +265,8 @@ class Player(ABC):
         pitch, radius = self.setup.pitch, self.setup.robot.reach
         x = -pitch.goal_line + 1.5 * self.briefing.number
         y = -pitch.touch_line + radius + 0.1
-        return go_to(scene.me, x, y, 0.0, self.limits.capped(_PARKING_SPEED))
+        blocked = circles(scene.others, 2.0 * self.setup.robot.reach + _AIR)
+        return go_around(scene.me, x, y, 0.0, blocked, self.limits.capped(_PARKING_SPEED))
 
     def _word(self, scene: Scene, action: Action) -> Radio | None:
         if (scene.tick + self.briefing.number) % SPEAKS_EVERY and action.pass_to is None:

@@ -10,7 +10,7 @@ from robot_agent.skills.dribble_to import dribble_to
 from robot_agent.skills.go_to import drive
 from robot_agent.skills.keep_off import inside
 from robot_agent.skills.kick_at import kick_at
-from robot_agent.skills.pass_to import best_receiver, is_open, pass_to
+from robot_agent.skills.pass_to import EASE, best_receiver, is_open, pass_to
 from robot_agent.skills.shoot import best_place, lane_width
 from robot_agent.teams.action import Action
 from robot_agent.teams.simple.roles import Role
@@ -87,9 +87,9 @@ def play_ball(ground: Ground, setup: Setup, limits: Limits) -> Action:
 
 def _receiver(ground: Ground, ball: Point, hurried: bool) -> str | None:
     """The one who was chosen already while the lane to him stays open; somebody new only in a hurry."""
-    places = places_of(ground.mates)
-    if ground.receiver in places and is_open(ball, places[ground.receiver], ground.opponents):
-        return ground.receiver
+    places, chosen = places_of(ground.mates), ground.receiver
+    if chosen in places and is_open(ball, places[chosen], ground.opponents, EASE):
+        return chosen
     if hurried or not ground.may_score:
         ahead = {name: place for name, place in places.items() if hurried or place[0] > PREPARED}
         return best_receiver(ball, ahead, ground.opponents, ground.me.heading)

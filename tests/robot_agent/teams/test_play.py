@@ -1,5 +1,6 @@
 """What whole squads do: who plays, how far the others stay, and what coach and referee leave no choice about."""
 
+import itertools
 import math
 
 import pytest
@@ -246,6 +247,19 @@ def test_an_order_is_acknowledged_and_hold_holds_and_park_parks(squad, setup, te
         made.move(made.act(ball=(0.0, 0.0), order=CoachOrder(sequence=8, mode=CoachMode.PARK)))
     assert all(y < -setup.pitch.touch_line + 0.5 for _, y, _ in made.poses.values())
     assert len({round(x) for x, _, _ in made.poses.values()}) == 5
+
+
+@pytest.mark.parametrize("team", TEAMS)
+def test_robots_go_round_each_other_on_their_way_to_park(squad, setup, team):
+    """As seen in a match: two pushed each other along for a second, each in the other's straight way."""
+    poses = {1: (-10.5, 0.0, 0.0), 2: (-2.0, 1.0, 0.0), 3: (-9.0, 2.0, 0.0), 4: (-3.0, -2.0, 0.0), 5: (-3.2, 0.4, 0.0)}
+    made, nearest = squad(team, poses), math.inf
+    for _ in range(600):
+        made.move(made.act(ball=(0.0, 0.0), phase=TeamPhase.PARKING))
+        places = [pose[:2] for pose in made.poses.values()]
+        nearest = min(nearest, *(math.dist(a, b) for a, b in itertools.combinations(places, 2)))
+    assert nearest > 2.0 * setup.robot.reach
+    assert all(y < -setup.pitch.touch_line + 0.5 for _, y, _ in made.poses.values())
 
 
 @pytest.mark.parametrize("team", TEAMS)
