@@ -80,8 +80,7 @@ class Simulation:
         start = self._start_scene()
         self._scenes = Scenes(start, start)
         began = opened(start, "")
-        if config.scene is not None:
-            check(began.stage, self._rig(), began.stage.names)
+        check(began.stage, self._rig(), began.stage.names)
         self._stage = began.stage
         self.episode = 1
         """Counts the starts: the match's own, each scene that is loaded, each reset."""

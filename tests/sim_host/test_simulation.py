@@ -9,6 +9,7 @@ from pytest import approx
 
 from schemas.coach import CoachOrder
 from schemas.command import Command, Drive, Kick, KickMode, Radio
+from schemas.errors import TouchlineError
 from schemas.game import ActionName, EventKind, Phase, RefereeAction, TeamPhase
 from schemas.host import Applied, Placement
 from schemas.match_config import load_match
@@ -30,6 +31,15 @@ def simulation() -> Iterator[Simulation]:
     simulation = simulate()
     yield simulation
     simulation.close()
+
+
+@pytest.mark.parametrize(
+    ("place", "who"), [([-5.0, 2.3], "cyan4"), ([0.3, 0.0], "the ball"), ([10.6, 0.4], "magenta1")]
+)
+def test_an_obstacle_of_the_match_file_where_somebody_starts_is_refused(place: list[float], who: str) -> None:
+    pole = {"name": "pole", "shape": "cylinder", "place": place, "radius": 0.3, "height": 1.0}
+    with pytest.raises(TouchlineError, match=rf"{who} at .* would be 0\.\d+ m inside pole; choose another place"):
+        simulate(obstacles=[pole])
 
 
 def command(simulation: Simulation, **said: Any) -> Command:
