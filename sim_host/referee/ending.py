@@ -31,17 +31,23 @@ def end_match(turn: Turn, rule: str, text: str) -> None:
     turn.say(EventKind.FULL_TIME, rule, text, score=turn.state.score)
 
 
-def forfeiter(turn: Turn) -> Side | None:
-    """The side that cannot field as many robots as the rule book asks for; of two, the one with fewer."""
+def is_given_up(turn: Turn) -> bool:
+    """End the match if a side cannot field as many robots as the rule book asks for; whether it was ended.
+
+    Of two such sides the one with fewer robots forfeits; where both have as few, neither has won.
+    """
     least = turn.book.people.least_robots
-    if not least:
-        return None
     fielded = {side: discipline.can_play(turn, side) for side in Side}
-    short = [side for side in Side if fielded[side] < least]
-    return min(short, key=lambda side: fielded[side], default=None)
+    if min(fielded.values()) >= least:
+        return False
+    if fielded[Side.CYAN] == fielded[Side.MAGENTA]:
+        end_match(turn, FORFEIT, f"full time, neither side can field {least} robots")
+    else:
+        _forfeit(turn, min(fielded, key=lambda side: fielded[side]))
+    return True
 
 
-def forfeit(turn: Turn, loser: Side) -> None:
+def _forfeit(turn: Turn, loser: Side) -> None:
     """End the match: won by the other side, by as many goals as the rule book says at least."""
     state, winner = turn.state, loser.opponent
     goals = max(0, state.score.of(loser) + turn.book.people.forfeit_goals - state.score.of(winner))

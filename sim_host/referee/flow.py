@@ -4,7 +4,7 @@ Each half ends at once when its playing time is up; robots park, and after the b
 poses and play in the other direction, the other side kicking off. A level match whose match file or rule book asks for
 a winner goes on with extra time, as much shorter or longer than the rule book says as the halves are, and then with a
 penalty shoot-out. A side that cannot field enough robots, because they are sent off for good or their programs are
-gone, forfeits.
+gone, forfeits; where both sides have as few, the match ends as it stands.
 
 Section: match.
 Measures: the clock, which runs from the first START of a half to its end, also through stoppages; beside it the
@@ -20,7 +20,7 @@ from sim_host.referee import discipline, penalties, restart
 from sim_host.referee.bench import bench_pose
 from sim_host.referee.call import CENTRE, Restart
 from sim_host.referee.decision import Decision
-from sim_host.referee.ending import end_match, forfeit, forfeiter, rest
+from sim_host.referee.ending import end_match, is_given_up, rest
 from sim_host.referee.state import RefereeState
 from sim_host.referee.timing import reached
 from sim_host.referee.turn import Turn
@@ -68,11 +68,8 @@ def kick_off_after_goal(scorers: Side) -> Restart:
 
 def begin_half(turn: Turn) -> None:
     """Signal the kick-off of the half."""
-    loser = forfeiter(turn)
-    if loser is not None:
-        forfeit(turn, loser)
-        return
-    restart.signal(turn, Restart(Phase.KICK_OFF, turn.state.kick_off, CENTRE))
+    if not is_given_up(turn):
+        restart.signal(turn, Restart(Phase.KICK_OFF, turn.state.kick_off, CENTRE))
 
 
 def end_half(turn: Turn, rule: str, text: str) -> None:
@@ -125,9 +122,7 @@ def progress(turn: Turn) -> None:
     restart.release(turn)
     discipline.progress(turn)
     if turn.state.people.away and turn.state.phase in HALF_ON:
-        loser = forfeiter(turn)
-        if loser is not None:
-            forfeit(turn, loser)
+        is_given_up(turn)
 
 
 def _score_said(state: RefereeState, decision: Decision) -> Score | None:

@@ -225,6 +225,17 @@ def test_a_forfeit_takes_nothing_from_a_greater_lead_and_turns_a_deficit_round(b
     assert bench.state.score == Score(cyan=1, magenta=4)
 
 
+def test_where_both_sides_have_as_few_robots_left_neither_wins(bench):
+    """Nobody is favoured by coming first in the roster."""
+    bench.playing()
+    gone = [f"{side.value}{number}" for side in Side for number in range(2, 6)]
+    for _ in range(round((bench.book.people.silent_limit + 1.0) / bench.dt)):
+        bench.tick(silent=gone)
+    assert bench.state.phase is Phase.FULL_TIME
+    assert bench.state.score == Score()
+    assert bench.events[-1].text == "full time, neither side can field 2 robots"
+
+
 def test_robots_that_will_be_back_are_no_forfeit(bench):
     halted(bench)
     for number in range(2, 5):
