@@ -47,6 +47,7 @@ def serve(
     Raises:
         TouchlineError: a package that it needs is not installed, a port is taken, tokens cannot be read.
     """
+    bridges.try_ports()
     known = tokens_of(web.tokens if web is not None else tokens)
     page = _page(web, known) if web is not None else None
     if page is None and bridges.udp is not None:
@@ -158,8 +159,9 @@ def _add_bridges(bridges: argparse._ArgumentGroup) -> None:
 
 
 def say(line: str) -> None:
-    """A line on stdout, at once."""
-    sys.stdout.write(line + "\n")
+    """A line on stdout, at once; what strangers have said in it can neither break it nor speak to the terminal."""
+    plain = "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in line)
+    sys.stdout.write(plain + "\n")
     sys.stdout.flush()
 
 

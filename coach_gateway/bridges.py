@@ -1,10 +1,12 @@
 """The bridges of one gateway process beside the page: which are wanted, by a command's words, and their services."""
 
+import socket
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from coach_gateway import refbox
 from coach_gateway.live import Live
+from coach_gateway.ports import try_port
 from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
 from coach_gateway.refbox.framing import Protocol
@@ -39,8 +41,20 @@ class Bridges:
         """There is any."""
         return self.udp is not None or bool(self.boxes or self.doors or self.audience)
 
+    def try_ports(self) -> None:
+        """Make sure that whoever is to come can be listened for.
+
+        Raises:
+            TouchlineError: a port is taken.
+        """
+        if self.udp is not None:
+            try_port("--udp", self.listen, self.udp, socket.SOCK_DGRAM)
+        for door in self.doors:
+            try_port("--refbox-server", door.host, door.port, socket.SOCK_STREAM)
+
 
 NO_BRIDGES = Bridges()
+_LAST_PORT = 65_535
 
 
 def bridges_of(
@@ -56,8 +70,10 @@ def bridges_of(
     """The bridges that a command's words ask for.
 
     Raises:
-        TouchlineError: an address or a door that is none, or a referee box without a team.
+        TouchlineError: an address, a port or a door that is none, or a referee box without a team.
     """
+    if udp is not None and not 0 <= udp <= _LAST_PORT:
+        raise TouchlineError(f"--udp is {udp}; a port is 0 to {_LAST_PORT}, and 0 takes a free one")
     if refbox_at is None and teams:
         raise TouchlineError("--team is for --refbox HOST, which is not given")
     if refbox_at is not None and not teams:
@@ -99,16 +115,25 @@ def _side_of(tokens: Tokens, token: str) -> Side | None:
 def _address(option: str, word: str, default: int | None) -> tuple[str, int]:
     """HOST:PORT, where the port may be left out if there is a usual one."""
     host, _, port = word.rpartition(":") if ":" in word else (word, "", "" if default is None else str(default))
-    if host and port.isascii() and port.isdigit() and 0 < int(port) < 65_536:
+    if host and port.isascii() and port.isdigit() and 0 < int(port) <= _LAST_PORT and _is_name(host.strip("[]")):
         return host.strip("[]"), int(port)
     shape = "HOST:PORT" if default is None else f"HOST or HOST:PORT, by default port {default}"
     raise TouchlineError(f'{option} is "{word}"; it is {shape}')
+
+
+def _is_name(host: str) -> bool:
+    """A host's address or name, as far as its spelling shows; an IPv6 address stands in brackets before its port."""
+    try:
+        host.encode("idna")
+    except UnicodeError:
+        return False
+    return not host.endswith(":")
 
 
 def _door(word: str, listen: str) -> Door:
     """PORT, or SIDE:PORT for a door of one team's own."""
     side, _, port = word.rpartition(":")
     known = [known.value for known in Side]
-    if port.isascii() and port.isdigit() and int(port) < 65_536 and (not side or side in known):
+    if port.isascii() and port.isdigit() and int(port) <= _LAST_PORT and (not side or side in known):
         return Door(int(port), Side(side) if side else None, listen)
     raise TouchlineError(f'--refbox-server is "{word}"; it is PORT, or cyan:PORT or magenta:PORT for one team alone')

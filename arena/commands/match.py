@@ -55,6 +55,7 @@ def match(
 
     teams = teams_of(ghost) if ghost else {}
     bridged = bridges.arguments()
+    bridges.bridges().try_ports()
     if (web or bridged) and words.pace is None:
         words = replace(words, pace="realtime")
     if bridges.refbox is not None and words.referee is None:

@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from coach_gateway.__main__ import main, say
 from coach_gateway.bridges import Bridges, bridges_of
 from coach_gateway.refbox.client import BoxAddress
 from coach_gateway.refbox.framing import Protocol
@@ -63,11 +64,36 @@ def test_words_are_addresses_and_doors() -> None:
         ({"doors": ["blue:28097"]}, '--refbox-server is "blue:28097"'),
         ({"doors": ["99999"]}, "--refbox-server"),
         ({"doors": ["-1"]}, "--refbox-server"),
+        ({"udp": 70000}, "--udp is 70000; a port is 0 to 65535"),
+        ({"udp": -1}, "--udp is -1"),
+        ({"refbox_at": "box..local", "teams": [Side.CYAN]}, '--refbox is "box..local"'),
+        ({"refbox_at": "::1", "teams": [Side.CYAN]}, '--refbox is "::1"'),
     ],
 )
 def test_words_that_cannot_be_meant_are_told(words: dict[str, Any], says: str) -> None:
     with pytest.raises(TouchlineError, match=says.replace("(", r"\(")):
         asked(**words)
+
+
+def test_a_port_that_is_taken_is_told_before_there_is_a_host(capsys: pytest.CaptureFixture[str]) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
+        taken.bind(("127.0.0.1", 0))
+        port = taken.getsockname()[1]
+        assert main(["--connect", "tcp/127.0.0.1:1", "--udp", str(port)]) == 2
+    said = capsys.readouterr()
+    (line,) = said.err.splitlines()
+    assert line.startswith(f"touchline: --udp {port} cannot be listened on at 127.0.0.1 (Address already in use)")
+
+
+@pytest.mark.parametrize("address", ["192.0.2.1", "a..b"])
+def test_an_address_that_is_not_this_machines_is_told_as_such(address: str) -> None:
+    with pytest.raises(TouchlineError, match=f"--listen-bridges {address} is no address of this machine"):
+        asked(udp=0, listen=address).try_ports()
+
+
+def test_what_strangers_say_does_not_speak_to_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
+    say("base station 1: \x1b[2J, \ud800\n, Zoë")
+    assert capsys.readouterr().out == "base station 1: \ufffd[2J, \ufffd\ufffd, Zoë\n"
 
 
 def test_bridges_need_no_web_server() -> None:

@@ -50,6 +50,20 @@ def test_a_port_in_use_is_refused_in_one_line(start, tmp_path):
     assert not (tmp_path / "runs").exists()
 
 
+@pytest.mark.parametrize(
+    ("option", "kind"), [("--udp", socket.SOCK_DGRAM), ("--refbox-server", socket.SOCK_STREAM)], ids=["udp", "box"]
+)
+def test_a_port_of_a_bridge_in_use_is_refused_before_anything_is_launched(start, tmp_path, option, kind):
+    with socket.socket(socket.AF_INET, kind) as other:
+        other.bind(("127.0.0.1", 0))
+        if kind is socket.SOCK_STREAM:
+            other.listen()
+        port = str(other.getsockname()[1])
+        program = start("arena", "match", "--listen", "tcp/127.0.0.1:0", option, port, folder=tmp_path)
+        refused(program, f"{option} {port} cannot be listened on at 127.0.0.1")
+    assert not (tmp_path / "runs").exists()
+
+
 def test_without_pybullet_the_pip_line_that_brings_it_is_named(start, tmp_path, without_pybullet):
     program = start("arena", "match", "--listen", "tcp/127.0.0.1:0", folder=tmp_path, **without_pybullet)
     refused(program, "pip install 'touchline[sim]'")

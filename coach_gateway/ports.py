@@ -1,0 +1,31 @@
+"""Ports that bridges listen on: tried before there is a match, so that one that is taken is told at once."""
+
+import errno
+import socket
+
+from schemas.errors import TouchlineError
+
+
+def try_port(option: str, address: str, port: int, kind: socket.SocketKind) -> None:
+    """Make sure that this port can be listened on, and let it go again.
+
+    Raises:
+        TouchlineError: it cannot.
+    """
+    try:
+        family, _, _, _, place = socket.getaddrinfo(address, port, type=kind, flags=socket.AI_PASSIVE)[0]
+        with socket.socket(family, kind) as probe:
+            if kind is socket.SOCK_STREAM:
+                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # as the server itself does
+            probe.bind(place)
+    except (OSError, UnicodeError) as error:
+        raise cannot_listen(option, address, port, error) from None
+
+
+def cannot_listen(option: str, address: str, port: int, error: OSError | UnicodeError) -> TouchlineError:
+    """What people are told of a port that cannot be had."""
+    if isinstance(error, socket.gaierror | UnicodeError) or error.errno == errno.EADDRNOTAVAIL:
+        return TouchlineError(f"--listen-bridges {address} is no address of this machine; 0.0.0.0 is all it has")
+    return TouchlineError(
+        f"{option} {port} cannot be listened on at {address} ({error.strerror}); choose another port, or 0"
+    )
