@@ -31,7 +31,10 @@ class Origins:
             return False
         if origin in self._allowed:
             return True
-        parts = urlsplit(origin)
+        try:
+            parts = urlsplit(origin)
+        except ValueError:  # no browser says such a thing
+            return False
         if parts.scheme != "http" or host is None or parts.netloc.lower() != host.lower():
             return False
         name = parts.hostname or ""
@@ -47,7 +50,12 @@ def _is_numeric(name: str) -> bool:
 
 
 def _checked(origin: str) -> str:
-    parts = urlsplit(origin)
-    if parts.scheme not in ("http", "https") or not parts.netloc or origin != f"{parts.scheme}://{parts.netloc}":
+    """As browsers write it: in small letters."""
+    plain = origin.lower()
+    try:
+        parts = urlsplit(plain)
+    except ValueError:
+        parts = urlsplit("")
+    if parts.scheme not in ("http", "https") or not parts.netloc or plain != f"{parts.scheme}://{parts.netloc}":
         raise TouchlineError(f'--allow-origin is "{origin}"; write it as https://cup.example.org, without a path')
-    return origin
+    return plain

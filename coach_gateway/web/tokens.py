@@ -5,6 +5,7 @@ import json
 import os
 import secrets
 import stat
+import tempfile
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Self
@@ -37,7 +38,7 @@ class Tokens:
         """
         if not token:
             return Role.SPECTATOR
-        given, found = token.encode(), None
+        given, found = token.encode(errors="replace"), None
         for role in (Role.REFEREE, Role.CYAN, Role.MAGENTA):
             if hmac.compare_digest(given, self.of(role).encode()):
                 found = role
@@ -81,10 +82,16 @@ def read_or_make(path: Path) -> Tokens:
 
 
 def _make(path: Path) -> Tokens:
+    """The file appears at once and whole: a bridge and a page may be started beside each other."""
     tokens = Tokens.random()
     text = json.dumps({field.name: getattr(tokens, field.name) for field in fields(Tokens)}, indent=2)
-    with os.fdopen(os.open(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600), "w", encoding="utf-8") as file:
-        file.write(text + "\n")
+    handle, draft = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)  # for its owner's eyes alone
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8") as file:
+            file.write(text + "\n")
+        os.link(draft, path)
+    finally:
+        Path(draft).unlink()
     return tokens
 
 

@@ -36,14 +36,19 @@ def test_our_own_page_and_an_allowed_one_come_in(origin: str, host: str) -> None
         ("http://127.0.0.1.evil.example:8080", "127.0.0.1.evil.example:8080"),
         ("https://cup.example.org.evil.example", "127.0.0.1:8080"),
         ("file://", "127.0.0.1:8080"),
+        ("http://[::1", "[::1"),
     ],
 )
 def test_a_page_of_somebody_else_does_not(origin: str | None, host: str | None) -> None:
     assert not Origins(["https://cup.example.org"], ["localhost"]).ours(origin, host)
 
 
+def test_an_allowed_origin_may_be_written_in_large_letters() -> None:
+    assert Origins(["https://Cup.Example.org"]).ours("https://cup.example.org", "127.0.0.1:8080")
+
+
 @pytest.mark.parametrize(
-    "origin", ["cup.example.org", "https://cup.example.org/page", "ftp://cup.example.org", "*", ""]
+    "origin", ["cup.example.org", "https://cup.example.org/page", "ftp://cup.example.org", "*", "", "https://[::1"]
 )
 def test_an_origin_that_is_none_is_refused_with_how_to_write_it(origin: str) -> None:
     with pytest.raises(TouchlineError, match="write it as https://"):

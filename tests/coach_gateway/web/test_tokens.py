@@ -2,6 +2,8 @@
 
 import json
 import stat
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import astuple
 from pathlib import Path
 from typing import Any
@@ -20,6 +22,23 @@ def test_tokens_that_were_made_once_are_the_same_when_they_are_read(tmp_path: Pa
     assert stat.S_IMODE(file.stat().st_mode) == 0o600
 
 
+def test_two_that_make_the_same_file_at_once_have_the_same_tokens(tmp_path: Path) -> None:
+    """As a page and a bridge that are started beside each other with one file."""
+    file = tmp_path / "tokens.json"
+    start = threading.Barrier(8)
+
+    def make(_: int) -> Tokens:
+        start.wait()
+        return read_or_make(file)
+
+    for _ in range(20):
+        with ThreadPoolExecutor(8) as threads:
+            made = list(threads.map(make, range(8)))
+        assert len(set(made)) == 1
+        assert [path.name for path in tmp_path.iterdir()] == ["tokens.json"]
+        file.unlink()
+
+
 def test_new_tokens_are_long_and_all_different() -> None:
     some = [token for _ in range(20) for token in astuple(Tokens.random())]
     assert len(set(some)) == 60
@@ -34,7 +53,7 @@ def test_a_token_stands_for_its_role(role: Role) -> None:
 
 def test_a_token_that_is_nobody_s_stands_for_nobody() -> None:
     tokens = Tokens("the-referee", "the-coach-1", "the-coach-2")
-    for forged in ("the-refere", "the-referee ", "THE-REFEREE", "the-coach-", "ö", " "):
+    for forged in ("the-refere", "the-referee ", "THE-REFEREE", "the-coach-", "ö", " ", "\ud800"):
         assert tokens.role_of(forged) is None
 
 
