@@ -2,6 +2,10 @@
 
 from dataclasses import dataclass
 
+MOST = 1000
+"""Kinds that are told apart: a sender that spells each key anew must not fill the memory."""
+_FURTHER = "further kinds of deviation"
+
 
 @dataclass(slots=True)
 class Finding:
@@ -25,6 +29,8 @@ class Findings:
 
     def note(self, what: str, *, lost: bool = False, count: int = 1) -> None:
         """Count a deviation at the place where the reader is."""
+        if what not in self._found and len(self._found) >= MOST:
+            what = _FURTHER
         finding = self._found.get(what)
         if finding is None:
             finding = self._found[what] = Finding(what, lost, self.place)

@@ -1,7 +1,7 @@
 """Reads values that keep to no schema: keys spelled as a team likes, numbers as texts, nothing for a number."""
 
 import math
-from functools import cache
+from functools import lru_cache
 from typing import Any
 
 from schemas.league.findings import Findings
@@ -46,7 +46,7 @@ _BY_SPELLING = {key.lower(): key for key in KEYS} | _OTHER_NAMES
 _COMPONENTS = (("x",), ("y",), ("z", "theta", "heading", "phi", "w", "omega"))
 
 
-@cache
+@lru_cache(maxsize=1024)
 def _canonical(key: str) -> str:
     return _BY_SPELLING.get("".join(letter for letter in key.lower() if letter.isalnum()), key)
 

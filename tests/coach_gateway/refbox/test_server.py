@@ -12,9 +12,13 @@ import pytest
 from coach_gateway.refbox import server as server_module
 from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.server import Door, RefBoxServer
+from coach_gateway.refbox.team_view import TeamView
+from coach_gateway.web.tokens import Tokens
 from schemas.errors import TouchlineError
 from schemas.game import OffField, Phase, Score, Standing
 from schemas.league.calls import Call
+from schemas.league.findings import MOST
+from schemas.league.lenient import _canonical
 from schemas.league.signals import BY_NAME
 from schemas.side import Side
 
@@ -162,6 +166,24 @@ def test_a_token_tells_the_side_and_a_wrong_one_is_turned_away(boxed: Any) -> No
     asyncio.run(play())
 
 
+@pytest.mark.parametrize("word", ["team", "token"])
+def test_half_a_letter_in_a_hello_is_nobodys_name_and_no_fault(boxed: Any, until: Any, word: str) -> None:
+    async def play() -> None:
+        faults: list[Any] = []
+        asyncio.get_running_loop().set_exception_handler(lambda _, fault: faults.append(fault))
+        async with boxed(of_token=lambda token: role_side(Tokens.random().role_of(token))) as (bench, _, come):
+            stranger = await come(**{word: "\ud800"})
+            await until(lambda: stranger.gone)
+            assert any("is gone" in line for line in bench.said)
+            assert (await come(team="cyan")).commands()[0].startswith("WELCOME")
+        assert faults == []
+
+    def role_side(role: Any) -> Side | None:
+        return None if role is None else Side.CYAN
+
+    asyncio.run(play())
+
+
 def test_software_that_knows_no_hello_is_known_by_its_world_states_or_by_its_port(boxed: Any, until: Any) -> None:
     async def play() -> None:
         async with boxed(Door(0), Door(0, Side.CYAN)) as (_, box, come):
@@ -236,6 +258,18 @@ def test_world_states_are_read_leniently_and_counted(boxed: Any, until: Any) -> 
             await until(lambda: any("3 world states" in line and "1 pieces" in line for line in bench.said))
 
     asyncio.run(play())
+
+
+def test_a_base_station_that_spells_every_key_anew_fills_no_memory() -> None:
+    view = TeamView()
+    for number in range(3000):
+        spelled = "team" + "_" * number + "Name"
+        view.take(world_state("Ruby") | {spelled: "Ruby"} | {f"key{number}": 0}, 0.0)
+        view.take({spelled: "Ruby", "robots": []}, 0.0)
+    assert view.states == 6000
+    assert len(view.findings.coped) <= MOST + 1
+    assert sum(finding.count for finding in view.findings.coped) > 3000
+    assert _canonical.cache_info().currsize <= 1024
 
 
 def test_a_base_station_that_never_reads_is_dropped_and_the_others_hear_everything(
