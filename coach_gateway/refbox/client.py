@@ -16,6 +16,7 @@ from coach_gateway.refbox import DEFAULT_PORT, characters, commands
 from coach_gateway.refbox.forwarding import WAITS_FOR_START, Deeds, deeds, is_ours, speaks_for
 from coach_gateway.refbox.framing import Framer, Protocol
 from coach_gateway.refbox.own_view import own_view
+from coach_gateway.web.limits import Allowance
 from schemas.coach import CoachMode
 from schemas.errors import TouchlineError
 from schemas.game import Mode, RefereeAction
@@ -26,13 +27,16 @@ from schemas.side import Side
 UPLOAD_S = 0.05
 """s of wall time between two world states. Ours: the league asks for at least ten a second."""
 _FIRST_PAUSE_S, _LONGEST_PAUSE_S = 0.25, 5.0
-"""s of wall time before the link is tried again, doubled each time up to the longest."""
+"""s of wall time before the link is tried again, doubled each time up to the longest; a box that has said something is
+tried again soon."""
 _CONNECT_S = 5.0
 """s of wall time that one attempt to reach the box lasts at most."""
 _UNREAD = 262_144
 """Bytes of world states that wait for a box that does not read; then newer ones are left out."""
 _DEAF_S = 10.0
 """s of wall time that a box may go without reading before the link is given up."""
+_MOST_WAITING = 500
+"""Commands that wait until the match can be officiated; of more the newest count."""
 _START_S = 10.0
 """s of simulated time that START is asked for again: the rules' pauses are in simulated time, too."""
 _START_AGAIN_S = 0.1
@@ -60,10 +64,13 @@ class RefBoxClient:
         self._target: str | None = None
         """By what the box calls this team; it says so in WELCOME."""
         self._parked = False
+        self._complaints = Allowance(1.0, 5.0, live.now)
+        """How often people are told that something cannot be read."""
         self._signals: asyncio.Queue[tuple[Signal, Side | None, int | None]] = asyncio.Queue()
         self.connected = False
         self.counts: Counter[str] = Counter()
-        """`heard`, `forwarded`, `refused`, `untold`, `unreadable`, `uploaded`, `left out`, `connections`."""
+        """`heard`, `forwarded`, `refused`, `untold`, `unreadable`, `passed over`, `uploaded`, `left out`,
+        `connections`."""
 
     async def serve(self, stop: asyncio.Event) -> None:
         """Be connected whenever the box is there, until `stop` is set."""
@@ -79,9 +86,12 @@ class RefBoxClient:
                 await pause(stop, wait)
                 wait = min(2 * wait, _LONGEST_PAUSE_S)
                 continue
-            wait, told = _FIRST_PAUSE_S, False
+            told, heard = False, self.counts["heard"]
             await self._meet(reader, writer, stop)
+            if self.counts["heard"] > heard:
+                wait = _FIRST_PAUSE_S
             await pause(stop, wait)
+            wait = min(2 * wait, _LONGEST_PAUSE_S)
 
     async def _connect(self, stop: asyncio.Event) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
         """Reach the box, unless `stop` is set before.
@@ -147,7 +157,8 @@ class RefBoxClient:
             command = commands.read(message)
         except commands.NoCommandError as error:
             self.counts["unreadable"] += 1
-            self._say(f"referee box: {error}")
+            if self._complaints.take(self._live.now):
+                self._say(f"referee box: {error}")
             return
         if command.signal.name == "WELCOME" and command.target:
             self._target = command.target
@@ -155,6 +166,9 @@ class RefBoxClient:
 
     def _note(self, signal: Signal, side: Side | None, robot: int | None) -> None:
         self.counts["heard"] += 1
+        if self._signals.qsize() >= _MOST_WAITING:
+            self._signals.get_nowait()
+            self.counts["passed over"] += 1
         self._signals.put_nowait((signal, side, robot))
 
     def _side_of(self, target: str) -> Side | None:

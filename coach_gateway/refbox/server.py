@@ -11,13 +11,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from coach_gateway.live import Live
+from coach_gateway.ports import cannot_listen
 from coach_gateway.refbox import DEFAULT_PORT, commands
 from coach_gateway.refbox.commands import Command
 from coach_gateway.refbox.framing import Framer, Protocol
 from coach_gateway.refbox.identity import Identity, StrangerError, identify, targets
 from coach_gateway.refbox.narration import Narrator
 from coach_gateway.refbox.team_view import TeamView
-from schemas.errors import TouchlineError
 from schemas.game import GameState
 from schemas.league.calls import Call
 from schemas.league.numbers import numbers_of
@@ -97,9 +97,7 @@ class RefBoxServer:
         try:
             return await asyncio.start_server(lambda r, w: self._meet(r, w, door), door.host, door.port)
         except OSError as error:
-            raise TouchlineError(
-                f"--refbox-server {door.port} cannot be listened on ({error.strerror}); choose another port, or 0"
-            ) from None
+            raise cannot_listen("--refbox-server", door.host, door.port, error) from None
 
     def tell(self, calls: Sequence[Call]) -> None:
         """Send these commands to everybody."""

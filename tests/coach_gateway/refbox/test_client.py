@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import itertools
 import json
 import socket
 from collections.abc import Callable
@@ -10,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from coach_gateway.refbox import client as client_module
 from coach_gateway.refbox.client import UPLOAD_S, BoxAddress, RefBoxClient
 from coach_gateway.refbox.framing import Protocol
 from schemas.coach import CoachMode
@@ -289,6 +291,63 @@ def test_a_link_that_breaks_in_the_middle_of_a_command_is_made_again(met: Any, u
             box.say("THROWIN", CYAN_AT)
             await until(lambda: bench.stage.asked)
             assert asked(bench) == ["throw_in cyan"]
+
+    asyncio.run(play())
+
+
+def test_a_box_that_lets_everybody_go_unheard_is_tried_less_and_less_often(opened: Any, until: Any) -> None:
+    """As a tunnel is whose other end is not there: it takes each link, and drops it."""
+
+    async def play() -> None:
+        came: list[float] = []
+
+        async def meet(_: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+            came.append(asyncio.get_running_loop().time())
+            writer.transport.abort()
+
+        async with opened() as bench, await asyncio.start_server(meet, "127.0.0.1", 0) as tunnel:
+            port = tunnel.sockets[0].getsockname()[1]
+            bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append))
+            await until(lambda: len(came) == 4)
+            first, second, third = (b - a for a, b in itertools.pairwise(came))
+            assert first >= 0.24 and second >= 0.49 and third >= 0.99
+            bench.stop.set()
+
+    asyncio.run(play())
+
+
+def test_a_box_that_says_more_than_can_be_done_is_heard_in_what_it_said_last(
+    met: Any, until: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(client_module, "_MOST_WAITING", 3)
+
+    async def play() -> None:
+        async with met() as (bench, box, client):
+            bench.stage.say(phase=Phase.STOPPED)
+            state, bench.live.state = bench.live.state, None  # nothing is passed on as long as no match is known
+            box.hang_up()
+            box.came = 0
+            await until(lambda: client.counts["connections"] == 2 and box.links)
+            box.send(
+                b"".join(json.dumps({"command": name, "targetTeam": CYAN_AT}).encode() + b"\0" for name in RESTARTS)
+            )
+            await until(lambda: client.counts["heard"] >= len(RESTARTS) + 1)
+            bench.live.state = state
+            await until(lambda: len(bench.stage.asked) == 3)
+            assert asked(bench) == [f"{word} cyan" for word in list(RESTARTS.values())[-3:]]
+            assert client.counts["passed over"] >= 3
+
+    asyncio.run(play())
+
+
+def test_a_box_that_says_nothing_that_is_known_does_not_fill_the_log(met: Any, until: Any) -> None:
+    async def play() -> None:
+        async with met() as (bench, box, client):
+            bench.stage.say(phase=Phase.STOPPED)
+            for _ in range(500):
+                box.say("DANCE")
+            await until(lambda: client.counts["unreadable"] == 500)
+            assert 5 <= sum("is no command" in line for line in bench.said) < 60
 
     asyncio.run(play())
 
