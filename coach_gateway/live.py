@@ -5,17 +5,18 @@ One task follows the bus; questions to the host wait in a thread, and hold up no
 
 import asyncio
 import contextlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeVar
 
 from coach_gateway.gateway import Gateway
 from coach_gateway.orders import OrderWatch
 from coach_gateway.presence import HostPresence
+from coach_gateway.writers import Writers
 from schemas.bus.contract import Bus, Received, Subscription
 from schemas.coach import CoachOrder
 from schemas.errors import TouchlineError
-from schemas.game import REFBOX, ActionReply, GameEvent, GameState, RefereeAction
+from schemas.game import REFBOX, ActionName, ActionReply, GameEvent, GameState, RefereeAction
 from schemas.host import Belief, Setup
 from schemas.message import BadMessageError
 from schemas.side import Side
@@ -29,9 +30,9 @@ _ASK_S = 1.0
 _CATCH_UP_S = 1.0
 """s of wall time that a state which was told before an answer may come after it."""
 _LATE_TICKS = 50
-"""Ticks that a state may be older than one before it; one that is older still is another match's."""
+"""Ticks that a state may be older than one before it; with one that is older still the match has gone back."""
 _QUESTIONS = 4
-"""At the same time; further ones wait."""
+"""At the same time; further ones wait. A stop, and what a league's box says, wait for no others."""
 _T = TypeVar("_T")
 
 
@@ -41,13 +42,16 @@ class Live:
     def __init__(self, bus: Bus) -> None:
         self._bus = bus
         self._gateway = Gateway(bus)
+        self._benches = {side: Gateway(bus) for side in Side}
         self._states, self._events = bus.subscribe(STATE), bus.subscribe(EVENT, past=True)
         self._worlds = bus.subscribe(WORLD, newest=True)
         self._said = bus.subscribe(BELIEF, newest=True)
         self._watch = bus.watch_alive()
         self._presence = HostPresence(bus)
         self._threads = ThreadPoolExecutor(_QUESTIONS, thread_name_prefix="question")
-        self._ordering = asyncio.Lock()
+        self._urgent = ThreadPoolExecutor(_QUESTIONS, thread_name_prefix="urgent")
+        self._ordering = {side: asyncio.Lock() for side in Side}
+        self._writers = Writers()
         self._ended = False
         self._asked_at = -_ASK_S
         self._asking: asyncio.Task[None] | None = None
@@ -64,6 +68,8 @@ class Live:
         self.state: GameState | None = None
         self.events: list[GameEvent] = []
         """All that the host remembers, in order."""
+        self.hosts = 0
+        """How many have come after the first; events are counted anew with each."""
         self.orders = OrderWatch(bus)
         self.unreadable = 0
         """Messages that could not be read; each was left out."""
@@ -79,7 +85,8 @@ class Live:
             self._ended = True
             if self._asking is not None:
                 self._asking.cancel()
-            self._threads.shutdown(wait=False, cancel_futures=True)
+            for threads in (self._threads, self._urgent):
+                threads.shutdown(wait=False, cancel_futures=True)
 
     def update(self) -> None:
         """Take in what has come, without waiting, and ask for the setup where it is not known or has changed."""
@@ -141,8 +148,10 @@ class Live:
 
         When it returns, `state` is what the action has led to, so that who asks on decides by no older one.
         """
+        urgent = action.action is ActionName.STOP or action.source == REFBOX
+        threads = self._urgent if urgent else self._threads
         try:
-            reply = await self._in_thread(lambda: self._gateway.act(action))
+            reply = await self._in_thread(lambda: self._gateway.act(action), threads)
         except TouchlineError as error:
             return ActionReply(accepted=False, reason=str(error))
         if reply.tick is not None:
@@ -157,22 +166,22 @@ class Live:
             self.update()
 
     async def order(self, side: Side, **content: Any) -> CoachOrder:
-        """Give a side its new standing order.
+        """Give a side its new standing order; of two, the later one has the larger number. No side waits for the other.
 
         Raises:
             TouchlineError: no host answers, or the order may not be what it is.
         """
-        async with self._ordering:
-            return await self._in_thread(lambda: self._gateway.order(side, **content))
+        async with self._ordering[side]:
+            return await self._in_thread(lambda: self._benches[side].order(side, **content), self._threads)
 
-    async def _in_thread(self, ask: Callable[[], _T]) -> _T:
+    async def _in_thread(self, ask: Callable[[], _T], threads: ThreadPoolExecutor) -> _T:
         if self._ended:
             raise TouchlineError("the gateway ends")
-        return await asyncio.get_running_loop().run_in_executor(self._threads, ask)
+        return await asyncio.get_running_loop().run_in_executor(threads, ask)
 
     def _take(self, state: GameState) -> None:
-        if self.state is not None and state.tick < self.state.tick - _LATE_TICKS:
-            self.events.clear()
+        if self.state is not None and state.tick < self.state.tick - _LATE_TICKS:  # a replay has gone back
+            self.events = [event for event in self.events if event.tick <= state.tick]
             self.orders.book.forget()
             self._stale = True
         elif self.state is not None and state.episode != self.state.episode:
@@ -189,17 +198,32 @@ class Live:
             self._asking = asyncio.get_running_loop().create_task(self._ask_setup())
 
     async def _ask_setup(self) -> None:
+        self._stale = False  # another host may come before this one has answered
         try:
-            setup = await self._in_thread(self._gateway.setup)
+            setup = await self._in_thread(self._gateway.setup, self._threads)
         except TouchlineError:
-            return  # there is no host yet; it is asked again
+            self._stale = True  # there is no host yet; it is asked again
+            return
         self.setup = setup
         self.sides = {name: side for side, team in setup.teams.items() for name in team.robots}
-        self._stale = False
 
-    def _messages(self, subscription: Subscription) -> list[Any]:
-        read = (self._read(received) for received in iter(subscription.receive, None))
-        return [message for message in read if message is not None]
+    def _messages(self, subscription: Subscription) -> Iterator[Any]:
+        """What has come, message by message: with the first of another host, what was before is forgotten."""
+        for received in iter(subscription.receive, None):
+            message = self._read(received)
+            if message is None:
+                continue
+            if self._writers.another(received):
+                self._forget()
+            yield message
+
+    def _forget(self) -> None:
+        """Another host plays: what the one before has said of events, orders and beliefs no longer counts."""
+        self.hosts += 1
+        self.events.clear()
+        self.orders.book.forget()
+        self._newest.clear()
+        self._stale = True
 
     def _read(self, received: Received) -> Any:
         try:

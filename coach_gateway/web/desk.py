@@ -22,6 +22,7 @@ from schemas.coach import CoachOrder
 from schemas.errors import TouchlineError
 from schemas.game import ActionName
 from schemas.message import Message
+from schemas.side import Side
 from schemas.topics import HAND
 
 SOURCES = {Role.REFEREE: "referee's page", Role.CYAN: "cyan's page", Role.MAGENTA: "magenta's page"}
@@ -39,16 +40,18 @@ class Desk:
         self.gateway = Gateway(bus)
         self._bus = bus
         self._hands: dict[str, Publisher] = {}
-        self._numbering = asyncio.Lock()
+        self._benches = {side: Gateway(bus) for side in Side}
+        self._numbering = {side: asyncio.Lock() for side in Side}
         self._threads = {role: ThreadPoolExecutor(_THREADS, thread_name_prefix=role.value) for role in Role}
         self._stops = ThreadPoolExecutor(_THREADS, thread_name_prefix="stop")
 
     async def answer(self, role: Role, ask: Ask) -> Reply:
-        """Ask the match, and say what came of it; questions of one role wait for no other's, and a stop for none."""
+        """Ask the match, and say what came of it; questions of one role wait for no other's, orders of one side
+        for none of the other's, and a stop for nothing at all."""
         try:
             match ask:
                 case AskOrder():
-                    async with self._numbering:  # of two orders the later one has the larger number
+                    async with self._numbering[ask.side]:  # of two orders the later one has the larger number
                         order = await _in_thread(self._threads[role], lambda: self._order(ask))
                     return _accepted(ask, order)
                 case _:
@@ -84,7 +87,7 @@ class Desk:
 
     def _order(self, ask: AskOrder) -> CoachOrder:
         content = ask.order.model_dump(exclude={"version", "sequence"}, exclude_unset=True)
-        return self.gateway.order(ask.side, **content)
+        return self._benches[ask.side].order(ask.side, **content)
 
 
 def is_stop(ask: Ask) -> bool:

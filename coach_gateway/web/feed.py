@@ -9,7 +9,8 @@ from typing import Any
 from coach_gateway.orders import OrderWatch
 from coach_gateway.presence import HostPresence
 from coach_gateway.web.protocol import EventNews, OrdersNews, RefBoxNews, SideOrders
-from schemas.bus.contract import Bus, Received, Stamp, Subscription
+from coach_gateway.writers import Writers
+from schemas.bus.contract import Bus, Received, Subscription
 from schemas.game import REFBOX, GameEvent
 from schemas.host import Setup
 from schemas.message import BadMessageError
@@ -36,7 +37,7 @@ class Feed:
         self._presence = HostPresence(bus)
         self._others = bus.watch_alive()
         self._refboxes: dict[str, bool] = {}
-        self._stamps: dict[str, Stamp] = {}
+        self._writers = Writers()
         self._known: dict[str, str] = {}
         self._told: dict[str, None] = {}
         self._world: tuple[str, str] | None = None
@@ -108,12 +109,12 @@ class Feed:
         return f'{{"kind":"host","there":{"true" if self.there else "false"}}}'
 
     def _look_for_refboxes(self) -> bool:
-        """Whether a league's referee box has come or gone."""
-        before = any(self._refboxes.values())
+        """Whether a base station has come to a league's referee box, or gone."""
+        before = dict(self._refboxes)
         while (presence := self._others.receive()) is not None:
             if presence.kind == REFBOX:
                 self._refboxes[presence.name] = presence.alive
-        return any(self._refboxes.values()) != before
+        return self._refboxes != before
 
     def _refbox(self) -> str:
         there = [name for name, alive in self._refboxes.items() if alive]
@@ -155,26 +156,18 @@ class Feed:
         return [received.payload.decode() for received in _all(subscription) if self._read(received) is not None]
 
     def _read(self, received: Received) -> Any:
-        """The valid message; nothing when it is none.
-
-        A writer that counts from its beginning is another host's, unless what came is only told again, as it is when a
-        link comes back.
-        """
+        """The valid message; nothing when it is none. Of another host's, it is the first that counts."""
         try:
             message = received.message()
         except BadMessageError:
             self.unreadable += 1
             return None
-        stamp, before = received.stamp, self._stamps.get(received.key)
-        if stamp is not None and (before is None or stamp.sent_ns > before.sent_ns):
-            if before is not None and stamp.sequence <= before.sequence:
-                self._forget()
-            self._stamps[received.key] = stamp
+        if self._writers.another(received):
+            self._forget()
         return message
 
     def _forget(self) -> None:
         """Another host plays: nothing of the one before counts."""
-        self._stamps.clear()
         self._known.clear()
         self._told.clear()
         self._world = self._cast = self.setup = None

@@ -1,12 +1,14 @@
 """A match as bridges see it, while hosts come and go."""
 
 import asyncio
+import threading
 from typing import Any
 
 from coach_gateway.refbox.narration import Narrator
 from schemas.bus.in_process import Medium
 from schemas.clock import WallClock
-from schemas.game import ActionName, Phase, RefereeAction, Score
+from schemas.game import REFBOX, ActionName, Phase, RefereeAction, Score
+from schemas.host import Setup
 from schemas.match_config import load_match
 from schemas.side import Side
 from schemas.topics import BELIEF, EVENT, STATE
@@ -64,6 +66,98 @@ def test_a_host_that_comes_after_another_is_asked_anew_and_nothing_of_the_old_ma
             await until(lambda: bench.live.state.phase is Phase.KICK_OFF)
             assert bench.live.events == []
             assert told == ["RESET", "FIRST_HALF", "KICKOFF"]
+
+    asyncio.run(play())
+
+
+def test_what_another_host_says_before_its_first_state_counts(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            for _ in range(100):
+                bench.stage.say(phase=Phase.STOPPED)
+            bench.stage.tell("of the old match")
+            await until(lambda: bench.live.events and bench.live.state.tick > 90)
+            bench.stage.bus.close()
+            await until(lambda: not bench.live.there)
+            another = type(bench.stage)(bench.stage.medium, load_match(None, {}))
+            bench.start(another)
+            for number in range(3):
+                another.tell(f"of the new match, {number}")
+            await until(lambda: len(bench.live.events) == 3)
+            another.say(phase=Phase.KICK_OFF, side=Side.CYAN)
+            await until(lambda: bench.live.state.phase is Phase.KICK_OFF)
+            assert [event.text[-1] for event in bench.live.events] == ["0", "1", "2"]
+
+    asyncio.run(play())
+
+
+def test_a_replay_that_goes_back_keeps_the_events_of_before(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            bench.stage.tell("at the beginning")
+            for _ in range(100):
+                bench.stage.say(phase=Phase.STOPPED)
+            bench.stage.tell("later")
+            await until(lambda: len(bench.live.events) == 2 and bench.live.state.tick > 90)
+            bench.stage.say(tick=10, time=0.2)
+            await until(lambda: bench.live.state.tick == 10)
+            assert [event.text for event in bench.live.events] == ["at the beginning"]
+
+    asyncio.run(play())
+
+
+def test_an_answer_of_a_host_that_has_gone_meanwhile_does_not_pass_for_the_new_ones(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            ask, answers = bench.live._gateway.setup, threading.Event()
+
+            def slow() -> Setup:
+                answer = ask()
+                answers.wait(30.0)
+                return answer
+
+            bench.live._gateway.setup = slow
+            bench.stage.say(episode=2)  # others may take part: it is asked again
+            await until(lambda: bench.live._asking is not None and not bench.live._asking.done())
+            bench.stage.setup = bench.stage.setup.model_copy(update={"rules": "another book"})
+            bench.stage.say(episode=3)
+            await until(lambda: bench.live.state.episode == 3)
+            answers.set()
+            await until(lambda: bench.live.setup.rules == "another book")
+
+    asyncio.run(play())
+
+
+def test_a_stop_waits_for_nobody_elses_questions(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            held = threading.Event()
+            act = bench.live._gateway.act
+            bench.live._gateway.act = lambda action: (
+                held.wait(30.0) and act(action) if action.action is ActionName.GOAL else act(action)
+            )
+            goals = [asyncio.create_task(bench.live.act(RefereeAction(action=ActionName.GOAL))) for _ in range(50)]
+            await asyncio.sleep(0)
+            assert (await bench.live.act(RefereeAction(action=ActionName.STOP))).accepted
+            assert (await bench.live.act(RefereeAction(action=ActionName.START, source=REFBOX))).accepted
+            assert not any(goal.done() for goal in goals)
+            held.set()
+            await asyncio.gather(*goals)
+
+    asyncio.run(play())
+
+
+def test_an_order_of_one_side_waits_for_none_of_the_others(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            held = threading.Event()
+            bench.live._benches[Side.CYAN].order = lambda *_, **__: held.wait(30.0)
+            slow = [asyncio.create_task(bench.live.order(Side.CYAN, mode="hold")) for _ in range(50)]
+            await asyncio.sleep(0)
+            assert (await bench.live.order(Side.MAGENTA, mode="hold")).mode == "hold"
+            assert not any(one.done() for one in slow)
+            held.set()
+            await asyncio.gather(*slow)
 
     asyncio.run(play())
 

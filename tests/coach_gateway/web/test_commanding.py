@@ -6,8 +6,10 @@ from typing import Any
 
 import pytest
 
+from coach_gateway.gateway import Gateway as Bench
 from schemas.coach import CoachMode, CoachOrder
 from schemas.game import ActionName
+from schemas.side import Side
 
 from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, wait_for
 
@@ -130,3 +132,22 @@ def test_questions_that_wait_hold_up_neither_a_stop_nor_another_role(
     slow.set()
     coach.close()
     referee.close()
+
+
+def test_orders_of_one_side_hold_up_none_of_the_other(
+    visit: Visit, host: FakeHost, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A coach whose orders take their time keeps nobody else's robots from being stopped."""
+    held, order = threading.Event(), Bench.order
+
+    def slow(self: Bench, side: Side, **content: Any) -> CoachOrder:
+        if side is Side.CYAN:
+            held.wait(20.0)
+        return order(self, side, **content)
+
+    monkeypatch.setattr(Bench, "order", slow)
+    cyan, magenta = visit("cyan"), visit("magenta")
+    asked = [cyan.say("order", side="cyan", order={"mode": "play"}) for _ in range(3)]
+    assert magenta.ask("order", side="magenta", order={"mode": "hold"})["accepted"]
+    held.set()
+    assert all(cyan.hear("reply", id=number)["accepted"] for number in asked)

@@ -225,6 +225,10 @@ def test_a_referee_box_that_connects_is_told(visit: Visit, host: FakeHost, mediu
     page = visit()
     host.bus.declare_alive("refbox", "cyan")
     page.hear("refbox", connected=True, team="cyan")
+    host.bus.declare_alive("refbox", "magenta")
+    page.hear("refbox", connected=True, team=None)
+    host.bus.withdraw_alive("refbox", "magenta")
+    page.hear("refbox", connected=True, team="cyan")
     host.bus.withdraw_alive("refbox", "cyan")
     page.hear("refbox", connected=False)
 
