@@ -22,19 +22,21 @@ from coach_gateway.udp.protocol import (
     Bye,
     Hello,
 )
-from coach_gateway.udp.session import Session, Turn
+from coach_gateway.udp.session import AT_ONCE, PER_SECOND, Session, Turn
 from coach_gateway.web import access
 from coach_gateway.web.limits import Allowance
 from coach_gateway.web.protocol import AskAction as PageAction
 from coach_gateway.web.protocol import AskOrder as PageOrder
 from coach_gateway.web.protocol import OrderContent, Role
 from schemas.coach import CoachMode
-from schemas.game import RefereeAction
+from schemas.game import ActionName, RefereeAction
 from schemas.message import reason_of
 from schemas.side import Side
 
 MOST = 64
 """Programs at the same time."""
+MOST_WAITING = 8
+"""Datagrams of one program that may wait for the host's answer; a stop may always be asked for."""
 STRANGERS_PER_SECOND, STRANGERS_AT_ONCE = 20.0, 50.0
 """Datagrams without a session that are read at all; the others are left out and not answered."""
 
@@ -53,6 +55,11 @@ class Deed:
     sides: tuple[Side, ...] = ()
     """Whom an order is for."""
     order: Mapping[str, Any] | None = None
+
+    @property
+    def is_stop(self) -> bool:
+        """The game is to be stopped."""
+        return self.action is not None and self.action.action is ActionName.STOP
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,19 +116,23 @@ class Coaches:
         deed.session.answered(deed.sequence, ack)
 
     def _begin(self, hello: Hello, address: Address, now: float) -> Ack:
-        """A program comes, or begins anew; a hello that comes again is answered with the session it began."""
+        """A program comes, or begins anew; a hello that comes again is answered with the session it began.
+
+        One that is said after anything else, whatever its number, is that of a program that was started again.
+        """
         session = self.sessions.get(address)
         role = self._role_of(hello.token)
         if role is None or role is Role.SPECTATOR:
             return _refused(hello, "the token is nobody's; a side's coach or the referee has one")
-        if session is not None and session.role is role and hello.sequence <= session.newest:
-            session.heard_at = now
+        if session is not None and session.role is role and hello.sequence == session.newest:
             known = session.answer(hello.sequence)
-            again = known if known is not None and known.of == "hello" else None
-            return again.model_copy(update={"duplicate": True}) if again is not None else _late(hello)
+            if known is not None and known.of == "hello":
+                session.heard_at = now
+                return known.model_copy(update={"duplicate": True})
         if session is None and len(self.sessions) >= MOST:
             return _refused(hello, f"{MOST} coach programs are connected, which is the limit")
-        session = Session(secrets.token_urlsafe(12), role, hello.name, now, hello.rate)
+        allowance = session.allowance if session is not None else Allowance(PER_SECOND, AT_ONCE, now)
+        session = Session(secrets.token_urlsafe(12), role, hello.name, now, hello.rate, allowance=allowance)
         self.sessions[address] = session
         session.turn(hello.sequence)
         ack = Ack(sequence=hello.sequence, of=hello.kind, accepted=True, session=session.key, role=role)
@@ -138,6 +149,8 @@ class Coaches:
             before = session.answer(ask.sequence)
             return Heard(before.model_copy(update={"duplicate": True})) if before is not None else _NOTHING
         done = self._do(session, ask, address, robots)
+        if isinstance(done, Deed) and session.waiting > MOST_WAITING and not done.is_stop:
+            done = f"{MOST_WAITING} datagrams of this program still wait for their answers"
         if isinstance(done, Deed):
             return Heard(deed=done)
         ack = Ack(sequence=ask.sequence, of=ask.kind, accepted=not done, reason=done)

@@ -39,7 +39,7 @@ class Hello(_Ask):
     kind: Literal["hello"]
     token: Annotated[str, StringConstraints(max_length=200)]
     """A side's coach's, or the referee's."""
-    name: Annotated[str, StringConstraints(max_length=40)] = "coach"
+    name: Annotated[str, StringConstraints(max_length=40, pattern=r"^[^\x00-\x1f\x7f-\x9f]*$")] = "coach"
     """By what its actions are told of."""
     rate: Annotated[float, Field(ge=1.0, le=MAX_RATE)] = DEFAULT_RATE
     """Frames a second, of wall time."""

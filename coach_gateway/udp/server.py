@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Any
 
 from coach_gateway.live import Live, pause
+from coach_gateway.ports import cannot_listen
 from coach_gateway.udp import DEFAULT_PORT
 from coach_gateway.udp.coach_record import MatchMode
 from coach_gateway.udp.coaches import Address, Coaches, Deed
@@ -20,7 +21,7 @@ from schemas.side import Side
 _LOOK_S = 0.01
 """s of wall time between two looks at which program is due."""
 _EVENTS_AT_ONCE = 50
-"""Told again at most, for one datagram that asks for them."""
+"""Told at most with one frame, or for one datagram that asks for them: more would be lost in a full buffer."""
 
 
 class UdpCoaches(asyncio.DatagramProtocol):
@@ -56,9 +57,7 @@ class UdpCoaches(asyncio.DatagramProtocol):
         try:
             transport, _ = await loop.create_datagram_endpoint(lambda: self, local_addr=self._at)
         except OSError as error:
-            raise TouchlineError(
-                f"--udp {self._at[1]} cannot be listened on ({error.strerror}); choose another port, or 0"
-            ) from None
+            raise cannot_listen("--udp", *self._at, error) from None
         self._transport = transport
         self.port = transport.get_extra_info("sockname")[1]
         self._say(f"coach programs over UDP on {self._at[0]}:{self.port}")
@@ -146,10 +145,11 @@ class UdpCoaches(asyncio.DatagramProtocol):
                 if session.beliefs_told.get(robot) != belief.time:
                     session.beliefs_told[robot] = belief.time
                     self._send(BeliefNews(number=session.frames, side=side, belief=belief), address)
-        told = min(session.events_told, len(self._live.events))  # another match's are fewer
-        for number in range(told, len(self._live.events)):
+        told = min(session.events_told, len(self._live.events)) if session.hosts == self._live.hosts else 0
+        session.hosts = self._live.hosts
+        session.events_told = min(len(self._live.events), told + _EVENTS_AT_ONCE)
+        for number in range(told, session.events_told):
             self._tell_event(number, address)
-        session.events_told = len(self._live.events)
 
     def _frame(self, session: Session, own: list[Side]) -> Frame:
         live, state = self._live, self._live.state

@@ -37,6 +37,8 @@ class Session:
     name: str
     begun_at: float
     rate: float = DEFAULT_RATE
+    allowance: Allowance = field(kw_only=True)
+    """How much is read of this address, whatever sessions it begins."""
     heard_at: float = 0.0
     newest: int = 0
     """The largest number so far."""
@@ -44,6 +46,8 @@ class Session:
     due_at: float = 0.0
     """When the next frame is to be sent."""
     events_told: int = 0
+    hosts: int = 0
+    """Which host's events these are: they are counted anew with each."""
     beliefs_told: dict[str, float] = field(default_factory=dict)
     """Robot → simulated time of its word that was told last."""
     left_out: int = 0
@@ -52,11 +56,15 @@ class Session:
 
     def __post_init__(self) -> None:
         self.heard_at = self.due_at = self.begun_at
-        self._allowance = Allowance(PER_SECOND, AT_ONCE, self.begun_at)
+
+    @property
+    def waiting(self) -> int:
+        """Datagrams that wait for their answers."""
+        return sum(answer is None for answer in self._answers.values())
 
     def may_speak(self, now: float) -> bool:
         """Whether a datagram is read, rather than left out."""
-        allowed = self._allowance.take(now)
+        allowed = self.allowance.take(now)
         self.left_out += not allowed
         return allowed
 

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from coach_gateway.udp import coaches as coaches_module
-from coach_gateway.udp.coaches import Coaches, Heard
+from coach_gateway.udp.coaches import MOST_WAITING, Coaches, Heard
 from coach_gateway.udp.protocol import MAX_BYTES, Ack
 from coach_gateway.udp.session import AT_ONCE, KEPT, SILENCE_S
 from coach_gateway.web.protocol import Role
@@ -81,6 +81,35 @@ def test_a_hello_that_comes_again_is_answered_with_the_session_that_it_began(cya
     assert again is not None and again.duplicate and again.session == cyan.session
     anew = cyan.say("hello", token="cyan-token", sequence=2).ack
     assert anew is not None and not anew.duplicate and anew.session != cyan.session
+
+
+def test_a_program_that_was_started_again_at_its_old_address_begins_anew(cyan: Program) -> None:
+    """It counts from 1 again, as the one before did, and has to be heard at once, not when that has been forgotten."""
+    for _ in range(20):
+        cyan.say("alive")
+    anew = cyan.say("hello", token="cyan-token", sequence=1).ack
+    assert anew is not None and anew.accepted and not anew.duplicate and anew.session != cyan.session
+    cyan.session, cyan.sequence = anew.session or "", 1
+    assert cyan.say("order", order={"mode": "hold"}).deed is not None
+
+
+def test_saying_hello_again_and_again_does_not_let_a_program_say_more(coaches: Coaches, cyan: Program) -> None:
+    answered = sum(cyan.say("hello", token="cyan-token").ack is not None for _ in range(1000))
+    assert AT_ONCE - 1 <= answered <= AT_ONCE
+
+
+def test_a_program_waits_for_its_answers_before_it_asks_more_but_a_stop_is_always_heard(
+    coaches: Coaches, referee: Program
+) -> None:
+    deeds = [referee.say("action", action={"action": "goal", "side": "cyan"}).deed for _ in range(MOST_WAITING)]
+    assert None not in deeds
+    assert "8 datagrams of this program still wait" in referee.refusal("action", action={"action": "undo"})
+    assert referee.say("action", action={"action": "stop"}).deed is not None
+    assert referee.say("match_mode", mode="stop").deed is not None
+    for deed in deeds:
+        assert deed is not None
+        coaches.finish(deed, Ack(sequence=deed.sequence, of="action", accepted=True))
+    assert referee.say("action", action={"action": "undo"}).deed is not None
 
 
 @pytest.mark.parametrize("session", ["", "guessed", "é"])
@@ -210,6 +239,7 @@ def test_answers_are_kept_for_a_while_and_no_longer(cyan: Program) -> None:
         (b'{"kind": "order", "sequence": 6, "session": "", "order": {"mode": "test"}}', "needs a test", 6),
         (b'{"kind": "alive", "sequence": 6, "session": "", "more": 1}', "more", 6),
         (b'{"a":' * 1500, "JSON", None),
+        (b'{"kind": "hello", "sequence": 6, "token": "", "name": "\\u001b[2J"}', "name", 6),
         (b"x" * (MAX_BYTES + 1), "8193 bytes, at most 8192", None),
     ],
 )

@@ -180,6 +180,40 @@ def test_an_event_that_was_lost_can_be_asked_for(served: Any, until: Any) -> Non
     asyncio.run(play())
 
 
+def test_a_long_past_is_told_frame_by_frame_and_whole(served: Any, until: Any) -> None:
+    async def play() -> None:
+        async with served() as (bench, _, come):
+            for number in range(170):
+                bench.stage.tell(f"event {number}")
+            await until(lambda: len(bench.live.events) == 170)
+            program = await come("cyan", rate=50)
+            await until(lambda: len(program.of("event")) == 170)
+            assert [one["number"] for one in program.of("event")] == list(range(170))
+            kinds = "".join("e" if one["kind"] == "event" else " " for one in program.heard).split()
+            assert max(map(len, kinds)) <= 50
+
+    asyncio.run(play())
+
+
+def test_the_events_of_another_host_are_told_from_their_beginning(served: Any, until: Any) -> None:
+    async def play() -> None:
+        async with served() as (bench, _, come):
+            program = await come("cyan", rate=1)  # so seldom that both hosts speak between two frames
+            for number in range(5):
+                bench.stage.tell(f"old {number}")
+            await until(lambda: len(program.of("event")) == 5)
+            bench.stage.bus.close()
+            another = type(bench.stage)(bench.stage.medium, bench.stage.config)
+            bench.start(another)
+            for number in range(3):
+                another.tell(f"new {number}")
+            await until(lambda: len(program.of("event")) == 8)
+            told = [(one["number"], one["event"]["text"]) for one in program.of("event")]
+            assert told[5:] == [(0, "new 0"), (1, "new 1"), (2, "new 2")]
+
+    asyncio.run(play())
+
+
 def test_the_referees_program_acts_and_hears_why_not(served: Any, until: Any) -> None:
     async def play() -> None:
         async with served() as (bench, _, come):
