@@ -4,14 +4,17 @@ import asyncio
 import threading
 from typing import Any
 
+from coach_gateway.live import Live
 from coach_gateway.refbox.narration import Narrator
 from schemas.bus.in_process import Medium
-from schemas.clock import WallClock
-from schemas.game import REFBOX, ActionName, Phase, RefereeAction, Score
+from schemas.clock import SteppedClock, WallClock
+from schemas.game import REFBOX, ActionName, GameState, Phase, RefereeAction, Score
 from schemas.host import Setup
 from schemas.match_config import load_match
+from schemas.profile import load_profile
+from schemas.rule_book import load_rule_book
 from schemas.side import Side
-from schemas.topics import BELIEF, EVENT, STATE
+from schemas.topics import BELIEF, EVENT, SETUP, STATE
 
 
 def test_without_a_host_the_answer_is_a_refusal_that_says_so(opened: Any, until: Any) -> None:
@@ -159,6 +162,37 @@ def test_an_order_of_one_side_waits_for_none_of_the_others(opened: Any, until: A
             held.set()
             await asyncio.gather(*slow)
 
+
+def test_what_changes_while_the_host_answers_is_asked_for_again(until: Any) -> None:
+    async def play() -> None:
+        medium, clock = Medium(), SteppedClock()
+        host, live = medium.seat("friendly", WallClock()), Live(medium.seat("friendly", clock))
+        server, states = host.serve(SETUP), host.publisher(STATE)
+        asked: list[Any] = []
+
+        def look() -> int:
+            live.update()
+            asked.extend(iter(server.receive, None))
+            return len(asked)
+
+        def setup(size: int) -> Setup:
+            match = load_match(None, {f"teams.{side}.size": size for side in Side})
+            return Setup.of(match, load_profile("msl"), load_rule_book("friendly"))
+
+        states.put(GameState(tick=1, time=0.02, phase=Phase.PLAY))
+        await until(look, "the question")
+        states.put(GameState(tick=2, time=0.04, phase=Phase.PLAY, episode=2))
+        look()
+        asked[0].answer(setup(1))  # as it was before the scene that came meanwhile
+        await until(lambda: len(live.sides) == 2)
+        clock.sleep_until(10.0)
+        await until(lambda: look() == 2, "another question")
+        asked[1].answer(setup(3))
+        await until(lambda: len(live.sides) == 6)
+        stop = asyncio.Event()
+        stop.set()
+        await live.serve(stop)
+
     asyncio.run(play())
 
 
@@ -176,8 +210,6 @@ def test_what_cannot_be_read_is_counted_and_left_out(opened: Any, until: Any) ->
 
 def test_a_gateway_that_ends_asks_nobody_any_more() -> None:
     async def play() -> None:
-        from coach_gateway.live import Live
-
         live = Live(Medium().seat("friendly", WallClock()))
         stop = asyncio.Event()
         stop.set()
