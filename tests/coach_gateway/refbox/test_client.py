@@ -81,7 +81,7 @@ def met(opened: Callable[..., Any], until: Any) -> Callable[..., Any]:
             client = RefBoxClient(bench.live, BoxAddress(team, "127.0.0.1", port, protocol), bench.said.append)
             bench.start(client)
             try:
-                await until(lambda: box.links, "the connection")
+                await until(lambda: box.links and client.connected, "the connection, on both sides")
                 yield bench, box, client
             finally:
                 bench.stop.set()
