@@ -3,6 +3,7 @@
 import socket
 
 from coach_gateway.web.pages import STUCK_S
+from schemas.bus.endpoint import reserve_port
 from schemas.errors import TouchlineError
 
 _ROOM_BYTES = 65_536
@@ -36,13 +37,13 @@ def listen(address: str, port: int) -> socket.socket:
 
 
 def free_port(address: str, port: int) -> int:
-    """The port itself once it is sure that it can be listened on; one that is free just now in place of 0.
+    """The port itself once it is sure that it can be listened on; a free one, given to nobody else, in place of 0.
 
     Raises:
         TouchlineError: it cannot.
     """
-    with listen(address, port) as probe:
-        return int(probe.getsockname()[1])
+    listen(address, port).close()
+    return port or reserve_port(address)
 
 
 def origin_of(address: str, port: int) -> str:

@@ -3,6 +3,7 @@
 import ipaddress
 import re
 import socket
+import sys
 
 from schemas.bus.contract import BusError
 
@@ -41,12 +42,26 @@ def near(listen: str) -> str:
 
 
 def with_port(endpoint: str) -> str:
-    """The endpoint itself, or with a port that is free just now where it says `:0`."""
+    """The endpoint itself, or with a free port where it says `:0`, which is then given to nobody else."""
     protocol, host, port = parse_endpoint(endpoint)
     if port:
         return endpoint
+    free = reserve_port(host)
+    return f"{protocol}/[{host}]:{free}" if ":" in host else f"{protocol}/{host}:{free}"
+
+
+def reserve_port(host: str) -> int:
+    """A free TCP port of this address, to be listened on by this process or by one that it launches.
+
+    Between the choice and the listening, a second for a process that has to start, the system could give the port to
+    somebody else. Linux does not while a socket is bound to it, and lets others listen on it all the same if both allow
+    it, as Zenoh and the page's server do. That socket stays as long as this process.
+    """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    with socket.socket(family, socket.SOCK_STREAM) as probe:
-        probe.bind((host, 0))
-        free = probe.getsockname()[1]
-    return f"{protocol}/[{host}]:{free}" if family == socket.AF_INET6 else f"{protocol}/{host}:{free}"
+    with socket.socket(family, socket.SOCK_STREAM) as holder:
+        holder.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        holder.bind((host, 0))
+        port = int(holder.getsockname()[1])
+        if sys.platform == "linux":
+            holder.detach()
+    return port

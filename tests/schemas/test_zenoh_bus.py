@@ -1,6 +1,7 @@
 """What only the real network can show: addresses, a host that is late, gone, or back."""
 
 import os
+import socket
 import subprocess
 import sys
 import textwrap
@@ -132,3 +133,13 @@ def test_an_endpoint_that_is_none_is_named(endpoint: str) -> None:
 def test_only_a_port_of_zero_is_replaced() -> None:
     assert with_port("tcp/127.0.0.1:7447") == "tcp/127.0.0.1:7447"
     assert parse_endpoint(with_port("tcp/127.0.0.1:0"))[2] != 0
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a port is free only at the moment it is chosen")
+def test_a_port_that_was_chosen_stays_free_for_the_host_however_long_that_takes_to_start() -> None:
+    endpoint = with_port("tcp/127.0.0.1:0")
+    _, host, port = parse_endpoint(endpoint)
+    with socket.socket() as other, pytest.raises(OSError, match="in use"):
+        other.bind((host, port))
+    with open_host("test", WallClock(), endpoint), open_client("test", WallClock(), endpoint) as client:
+        assert client.connected()
