@@ -35,7 +35,14 @@ class Box:
         """World states that came."""
 
     async def open(self, port: int = 0) -> int:
-        self._server = await asyncio.start_server(self._meet, "127.0.0.1", port, limit=2**20)
+        door = socket.socket()
+        door.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        kept = 2**20
+        if not self.reads:  # of themselves kernel and stream would swallow megabytes before the pipe is full
+            kept = 1024
+            door.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, kept)
+        door.bind(("127.0.0.1", port))
+        self._server = await asyncio.start_server(self._meet, sock=door, limit=kept)
         return int(self._server.sockets[0].getsockname()[1])
 
     async def close(self) -> None:
