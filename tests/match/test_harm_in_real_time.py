@@ -1,6 +1,7 @@
 """One match in real time: robots that fail, a coach at the command line, a recorder that is killed."""
 
 import json
+import math
 import os
 import signal
 
@@ -27,6 +28,7 @@ class Circles:
 MATCH = """
 name = "live"
 duration = 80000
+referee.mode = "manual"
 
 [teams.cyan]
 robots = ["cyan1", "cyan2"]
@@ -36,17 +38,19 @@ brain = "mind:Circles"
 robots = ["magenta1"]
 brain = "mind:Circles"
 """
+CIRCLES = Drive(vx=1.0, omega=1.0)
 ASKED = {
+    "kick-off": ("start",),
     "stop": ("stop",),
     "stop again": ("stop",),
     "a corner for nobody": ("corner",),
     "a free kick": ("freekick", "magenta"),
     "a place off the field": ("place-ball", "50", "2"),
+    "state": ("state", "--json"),
     "start": ("start",),
     "an order": ("order", "cyan", "--mode", "hold", "--wait", "60"),
-    "state": ("state", "--json"),
 }
-"""What the coach asks for, in this order."""
+"""What the coach asks for, in this order: people alone decide, so that nothing depends on how long asking takes."""
 
 
 class Story:
@@ -65,25 +69,28 @@ class Story:
 
     def stopped(self):
         pid = self.program.child("--robot", "cyan2")
-        self.before_stop = self.heard.worlds[-1]
+        self.heard.until(lambda heard: turns(heard, "cyan2"), "cyan2 driving")
+        self.before_stop = self.heard.tick
         os.kill(pid, signal.SIGSTOP)
         self.heard.until(lambda heard: not heard.robot("cyan2").answering, "cyan2 falling silent")
         self.program.says("(silent: cyan2)")
         self.heard.for_ticks(150)
+        self.heard.until(lambda heard: len(answered(heard, "cyan1", self.before_stop)) > 100, "answers of cyan1")
         self.during_stop = self.heard.tick
         os.kill(pid, signal.SIGCONT)
         self.heard.until(lambda heard: heard.robot("cyan2").answering, "answers of cyan2")
-        self.heard.for_ticks(30)
-        self.after_stop = self.heard.worlds[-1]
+        self.heard.until(lambda heard: turns(heard, "cyan2"), "cyan2 driving again")
 
     def killed(self):
         before = self.heard.robot("magenta1").answers
         os.kill(self.program.child("--robot", "magenta1"), signal.SIGKILL)
         self.heard.until(lambda heard: not heard.robot("magenta1").alive, "magenta1 leaving")
+        self.without = self.heard.tick
         self.program.says("magenta1 was ended by SIGKILL; started again (1 of 3)")
         self.heard.until(lambda heard: heard.robot("magenta1").answers > before + 20, "answers of the new magenta1")
 
     def recorder_killed(self):
+        self.heard.until(lambda heard: 0 <= heard.healths[-1].recorders.get("recorder", -1) < 50, "the recorder")
         os.kill(self.program.child("recordings"), signal.SIGKILL)
         self.heard.update()
         self.killed_recorder_at = self.heard.tick
@@ -93,8 +100,39 @@ class Story:
     def ask(self, case, *words):
         name = case.replace(" ", "_")
         place = ("--connect", self._endpoint, "--match", "live")
+        if case == "start":
+            self.heard.until(ball_lies, "the ball on its spot")
         asked = self._start("arena", "coach", *words, *place, folder=self.program.folder, name=name)
         return asked.status(), asked.out, asked.err
+
+
+def turns(heard, robot):
+    """Whether a robot drives its circle."""
+    return heard.worlds[-1].robots[robot].omega > 0.1
+
+
+def answered(heard, robot, since):
+    """Ticks after this one with an answer of the robot."""
+    return [one.tick for one in heard.applied if one.tick > since and one.inputs[robot].answers_tick is not None]
+
+
+def ball_lies(heard):
+    """Whether the ball lies where the restart is taken."""
+    spot, ball = heard.said["game/state"][-1].spot, heard.worlds[-1].ball
+    return spot is not None and math.dist((spot.x, spot.y), (ball.x, ball.y)) < 0.01 and (ball.vx, ball.vy) == (0, 0)
+
+
+def told_otherwise(inputs, robot):
+    """Ticks in which a robot was not told to circle though its newest answer was young, or to though it was old."""
+    ticks = [tick for tick in inputs if inputs[tick][robot].answers_tick is not None]
+    newest, wrong = inputs[ticks[0]][robot].answers_tick, []
+    for tick in range(ticks[0], max(inputs) + 1):
+        given = inputs[tick][robot]
+        newest = given.answers_tick if given.answers_tick is not None else newest
+        age = tick - 1 - newest  # when this tick began, the newest sight was that of the one before
+        if given.drive != (CIRCLES if age <= WATCHDOG_TICKS else Drive()):
+            wrong.append(tick)
+    return wrong
 
 
 @pytest.fixture(scope="module")
@@ -118,15 +156,19 @@ def test_every_tick_is_played_whatever_happens(story):
     assert ticks[-1] > story.after_recorder
 
 
-def test_the_watchdog_brakes_a_stopped_robot_and_it_drives_on_when_it_is_back(inputs, story):
-    assert story.before_stop.robots["cyan2"].omega > 0.1
+def test_the_watchdog_brakes_a_stopped_robot(inputs, story):
     quiet = [tick for tick in inputs if tick <= story.during_stop and inputs[tick]["cyan2"].answers_tick is not None]
     rest = range(quiet[-1] + WATCHDOG_TICKS + 1, story.during_stop)
     assert len(rest) > 50
     assert all(inputs[tick]["cyan2"].drive == Drive() for tick in rest)
     standing = next(world for world in story.heard.worlds if world.tick == story.during_stop).robots["cyan2"]
     assert abs(standing.vx) + abs(standing.vy) + abs(standing.omega) < 0.01
-    assert story.after_stop.robots["cyan2"].omega > 0.1
+
+
+@pytest.mark.parametrize("robot", ["cyan1", "cyan2", "magenta1"])
+def test_a_robot_does_what_it_was_told_last_until_that_is_too_old(inputs, robot):
+    """However late its agent answers, on a machine that is busy with other things."""
+    assert told_otherwise(inputs, robot) == []
 
 
 def test_health_and_status_line_name_a_stopped_robot(story):
@@ -138,15 +180,14 @@ def test_health_and_status_line_name_a_stopped_robot(story):
 
 
 def test_the_others_play_on_meanwhile(inputs, story):
-    stopped = [tick for tick in inputs if story.before_stop.tick < tick <= story.during_stop]
-    assert all(inputs[tick]["cyan1"].drive == Drive(vx=1.0, omega=1.0) for tick in stopped)
+    stopped = [inputs[tick]["cyan1"] for tick in inputs if story.before_stop < tick <= story.during_stop]
+    assert sum(given.drive == CIRCLES and given.answers_tick is not None for given in stopped) > 100
 
 
 def test_a_killed_agent_is_started_again_and_its_robot_rests_meanwhile(inputs, story):
     assert "magenta1 was ended by SIGKILL; started again (1 of 3)" in story.program.err
     assert "agent: magenta1 does not answer, its robot rests" in story.program.err
-    rested = [tick for tick in inputs if tick > 50 and inputs[tick]["magenta1"].drive == Drive()]
-    assert rested == list(range(rested[0], rested[-1] + 1))
+    assert any(inputs[tick]["magenta1"].drive == Drive() for tick in range(story.without, max(inputs)))
     assert story.heard.robot("magenta1").alive
 
 
@@ -161,6 +202,7 @@ def test_late_ticks_are_told(story):
     [
         ("stop", "stop accepted"),
         ("a free kick", "free_kick accepted"),
+        ("kick-off", "start accepted"),
         ("start", "start accepted"),
         ("an order", "to cyan: hold; acknowledged by cyan1, cyan2"),
         ("state", '"phase":"free_kick"'),
