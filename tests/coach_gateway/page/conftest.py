@@ -25,11 +25,13 @@ from robot_agent.contract import Briefing, load_brain
 from robot_agent.runner import Runner
 from schemas.bus.in_process import Medium
 from schemas.clock import WallClock
-from schemas.game import GameEvent, GameState
+from schemas.command import Command
+from schemas.game import ActionName, GameEvent, GameState, RefereeAction
 from schemas.match_config import MatchConfig
 from schemas.replay import ReplayDeed, ReplayRequest
 from schemas.side import Side
-from schemas.topics import EVENT, Topic
+from schemas.sight import Sight
+from schemas.topics import ACTION, EVENT, Topic
 from sim_host.host import Host
 
 SOON = 30.0
@@ -41,10 +43,18 @@ TEAMS = {
 }
 
 
+class Still:
+    """A brain that lets its robot stand."""
+
+    def act(self, sight: Sight) -> Command:
+        return Command(answers_tick=sight.tick)
+
+
 class Match:
     """Host and robots, each side of the bus in a thread of its own; the host can go and come again."""
 
-    def __init__(self, **words: Any) -> None:
+    def __init__(self, *, still: bool = False, **words: Any) -> None:
+        """`still` has all robots stand where they are; the other words are those of the match file."""
         content = {"name": "friendly", "seed": 7, "pace": "realtime", "duration": 600.0, "teams": TEAMS, **words}
         self.config = MatchConfig.model_validate(content)
         self.medium = Medium()
@@ -57,7 +67,8 @@ class Match:
         for side in Side:
             for robot in self.config.robots(side):
                 bus = self.medium.seat("friendly", WallClock())
-                brain = load_brain(self.config.team(side).brain or "", Briefing.of(robot, setup))
+                briefing = Briefing.of(robot, setup)
+                brain = Still() if still else load_brain(self.config.team(side).brain or "", briefing)
                 self._runners.append(Runner(bus, brain, robot))
                 bus.declare_alive("agent", robot)
         self._robots = threading.Thread(target=self._answer)
@@ -70,6 +81,12 @@ class Match:
         self._hosting = threading.Thread(target=self.host.run)
         self._hosting.start()
 
+    def signal_kick_off(self) -> None:
+        """The referee signals the kick-off of the half; in manual officiating people have to give START."""
+        start = RefereeAction(action=ActionName.START)
+        reply = self.medium.seat("friendly", WallClock()).ask(ACTION, start, SOON).result(SOON)
+        assert reply.accepted, reply.reason
+
     def stop(self) -> None:
         """The host goes."""
         self.host.leave()
@@ -79,7 +96,7 @@ class Match:
 
     def wait_for_end(self) -> None:
         """Until the match is over."""
-        self._hosting.join(SOON)
+        self._hosting.join()
 
     def close(self) -> None:
         self.stop()
@@ -247,8 +264,27 @@ def match_of() -> Iterator[Callable[..., Match]]:
 
 
 @pytest.fixture
-def match(match_of: Callable[..., Match]) -> Match:
-    return match_of()
+def officiated(match_of: Callable[..., Match]) -> Callable[..., Match]:
+    """Makes a match that people officiate, its kick-off signalled: only pages change the game."""
+
+    def make(**words: Any) -> Match:
+        match = match_of(referee={"mode": "manual"}, **words)
+        match.signal_kick_off()
+        return match
+
+    return make
+
+
+@pytest.fixture
+def match(officiated: Callable[..., Match]) -> Match:
+    """One in which robots take their positions, and play once START is given."""
+    return officiated()
+
+
+@pytest.fixture
+def resting(officiated: Callable[..., Match]) -> Match:
+    """One in which nobody moves by itself."""
+    return officiated(still=True)
 
 
 @pytest.fixture

@@ -52,6 +52,7 @@ def test_every_restart_can_be_given_to_either_side(match, visit, side: Side) -> 
         match.until(lambda phase=phase: match.state.phase is phase and match.state.side is side)
     tab.button("drop_ball").click()
     match.until(lambda: match.state.phase is Phase.DROP_BALL)
+    tab.until_seen("ball", match.state.spot.x, match.state.spot.y)
     tab.button("start").click()
     match.until(lambda: match.state.running)
 
@@ -90,8 +91,13 @@ def test_what_ends_a_match_is_pressed_twice(match, visit) -> None:
 
 
 def test_a_proposal_is_confirmed_or_overruled(match_of, visit) -> None:
-    match = match_of(referee={"mode": "mixed", "proposal": 60.0})
+    match = match_of(still=True, referee={"mode": "mixed", "proposal": 60.0})
     tab = visit(match, "referee")
+    match.until(lambda: match.state.phase is not Phase.PRE_GAME)
+    tab.button("drop_ball").click()
+    match.until(lambda: match.state.phase in (Phase.DROP_BALL, Phase.PLAY))
+    tab.until_seen("ball", 0.0, 0.0)
+    tab.button("start").click()
     match.until(lambda: match.state.phase is Phase.PLAY)
     tab.open("settings")
     tab.page.locator("#freely").check()
@@ -110,7 +116,8 @@ def test_a_proposal_is_confirmed_or_overruled(match_of, visit) -> None:
     tab.until("document.getElementById('proposal').hidden")
 
 
-def test_a_spectator_can_press_nothing(match, visit) -> None:
+def test_a_spectator_can_press_nothing(resting, visit) -> None:
+    match = resting
     tab = visit(match)
     pressable = (
         "[...document.querySelectorAll('{} button, {} select')].filter((one) => !one.disabled).map((one) => one.id)"
@@ -125,7 +132,7 @@ def test_a_spectator_can_press_nothing(match, visit) -> None:
     tab.page.keyboard.press("Space")
     tab.drag(match.where("cyan1"), (0.0, 3.0))
     assert tab.page.locator("#log li").count() == 0
-    assert match.state.phase is not Phase.STOPPED
+    assert match.state.phase is Phase.KICK_OFF
 
 
 def test_a_coach_commands_its_own_side_alone(match, visit) -> None:
@@ -169,9 +176,11 @@ def test_a_token_is_taken_from_the_address_kept_and_given_up(match, visit) -> No
     tab.until("window.touchline.match.role === 'cyan'")
 
 
-def test_the_ball_is_placed_by_dragging_where_the_referee_allows_it(match, visit) -> None:
+def test_the_ball_is_placed_by_dragging_where_the_referee_allows_it(resting, visit) -> None:
+    match = resting
     tab = visit(match, "referee")
-    match.until(lambda: match.state.phase is Phase.PLAY)
+    tab.button("start").click()
+    match.until(lambda: match.state.running)
     ball = match.world["ball"]
     tab.drag((ball["x"], ball["y"]), (3.0, 2.0))
     tab.wait_for_log("the game is running; stop it first")
@@ -185,9 +194,11 @@ def test_the_ball_is_placed_by_dragging_where_the_referee_allows_it(match, visit
     assert (match.state.spot.x, match.state.spot.y) == pytest.approx((3.0, 2.0), abs=0.06)
 
 
-def test_a_robot_is_moved_by_dragging_while_the_game_is_stopped(match, visit) -> None:
+def test_a_robot_is_moved_by_dragging_while_the_game_is_stopped(resting, visit) -> None:
+    match = resting
     tab = visit(match, "referee")
-    match.until(lambda: match.state.phase is Phase.PLAY)
+    tab.button("start").click()
+    match.until(lambda: match.state.running)
     tab.drag(match.where("cyan1"), (-6.0, 5.0))
     tab.wait_for_log("Move cyan1 refused: the game is running")
     tab.page.keyboard.press("Space")

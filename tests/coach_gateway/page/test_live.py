@@ -5,8 +5,6 @@ import math
 
 import pytest
 
-from schemas.game import Phase
-
 FILLS = {"cyan": (0x28, 0xB9, 0xDC), "magenta": (0xC9, 0x23, 0x7B)}
 
 PIXEL = """([x, y]) => {
@@ -32,10 +30,9 @@ def test_drawing_goes_on_while_the_match_is_played(match_of, visit) -> None:
     assert tab.ask("Object.keys(window.touchline.stage.world.robots).length") == 10
 
 
-def test_robots_are_drawn_where_they_are(match, visit) -> None:
+def test_robots_are_drawn_where_they_are(resting, visit) -> None:
+    match = resting
     tab = visit(match, "referee")
-    tab.button("stop").click()
-    match.until(lambda: match.state.phase is Phase.STOPPED)
     tab.ask("window.touchline.layers.velocities = window.touchline.layers.roles = false")
     for robot in ("cyan1", "magenta1"):
         match.until(lambda robot=robot: math.hypot(*speed(match, robot)) < 0.02)
@@ -65,6 +62,7 @@ def test_score_clock_phase_and_half_are_those_of_the_match(match, visit) -> None
     tab.until("document.getElementById('score').textContent === '0 : 1'")
     tab.button("throw_in", "cyan").click()
     tab.until("document.getElementById('phase').textContent.startsWith('Throw in, Blues')")
+    tab.until_seen("ball", match.state.spot.x, match.state.spot.y)
     assert tab.page.locator("#half").inner_text() == "Half 1"
     tab.button("start").click()
     match.until(lambda: match.state.running)
