@@ -5,15 +5,16 @@ from typing import Annotated
 import typer
 
 from arena import options
+from arena.bundle import unbundled
 
 
+@unbundled
 def agent(
     robot: Annotated[str, typer.Option(envvar="TOUCHLINE_ROBOT", help="Name of the robot: cyan1, magenta3, …")],
     brain: Annotated[
         str, typer.Option(envvar="TOUCHLINE_BRAIN", help="module:Class, or module:function of a plain act(sight).")
     ],
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
+    seat: options.Seat,
 ) -> None:
     """Run one robot's brain until the match is over.
 
@@ -21,4 +22,4 @@ def agent(
     """
     from robot_agent.__main__ import main
 
-    raise typer.Exit(main(["--connect", connect, "--match", match, "--robot", robot, "--brain", brain]))
+    raise typer.Exit(main(["--connect", seat.connect, "--match", seat.match, "--robot", robot, "--brain", brain]))

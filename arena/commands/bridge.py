@@ -14,8 +14,7 @@ from schemas.errors import TouchlineError
 @unbundled
 def bridge(
     words: BridgeWords,
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
+    seat: options.Seat,
     tokens: Annotated[
         Path | None,
         typer.Option(
@@ -35,4 +34,4 @@ def bridge(
     wanted = words.bridges()
     if not wanted.wanted:
         raise TouchlineError("no bridge is named; name --udp, --refbox, --refbox-server or --audience")
-    serve(connect, match, None, wanted, tokens)
+    serve(seat.connect, seat.match, None, wanted, tokens)

@@ -6,18 +6,20 @@ from typing import Annotated
 import typer
 
 from arena import options
+from arena.bundle import unbundled
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
 
 
+@unbundled
 def player(
     deed: Annotated[ReplayDeed, typer.Argument(help="What to do.")] = ReplayDeed.STATUS,
     value: Annotated[
         str | None,
         typer.Argument(help="seek: seconds or an event, or +5 and -5 from here; rate: a number, or fast; step: ticks."),
     ] = None,
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
+    *,
+    seat: options.Seat,
     json: options.Json = False,
 ) -> None:
     """Control a running replay, on this machine or another.
@@ -25,17 +27,18 @@ def player(
     Example: touchline player seek goal:1-5
     """
     from arena.replay_screen import words
-    from arena.seat import PATIENCE, seat
+    from arena.seat import PATIENCE
+    from arena.seat import seat as _seat
     from schemas.bus.contract import NoAnswerError
     from schemas.message import BadMessageError
     from schemas.topics import REPLAY
 
     request = request_of(deed, value)
-    with seat(connect, match) as bus:
+    with _seat(seat.connect, seat.match) as bus:
         try:
             reply: ReplayReply = bus.ask(REPLAY, request, PATIENCE).result(PATIENCE)
         except (NoAnswerError, BadMessageError) as error:
-            raise TouchlineError(f'match "{match}": {error}; no replay of that name runs there') from None
+            raise TouchlineError(f'match "{seat.match}": {error}; no replay of that name runs there') from None
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")
     typer.echo(json_text.dumps(reply.model_dump(exclude={"version", "reason"})) if json else words(reply))

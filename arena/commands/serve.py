@@ -14,8 +14,7 @@ from coach_gateway.web.settings import DEFAULT_PAGES, DEFAULT_PORT, LOOPBACK, Be
 @unbundled
 def serve(
     bridges: BridgeWords,
-    connect: options.Connect = options.DEFAULT_ENDPOINT,
-    match: options.Match = options.DEFAULT_MATCH,
+    seat: options.Seat,
     port: Annotated[int, typer.Option(help="Port of the page; 0 takes a free one.")] = DEFAULT_PORT,
     listen_web: options.ListenWeb = LOOPBACK,
     tokens: Annotated[
@@ -44,4 +43,4 @@ def serve(
     from coach_gateway.__main__ import serve as serve_page
 
     web = WebSettings(port, listen_web, tokens, tuple(allow_origin or ()), beliefs, pages)
-    serve_page(connect, match, web, bridges.bridges())
+    serve_page(seat.connect, seat.match, web, bridges.bridges())
