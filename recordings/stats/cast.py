@@ -1,9 +1,10 @@
 """Who plays on which side, and who keeps the goal; another cast when robots come or go."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from typing import Self
 
+from schemas.goalkeeper import keeper_of
 from schemas.host import RosterEntry, Setup
 from schemas.side import Side
 
@@ -30,6 +31,14 @@ class Cast:
             keepers={entry.side: entry.name for entry in robots if entry.keeper},
         )
 
+    def keeps(self, robot: str, there: Collection[str]) -> bool:
+        """Whether a robot keeps its side's goal while these robots are on the field."""
+        side = self.sides.get(robot)
+        if side is None or side not in self.keepers:
+            return False
+        mine = [self.keepers[side], *(name for name, its in self.sides.items() if its is side)]
+        return keeper_of(mine, [name for name in mine if name not in there]) == robot
+
     def is_keeper(self, robot: str) -> bool:
-        """Whether a robot keeps its side's goal."""
+        """Whether a robot is its side's goalkeeper."""
         return robot in self.keepers.values()

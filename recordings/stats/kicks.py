@@ -31,7 +31,7 @@ class Outcome(StrEnum):
     GOAL = "goal"
     """A shot that went in, off an opponent too."""
     SAVED = "saved"
-    """A shot at the goal that the opponents' goalkeeper was the next to touch, and that did not go in."""
+    """A shot at the goal that whoever keeps the opponents' goal was the next to touch, and that did not go in."""
     BLOCKED = "blocked"
     """A shot that another opponent was the next to touch, and that did not go in."""
     MISSED = "missed"
@@ -84,6 +84,8 @@ class _Flight:
     """The kicker has not touched the ball for a tick."""
     stopped_by: str | None = None
     """The opponent that touched a shot, which can still go in."""
+    stopped_by_keeper: bool = False
+    """It kept its side's goal then."""
 
 
 class Kicks:
@@ -111,14 +113,14 @@ class Kicks:
     def end(self, moment: Moment) -> None:
         """The recording ends with this moment."""
         flight = self._flight
-        self._end(moment, _stopped(moment, flight) if flight is not None and flight.stopped_by else Outcome.UNDECIDED)
+        self._end(moment, _stopped(flight) if flight is not None and flight.stopped_by else Outcome.UNDECIDED)
 
     def _kicked(self, moment: Moment, kicker: str, touched_after: Sequence[str]) -> None:
         """A kick begins, and ends what was before: the kicker was the next to touch it."""
         self._touched(moment, [kicker])
         before = self._flight
         if before is not None:
-            self._end(moment, _stopped(moment, before) if before.stopped_by is not None else Outcome.KEPT)
+            self._end(moment, _stopped(before) if before.stopped_by is not None else Outcome.KEPT)
         side = moment.side(kicker)
         if side is None:
             return
@@ -136,7 +138,7 @@ class Kicks:
             if robot == flight.stopped_by or (robot == flight.robot and not flight.released):
                 continue
             if flight.stopped_by is not None:
-                self._end(moment, _stopped(moment, flight), flight.stopped_by)
+                self._end(moment, _stopped(flight), flight.stopped_by)
             elif robot == flight.robot:
                 self._end(moment, Outcome.KEPT)
             elif moment.side(robot) is flight.side:
@@ -144,7 +146,7 @@ class Kicks:
             elif flight.aim is Aim.ELSEWHERE:
                 self._end(moment, Outcome.LOST, robot)
             else:
-                flight.stopped_by = robot
+                flight.stopped_by, flight.stopped_by_keeper = robot, moment.keeps(robot)
                 continue
             return
 
@@ -159,7 +161,7 @@ class Kicks:
         elif moment.state is None or not moment.state.running:
             out = any(event.kind is EventKind.BALL_OUT for event in moment.events)
             if flight.stopped_by is not None:
-                self._end(moment, _stopped(moment, flight), flight.stopped_by)
+                self._end(moment, _stopped(flight), flight.stopped_by)
             elif not out:
                 self._end(moment, Outcome.UNDECIDED)
             else:
@@ -204,8 +206,8 @@ def _received(moment: Moment, flight: _Flight) -> Outcome:
     )
 
 
-def _stopped(moment: Moment, flight: _Flight) -> Outcome:
+def _stopped(flight: _Flight) -> Outcome:
     """What a shot was that an opponent touched and that did not go in."""
-    if flight.stopped_by is None or not moment.cast.is_keeper(flight.stopped_by):
+    if not flight.stopped_by_keeper:
         return Outcome.BLOCKED
     return Outcome.SAVED if flight.aim is Aim.AT_GOAL else Outcome.MISSED

@@ -58,6 +58,11 @@ class Moment:
         """Whose robot it is; nothing for one that nobody ever named."""
         return self.cast.sides.get(robot) if robot is not None else None
 
+    def keeps(self, robot: str) -> bool:
+        """Whether a robot keeps its side's goal: its goalkeeper, or who stands in for one off the field."""
+        there = [name for name, truth in self.world.robots.items() if truth.off_field is None]
+        return self.cast.keeps(robot, there)
+
     def attack(self, side: Side) -> int:
         """Sign of the x direction that a side attacks."""
         return side.attack(self.state_before.cyan_attacks if self.state_before is not None else 1)

@@ -82,6 +82,15 @@ def test_a_shot_that_goes_in_off_the_keeper_is_a_goal_and_no_save(film) -> None:
     assert film.figures().sides[Side.MAGENTA].saves == 0
 
 
+@pytest.mark.parametrize(("off", "outcome"), [((), Outcome.BLOCKED), (("magenta1",), Outcome.SAVED)])
+def test_while_the_goalkeeper_is_off_the_field_a_shot_is_saved_by_who_keeps_in_its_place(film, off, outcome) -> None:
+    kick(film)
+    film.shot(touches=["magenta2"], off=off)
+    film.shot(touches=["cyan1"], off=off)
+    assert (only(film).outcome, only(film).by) == (outcome, "magenta2")
+    assert film.figures().sides[Side.MAGENTA].saves == len(off)
+
+
 def test_a_save_is_decided_when_somebody_else_has_the_ball(film) -> None:
     kick(film)
     film.shot(touches=["magenta1"])
