@@ -15,6 +15,7 @@ from robot_agent.world_model import Scene
 from schemas.command import Drive, Kick
 from schemas.game import GameView, TeamPhase
 from schemas.host import Setup
+from schemas.sections import Field
 
 WAITS = 0.7
 """m before the halfway line where the kicker waits, in the centre circle."""
@@ -24,6 +25,8 @@ SPACING = 0.9
 """m between two of them."""
 CORNER = 0.35
 """Share of the goal's width from its middle that the kick aims at."""
+OFF_THE_MIDDLE = 0.2
+"""m of a goalkeeper beside the middle of its goal that leave the other corner open: more than the noise of a camera."""
 SPEED = 0.6
 """Share of the fastest kick: hard enough for a corner, not for any."""
 ERROR = 0.15
@@ -53,12 +56,19 @@ def wait_for_start(scene: Scene, setup: Setup, limits: Limits) -> Drive:
 
 
 def take(scene: Scene, setup: Setup, limits: Limits) -> tuple[Drive, Kick | None]:
-    """After START: to the ball, and a flat kick at the corner that is farther from the goalkeeper."""
+    """After START: to the ball, and a flat kick at a corner."""
     pitch, ball = setup.pitch, scene.ball
     if ball is None:
         return Drive(), None
-    keeper = min(scene.opponents, key=lambda place: math.dist(place, (pitch.goal_line, 0.0)), default=(0.0, 0.0))
-    target = (pitch.goal_line, -math.copysign(CORNER * pitch.goal_width, keeper[1]))
+    target = (pitch.goal_line, _side(scene, pitch) * CORNER * pitch.goal_width)
     if scene.holding:
         return kick_at(scene.me, target, SPEED * setup.kicker.max_ground_speed, ERROR, limits)
     return step_in(scene.me, (ball.now.x, ball.now.y), target, setup, limits), None
+
+
+def _side(scene: Scene, pitch: Field) -> float:
+    """The sign of the corner's y: where the kick axis points already, unless the goalkeeper stands clearly there."""
+    me = scene.me
+    _, keeper = min(scene.opponents, key=lambda place: math.dist(place, (pitch.goal_line, 0.0)), default=(0.0, 0.0))
+    points = math.copysign(1.0, me.y + (pitch.goal_line - me.x) * math.tan(me.heading))
+    return -points if keeper * points > OFF_THE_MIDDLE else points

@@ -49,6 +49,26 @@ def test_the_kicker_kicks_once(squad, team):
 
 
 @TEAMS
+def test_a_goalkeeper_in_the_middle_of_its_goal_does_not_make_the_kicker_change_its_mind(squad, team):
+    """Seen now on this side of the middle, now on that, by the noise of the cameras."""
+    players, turns = squad(team, {1: (-10.5, 0.0, 0.0), 2: (7.0, 0.0, 0.02)}), []
+    seen = {"ball": (7.35, 0.0), "phase": TeamPhase.OUR_PENALTY, "spot": MARK, "game": SHOOT_OUT, "holding": True}
+    for tick in range(60):
+        commands = players.act(opponents=[(10.7, 0.06 if tick // 4 % 2 else -0.06)], **seen)
+        turns.append(commands["cyan2"].drive.omega)
+    assert min(turns) > 0.0
+
+
+@TEAMS
+@pytest.mark.parametrize("keeper", [-0.5, 0.5])
+def test_a_penalty_is_aimed_past_a_goalkeeper_that_has_left_the_middle(squad, team, keeper):
+    players = squad(team, {1: (-10.5, 0.0, 0.0), 2: (7.0, 0.0, math.copysign(0.02, keeper))})
+    seen = {"ball": (7.35, 0.0), "phase": TeamPhase.OUR_PENALTY, "spot": MARK, "game": SHOOT_OUT, "holding": True}
+    commands = players.act(opponents=[(10.7, keeper)], **seen)
+    assert commands["cyan2"].drive.omega * keeper < 0.0
+
+
+@TEAMS
 def test_the_next_on_the_field_takes_it_when_the_first_is_off(squad, team):
     players = squad(team)
     game = SHOOT_OUT | {"robots": {"cyan2": Standing(red=1, off_field=OffField.RED_CARD)}}
