@@ -1,7 +1,7 @@
 """Take the ball: meet it, face it, and close in until the dribbler has it; from the front when an opponent has it."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from robot_agent.bodies import Ball, Body, Limits
 from robot_agent.skills.avoid import Circle, circles, steer
@@ -27,23 +27,26 @@ def take_ball(
     opponents: Sequence[tuple[float, float]],
     clearance: float,
     limits: Limits,
+    mates: Iterable[tuple[float, float]] = (),
 ) -> Drive:
     """Drive to the ball and face it.
 
-    `gap`: distance of the centres while it is held; `clearance`: how far the robot's centre keeps from opponents; m.
+    `gap`: distance of the centres while it is held; `clearance`: how far the robot's centre keeps from opponents and
+    teammates on its way; m.
     """
     dx, dy = ball.x - me.x, ball.y - me.y
     distance = math.hypot(dx, dy)
     facing = math.atan2(dy, dx)
     front = front_of_holder(me, ball, opponents, gap)
+    blocked = circles([*opponents, *mates], clearance)
     if front is not None:
-        velocity = _go(me, *front, circles(opponents, clearance), limits)
+        velocity = _go(me, *front, blocked, limits)
         velocity = velocity[0] + ball.vx, velocity[1] + ball.vy
     elif distance > CLOSE:
         way_x, way_y = meeting.x - me.x, meeting.y - me.y
         way = math.hypot(way_x, way_y)
         short = max(0.0, 1.0 - gap / way) if way > 1e-6 else 0.0
-        velocity = _go(me, me.x + way_x * short, me.y + way_y * short, circles(opponents, clearance), limits)
+        velocity = _go(me, me.x + way_x * short, me.y + way_y * short, blocked, limits)
     else:
         velocity = _closing_in(me, ball, distance, facing, gap, limits)
     return drive(me, *velocity, turn_rate(me, facing, limits), limits)

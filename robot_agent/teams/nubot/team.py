@@ -164,7 +164,8 @@ class NuBot(Player):
         way = way_of(ball.now, self.setup.ball.rolling_deceleration)
         gap, clearance = self.setup.dribble.gap, 2.0 * self.setup.robot.reach + 0.05
         meeting = meet(scene.me, way, gap, self.limits)
-        return take_ball(scene.me, ball.now, meeting, gap, scene.opponents, clearance, self.limits)
+        foes, mates = scene.opponents, places_of(scene.mates).values()
+        return take_ball(scene.me, ball.now, meeting, gap, foes, clearance, self.limits, mates)
 
     def _carried_out(self, scene: Scene, doing: Doing) -> Action:
         """The machine's wish, led around opponents, and turned to the goal on its last metres with the ball."""

@@ -121,7 +121,8 @@ class Simple(Player):
     def _get(self, scene: Scene, ball: Ball) -> Drive:
         way = way_of(ball, self.setup.ball.rolling_deceleration)
         meeting = meet(scene.me, way, self._gap, self.limits)
-        return take_ball(scene.me, ball, meeting, self._gap, scene.opponents, self._clearance, self.limits)
+        foes, mates = scene.opponents, places_of(scene.mates).values()
+        return take_ball(scene.me, ball, meeting, self._gap, foes, self._clearance, self.limits, mates)
 
     def _support(self, scene: Scene, spot: Point) -> Action:
         """Hold the role's place; a striker who may not play the ball stands between it and the own goal."""

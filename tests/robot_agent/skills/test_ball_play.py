@@ -51,6 +51,18 @@ def test_a_robot_comes_to_hold_a_ball_at_rest(plant, limits, setup, start):
     assert away > setup.robot.radius + setup.ball.radius - 0.02  # it did not run the ball over
 
 
+def test_the_way_to_the_ball_leads_round_a_teammate_that_stands_in_it(plant, limits):
+    """As seen in a match: who chased the ball pushed a teammate that held its place before it for a second."""
+    robot, ball, mate = plant(-3.0, 0.05, 0.0), Ball(1.5, 0.0), (-0.5, 0.0)
+    nearest = math.inf
+    for _ in range(250):
+        me = robot.body
+        nearest = min(nearest, math.dist(me[:2], mate))
+        robot.step(take_ball(me, ball, meet(me, way_of(ball, 0.5), GAP, limits), GAP, [], 0.55, limits, [mate]))
+    assert nearest > 0.5
+    assert math.dist(robot.body[:2], ball[:2]) < 2.0 * GAP
+
+
 def test_the_ball_of_an_opponent_is_taken_from_its_front():
     opponent, ball = (0.0, 0.0), Ball(0.35, 0.0)
     place = front_of_holder(Body(-1.0, 0.2, 0.0), ball, [opponent], GAP)
