@@ -10,11 +10,12 @@ pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 WORDS = ("--scene", "two_on_one", "--name", "by_hand", "--pace", "x4", "--seed", "7")
 BY_HAND = (
     ("parameters", "set", "drive.max_speed=1.5", "radio.loss=0.5"),
-    ("scene", "place", "ball", "-3", "2", "--vx", "1"),
+    ("scene", "place", "ball", "-9", "6", "--vx", "1"),
     ("scene", "remove", "magenta2"),
-    ("scene", "add", "magenta7", "magenta", "5", "-4", "--type", "slow"),
+    ("scene", "add", "magenta7", "magenta", "10", "-6", "--type", "slow"),
     ("scene", "reset"),
 )
+"""Bodies are set down in corners, where nobody is however long the commands take."""
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +39,7 @@ def test_what_was_done_by_hand_is_told_and_recorded(recording):
     events = [event for _, event in recording.decoded("game/event")]
     said = [event.text for event in events if event.kind in (EventKind.SCENE, EventKind.PARAMETERS)]
     assert said[0] == "operator sets drive.max_speed = 1.5, radio.loss = 0.5"
-    assert said[1:3] == ["operator places the ball at (-3.00, 2.00)", "operator removes magenta2"]
+    assert said[1:3] == ["operator places the ball at (-9.00, 6.00)", "operator removes magenta2"]
     assert said[-1] == "operator goes back to the start of two_on_one; episode 2 begins"
     assert len(said) == len(BY_HAND)
     assert recording.result.lost == 0
