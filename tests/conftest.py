@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from schemas.bus.endpoint import with_port
 from schemas.bus.zenoh_bus import open_host
@@ -17,6 +18,11 @@ from sim_host.tuning import Tuning
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
+
+settings.register_profile("steady", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("steady")
+"""Generated examples are the same in each run, and a busy machine is no fault of theirs; with
+`pytest --hypothesis-profile=default` they are others each time."""
 
 
 def pytest_configure() -> None:

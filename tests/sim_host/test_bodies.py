@@ -191,7 +191,7 @@ def test_robots_that_are_pushed_together_by_all_others_do_not_overlap(profile: s
 ORDERS = st.lists(st.tuples(st.floats(-20, 20), st.floats(-20, 20), st.floats(-20, 20)), min_size=30, max_size=30)
 
 
-@settings(max_examples=6, deadline=None, derandomize=True)
+@settings(max_examples=6)
 @given(orders=ORDERS)
 def test_whatever_robots_are_told_they_stay_apart_upright_and_within_the_walls(
     orders: list[tuple[float, float, float]],

@@ -5,7 +5,7 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from coach_gateway.refbox.framing import Framer, Protocol
@@ -91,7 +91,6 @@ _PARTS = st.one_of(
 )
 
 
-@settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])  # a busy machine is no fault of a framer
 @given(
     parts=st.lists(_PARTS, max_size=12),
     cuts=st.lists(st.integers(0, 400), max_size=12),

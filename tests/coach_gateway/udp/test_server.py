@@ -49,6 +49,10 @@ class Program(asyncio.DatagramProtocol):
     def of(self, kind: str) -> list[dict[str, Any]]:
         return [one for one in self.heard if one["kind"] == kind]
 
+    def frame(self) -> dict[str, Any]:
+        """The newest; empty before the first."""
+        return self.of("frame")[-1] if self.of("frame") else {}
+
     def acks(self, sequence: int) -> list[dict[str, Any]]:
         return [one for one in self.of("ack") if one["sequence"] == sequence]
 
@@ -102,7 +106,7 @@ def test_each_order_reaches_every_robot_of_the_side(served: Any, until: Any) -> 
                 assert set(ack["acknowledged"]) | set(ack["missing"]) == {"cyan1", "cyan2"}
                 numbers.append(ack["order"])
                 expected = {"order": ack["order"], "acknowledged": {"cyan1": True, "cyan2": True}}
-                await until(lambda expected=expected: program.of("frame")[-1]["orders"].get("cyan") == expected)
+                await until(lambda expected=expected: program.frame().get("orders", {}).get("cyan") == expected)
             brains = bench.stage.brains
             for robot in ("cyan1", "cyan2"):
                 assert [order.max_speed for order in brains[robot].orders] == [1.0, 2.0, 3.0]
@@ -139,11 +143,11 @@ def test_a_program_is_told_of_game_and_events_and_its_own_robots_words(served: A
                 bench.stage.believe(robot, Radio(self=Motion(x=1.0, y=2.0, heading=0.5), intention="wait"))
             bench.stage.tell("something happens")
             await until(lambda: len(referee.of("belief")) == 2 and referee.of("event") and cyan.of("event"))
-            await until(lambda: cyan.of("frame")[-1]["match_mode"] == {"cyan": "their_corner", "magenta": "our_corner"})
+            await until(lambda: cyan.frame().get("match_mode") == {"cyan": "their_corner", "magenta": "our_corner"})
             assert [one["belief"]["robot"] for one in cyan.of("belief")] == ["cyan2"]
             assert cyan.of("belief")[0]["belief"]["radio"]["self"]["x"] == 1.0
             assert [one["event"]["text"] for one in cyan.of("event")] == ["something happens"]
-            frame = cyan.of("frame")[-1]
+            frame = cyan.frame()
             assert frame["host"] and frame["state"]["phase"] == "corner" and frame["events"] == 1
 
     asyncio.run(play())
@@ -282,15 +286,15 @@ def test_garbage_and_a_program_that_never_reads_stop_nobody(served: Any, until: 
 def test_a_program_that_falls_silent_is_told_that_its_session_is_over(
     served: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(session_module, "SILENCE_S", 2.0)
+    monkeypatch.setattr(session_module, "SILENCE_S", 1000.0)
 
     async def play() -> None:
-        async with served() as (_, _, come):
+        async with served() as (_, server, come):
             quiet, lively = await come("cyan"), await come("magenta")
-            while not quiet.of("bye"):
-                lively.send("alive")
-                await asyncio.sleep(0.05)
-            assert not lively.of("bye")
+            sessions = server._coaches.sessions
+            sessions[quiet.transport.get_extra_info("sockname")].heard_at -= 1001.0
+            await until(lambda: quiet.of("bye"))
+            assert len(sessions) == 1 and not lively.of("bye")
             frames = len(quiet.of("frame"))
             asked = quiet.send("alive")
             await until(lambda: quiet.acks(asked))

@@ -38,7 +38,7 @@ scuffles = st.none() | st.tuples(
 silences = st.sampled_from([(), (), ("cyan2",), ("magenta1", "magenta3")])
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     rules=st.sampled_from(["friendly", "msl", "paper", "china-sim-2020"]),
     mode=st.sampled_from(Mode),

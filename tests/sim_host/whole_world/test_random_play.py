@@ -347,7 +347,7 @@ def fixed(test: Callable[[Random], None]) -> Callable[[Random], None]:
 @settings(
     max_examples=LONGER or 1,
     database=None,
-    deadline=None,
+    derandomize=False,
     phases=(Phase.generate, Phase.shrink) if LONGER else (Phase.explicit,),
     suppress_health_check=list(HealthCheck),
 )
