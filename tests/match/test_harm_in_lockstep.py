@@ -158,7 +158,7 @@ def test_the_match_goes_on_with_every_tick_whatever_happens(worlds, story):
 
 def test_ctrl_c_ends_everything_soon_with_status_130_and_leaves_nobody(story, is_running):
     assert story.exit_status == 128 + signal.SIGINT
-    assert story.took < 10.0, f"ended {story.took:.2f} s after Ctrl-C"
+    assert story.took < 25.0  # not the half minute that a recorder has after a match; a busy machine took 6.5 s
     assert story.program.out == ""
     assert len(story.children) == 5  # host, recorder, three agents
     assert [pid for pid in story.children if is_running(pid)] == []

@@ -110,14 +110,14 @@ class FakeHost:
         self._writers[key].put(message)
 
     def play(self, tick: int) -> None:
-        """The world, the game, the health and everybody's belief of one tick."""
+        """Game, health, everybody's belief and the world of one tick: whoever sees this world has the beliefs."""
         at: dict[str, Any] = {"tick": tick, "time": tick * 0.02}
-        self.put(WORLD, world(tick))
         self.put(STATE, GameState(**at, phase=Phase.PLAY))
         self.put(HEALTH, Health(**at, pace="realtime", real_time_factor=1.0))
         for side in Side:
             robot = f"{side}1"
             self.put(BELIEF, Belief(**at, robot=robot, radio=Radio(role="striker")), side=side.value, robot=robot)
+        self.put(WORLD, world(tick))
 
     def happen(self, tick: int, text: str) -> None:
         self.put(EVENT, event(tick, text))
@@ -214,6 +214,13 @@ class Visitor:
             if kind in ("", message["kind"]) and all(message[name] == value for name, value in fields.items()):
                 return message
 
+    def hear_what_is_played(self) -> dict[str, Any]:
+        """The first welcome after the host has said how its match is set up: before, nothing can be asked of it."""
+        welcome = self.hear("welcome")
+        while welcome["setup"] is None:
+            welcome = self.hear("welcome")
+        return welcome
+
     def ask(self, deed: str, token: str | None = None, **content: Any) -> dict[str, Any]:
         """What is answered to a question."""
         number = self.say(deed, token, **content)
@@ -291,8 +298,7 @@ def visit(gateway_of: Callable[..., Gateway], host: FakeHost) -> Iterator[Callab
 
     def open_page(role: str = "spectator", **words: Any) -> Visitor:
         made.append(Visitor(gateway.origin, **words))
-        while made[-1].hear("welcome")["setup"] is None:
-            pass
+        made[-1].hear_what_is_played()
         if role != "spectator":
             made[-1].enter(role)
         return made[-1]

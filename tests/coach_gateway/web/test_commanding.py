@@ -118,8 +118,7 @@ def test_questions_that_wait_hold_up_neither_a_stop_nor_another_role(
     gateway = gateway_of()
     coach, referee = Visitor(gateway.origin), Visitor(gateway.origin)
     for page, role in ((coach, "cyan"), (referee, "referee")):
-        while page.hear("welcome")["setup"] is None:  # before the host has said what it plays nothing can be asked
-            pass
+        page.hear_what_is_played()
         page.enter(role)
     for page in (coach, referee):
         for _ in range(8):
