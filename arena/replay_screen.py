@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Protocol, TextIO
 
-from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 
+from arena.console import console
 from schemas.clock import Clock
 from schemas.replay import ReplayReply
 
@@ -41,8 +41,8 @@ def screen_on(stream: TextIO, clock: Clock) -> Iterator[ReplayScreen]:
     if not stream.isatty():
         yield _lines(stream, clock)
         return
-    columns = (BarColumn(bar_width=None), TextColumn("{task.description}"))
-    with Progress(*columns, console=Console(file=stream, highlight=False), auto_refresh=False) as bar:
+    columns = (BarColumn(bar_width=None), TextColumn("{task.description}", markup=False))
+    with Progress(*columns, console=console(stream), auto_refresh=False) as bar:
         yield _bar(bar, clock)
 
 

@@ -127,5 +127,5 @@ class MatchResult:
         for event in self.events:
             if event.kind in NOTABLE:
                 kind = event.kind.value.replace("_", " ")
-                table.add_row(clock_words(event.clock), kind, event.robot or "", event.text)
+                table.add_row(clock_words(event.clock), kind, event.robot or "", Text(event.text))
         return table

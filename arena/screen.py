@@ -3,10 +3,10 @@
 from types import TracebackType
 from typing import Protocol, Self, TextIO
 
-from rich.console import Console
 from rich.live import Live
 from rich.text import Text
 
+from arena.console import console
 from schemas.clock import Clock
 
 STATUS_EVERY = 5.0
@@ -80,7 +80,7 @@ class LiveScreen:
     """One line that is rewritten in place; goals and warnings scroll above it."""
 
     def __init__(self, stream: TextIO, clock: Clock) -> None:
-        self._console = Console(file=stream, highlight=False)
+        self._console = console(stream)
         self._live = Live(console=self._console, auto_refresh=False, transient=True)
         self._clock = clock
         self._shown_at = -REFRESH_EVERY

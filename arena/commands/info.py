@@ -24,10 +24,11 @@ def info(
     if json:
         typer.echo(json_text.dumps(facts.to_json(), ensure_ascii=False))
         return
-    from rich.console import Console
     from rich.table import Table
 
-    console = Console(highlight=False)
+    from arena.console import console as new_console
+
+    console = new_console()
     about = Table.grid(padding=(0, 2))
     for name, value in lines(facts):
         about.add_row(name, value)

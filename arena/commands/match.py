@@ -85,9 +85,9 @@ def match(
     if json:
         typer.echo(result.json())
     else:
-        from rich.console import Console
+        from arena.console import console
 
-        Console(highlight=False).print(result.picture())
+        console().print(result.picture())
 
 
 def _play(plan: "Plan", clock: "Clock", *, quiet: bool) -> "MatchResult":

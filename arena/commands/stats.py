@@ -42,13 +42,13 @@ def stats(
 
 
 def _show(figures: "Figures") -> None:
-    from rich.console import Console
     from rich.table import Table
 
+    from arena.console import console as new_console
     from recordings.stats.table import ROBOT_HEADINGS, headline, remarks, robot_rows, side_rows
     from schemas.side import Side
 
-    console = Console(highlight=False)
+    console = new_console()
     sides = Table("", *Side, box=None, pad_edge=False)
     robots = Table(*ROBOT_HEADINGS, box=None, pad_edge=False)
     for table, rows in ((sides, side_rows(figures)), (robots, robot_rows(figures))):

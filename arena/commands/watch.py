@@ -32,11 +32,11 @@ def watch(seat: options.Seat) -> None:
 
         run(seat.connect, seat.match, PATIENCE)
         return
-    from rich.console import Console
+    from arena.console import console
 
     with _seat(seat.connect, seat.match) as bus:
         try:
-            watch_on(bus, Console(highlight=False))
+            watch_on(bus, console())
         except KeyboardInterrupt:
             return
     typer.echo("the host is gone", err=True)

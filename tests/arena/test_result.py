@@ -1,5 +1,6 @@
 import io
 import json
+from dataclasses import replace
 from pathlib import Path
 
 from rich.console import Console
@@ -78,3 +79,11 @@ def test_the_picture_shows_score_goals_and_recording_and_leaves_stops_out() -> N
 
 def test_losses_are_shown_when_there_are_any() -> None:
     assert "misses 3 messages" in picture(result(losses={"world": 2, "game/event": 1}))
+
+
+def test_what_people_have_written_into_an_event_is_shown_as_it_is() -> None:
+    """A bracket in the name of who asked would be markup, and one that closes nothing the end of the command."""
+    asked = event(EventKind.ACTION, "[/b] asks: stop [bold]now[0.1, 0.2]")
+    shown = picture(replace(result(Path("runs/[/a]/m.mcap")), events=(asked,)))
+    assert "[/b] asks: stop [bold]now[0.1, 0.2]" in shown
+    assert "runs/[/a]/m.mcap" in shown

@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner, Result
@@ -22,9 +23,9 @@ from schemas.topics import STATE, WORLD
 from schemas.world import BallTruth, RobotTruth, World
 
 
-def write(path: Path, *, setup: bool = True, worlds: int = 50) -> Path:
+def write(path: Path, *, setup: bool = True, worlds: int = 50, **said: Any) -> Path:
     """A robot that drives 0.02 m in each tick of 0.02 s."""
-    clock, config = SteppedClock(), load_match(None)
+    clock, config = SteppedClock(), load_match(None, said)
     known = Setup.of(config, load_profile("msl"), load_rule_book("friendly")) if setup else None
     writer = RecordingWriter(path, clock, "friendly")
     writer.begin(manifest_of("friendly", "test", clock, known, config, sights=False), {})
@@ -46,6 +47,14 @@ def write(path: Path, *, setup: bool = True, worlds: int = 50) -> Path:
 
 def stats(*words: str | Path) -> Result:
     return CliRunner().invoke(app, ["stats", *map(str, words)], prog_name="touchline")
+
+
+def test_a_team_is_called_as_it_calls_itself(tmp_path: Path) -> None:
+    """A closing bracket would be markup, and end the command."""
+    recording = write(tmp_path / "a.mcap", **{"teams.cyan.name": "[/b]", "teams.magenta.name": ":cat:"})
+    assert stats(recording).stdout.startswith("[/b] 0 : 3 :cat:   ")
+    about = CliRunner().invoke(app, ["info", str(recording)], prog_name="touchline")
+    assert about.exit_code == 0
 
 
 def test_the_tables_stand_on_the_terminal(tmp_path: Path) -> None:
