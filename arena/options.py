@@ -144,8 +144,12 @@ def read_match(file: Path | None, **flags: Any) -> MatchConfig:
     given = {key.replace("__", "."): value for key, value in flags.items() if value is not None}
     config = load_match(file, given)
     models_of(config, load_profile(config.profile))
-    load_rule_book(config.rules)
+    book = load_rule_book(config.rules)
     need_pybullet()
+    from sim_host.start import opening
+    from sim_host.tuning import Tuning
+
+    opening(config, Tuning.of(config), book.restarts)
     return config
 
 

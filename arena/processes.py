@@ -6,6 +6,7 @@ from enum import StrEnum
 from pathlib import Path
 
 from schemas.bus.endpoint import is_loopback, near
+from schemas.errors import TouchlineError
 from schemas.match_config import MatchConfig, Recording
 from schemas.side import Side
 
@@ -134,6 +135,18 @@ class Plan:
     def config_file(self) -> Path:
         """The match as its processes read it."""
         return self.folder / "config.json"
+
+
+def check_names(config: MatchConfig) -> None:
+    """Make sure that no robot is called like a process that every match may have: logs go by these names.
+
+    Raises:
+        TouchlineError: one is.
+    """
+    taken = [kind.value for kind in Kind if kind is not Kind.AGENT]
+    for name in (name for side in Side for name in config.robots(side)):
+        if name in taken:
+            raise TouchlineError(f'a robot is named "{name}", as a process of the match is; rename it')
 
 
 def processes_of(plan: Plan) -> list[Process]:

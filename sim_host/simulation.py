@@ -20,7 +20,7 @@ from schemas.message import VERSION
 from schemas.parameters import ParameterDeed, ParametersReply, ParametersRequest, Setting
 from schemas.profile import STANDARD, Profile
 from schemas.rule_book import RuleBook, load_rule_book
-from schemas.scene import Scene, SceneReply, SceneRequest, load_scene
+from schemas.scene import SceneReply, SceneRequest
 from schemas.side import Side
 from sim_host.crew import Crew
 from sim_host.due import Due
@@ -29,8 +29,8 @@ from sim_host.referee.evidence import NOTHING
 from sim_host.sights import Send
 from sim_host.snapshot import Roster, Snapshot
 from sim_host.staging.deeds import Scenes, do
-from sim_host.staging.stage import BALL, Rig, Stage, Staged, check, opened
-from sim_host.start import start_scene
+from sim_host.staging.stage import BALL, Rig, Stage, Staged
+from sim_host.start import opening
 from sim_host.truth import Fields, world_fields
 from sim_host.tuning import Tuning
 from sim_host.world.engine import fingerprint
@@ -77,10 +77,8 @@ class Simulation:
         """The numbers in force from the next tick on."""
         self.book: RuleBook = load_rule_book(config.rules)
         self._engine = fingerprint()
-        start = self._start_scene()
+        start, began = opening(config, self.tuning, self.book.restarts)
         self._scenes = Scenes(start, start)
-        began = opened(start, "")
-        check(began.stage, self._rig(), began.stage.names)
         self._stage = began.stage
         self.episode = 1
         """Counts the starts: the match's own, each scene that is loaded, each reset."""
@@ -92,11 +90,6 @@ class Simulation:
         self.orders: dict[Side, CoachOrder] = {}
         self._due = Due(began.placements, recast=True, rebuilt=bool(self._stage.obstacles))
         self.now = self._begin()
-
-    def _start_scene(self) -> Scene:
-        if self.config.scene is not None:
-            return load_scene(self.config.scene)
-        return start_scene(self.config, self.profile, self.book.restarts)
 
     @property
     def profile(self) -> Profile:

@@ -7,10 +7,12 @@ from schemas.game import Phase
 from schemas.match_config import MatchConfig
 from schemas.profile import Profile
 from schemas.rule_book import Restarts
-from schemas.scene import Scene, SceneGame, SceneRobot
+from schemas.scene import Scene, SceneGame, SceneRobot, load_scene
 from schemas.sections import Field
 from schemas.side import Side
 from sim_host.snapshot import Roster
+from sim_host.staging.stage import Rig, Staged, check, opened
+from sim_host.tuning import Tuning
 
 _ON_22_BY_14 = ((-10.5, 0.0), (-2.0, 1.0), (-2.0, -1.0), (-5.0, 2.0), (-5.0, -2.0))
 """m; simatch's start poses on a pitch of 22 × 14, the goalkeeper first; scaled to other pitches."""
@@ -18,6 +20,19 @@ _MARGIN = 0.05
 """m beyond what the rules ask for at a kick-off: a robot that stands exactly there is as well a rounding nearer."""
 _ROW = 9
 """Robots beyond five stand beside each other in rows of so many, behind the others, every other row in the gaps."""
+
+
+def opening(config: MatchConfig, tuning: Tuning, restarts: Restarts) -> tuple[Scene, Staged]:
+    """The scene that a match begins with, and the stage that it makes.
+
+    Raises:
+        TouchlineError: no such scene, or somebody would begin in something else.
+    """
+    profile = tuning.profile
+    scene = load_scene(config.scene) if config.scene is not None else start_scene(config, profile, restarts)
+    began = opened(scene, "")
+    check(began.stage, Rig(profile.field, profile.ball, tuning.types), began.stage.names)
+    return scene, began
 
 
 def start_scene(config: MatchConfig, profile: Profile, restarts: Restarts) -> Scene:

@@ -50,6 +50,7 @@ def match(
     from arena.brains import check_teams
     from arena.ghost import check, teams_of
     from arena.page import invitation, page_in, page_port
+    from arena.processes import check_names
     from arena.runs import prepare
     from schemas.clock import WallClock
 
@@ -66,6 +67,7 @@ def match(
         record__wait=not no_record,
     )
     check(config, ghost or ())
+    check_names(config)
     check_teams(config)
     endpoint = words.endpoint()
     clock = WallClock()

@@ -5,9 +5,10 @@ from pathlib import Path
 import pytest
 
 from arena.bridge_words import BridgeWords
-from arena.processes import PROCESSES, Kind, Page, Plan, Process, processes_of
+from arena.processes import PROCESSES, Kind, Page, Plan, Process, check_names, processes_of
 from arena.runs import prepare
 from schemas.clock import SteppedClock
+from schemas.errors import TouchlineError
 from schemas.match_config import MatchConfig, load_match
 from schemas.side import Side
 
@@ -23,6 +24,14 @@ def by_name(plan: Plan) -> dict[str, Process]:
 def test_a_friendly_has_a_host_a_recorder_and_ten_agents() -> None:
     names = [process.name for process in processes_of(plan())]
     assert names == ["host", "recorder", *(f"{side}{n}" for side in ("cyan", "magenta") for n in range(1, 6))]
+
+
+@pytest.mark.parametrize("name", ["host", "recorder", "page", "bridges"])
+def test_no_robot_is_called_as_another_process_of_the_match(name: str) -> None:
+    """The supervisor knows processes by their names: such a robot took the host's place, and nobody played."""
+    with pytest.raises(TouchlineError, match=f'a robot is named "{name}", as a process of the match is; rename it'):
+        check_names(load_match(None, {"teams.magenta.robots": ["magenta1", name]}))
+    check_names(load_match(None))
 
 
 def test_every_word_in_braces_is_filled_in() -> None:

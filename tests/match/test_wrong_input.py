@@ -20,6 +20,14 @@ WRONG = {
         "[teams.magenta]\nbrain = 'no_such_team:Brain'",
         'teams.magenta.brain is "no_such_team:Brain"; there is no module no_such_team',
     ),
+    "a robot named as a process": (
+        "[teams.cyan]\nrobots = ['recorder', 'cyan2']",
+        'a robot is named "recorder", as a process of the match is; rename it',
+    ),
+    "an obstacle on a robot": (
+        "[[obstacles]]\nname = 'pole'\nshape = 'cylinder'\nplace = [-10.5, 0.1]\nradius = 0.1\nheight = 1.0",
+        "cyan1 at (-10.5, 0) would be 0.24 m inside pole; choose another place",
+    ),
     "no TOML": ("seed = = 7", "not TOML"),
 }
 BROKEN = "raise ModuleNotFoundError(\"No module named 'pybullet'\", name='pybullet')\n"
