@@ -1,9 +1,10 @@
 """Tells whether the host of a match is still there: by its token, and by the link to it."""
 
+from recordings.awake import Awake
 from schemas.bus.contract import Bus
 
-GRACE_S = 2.0
-"""Wall time that a broken link has to come back."""
+GRACE_S = 10.0
+"""Wall time that a broken link has to come back, as agents give it. Until then all that was missed can be fetched."""
 
 
 class HostWatch:
@@ -13,20 +14,24 @@ class HostWatch:
         self._bus = bus
         self._watch = bus.watch_alive()
         self._hosts: set[str] = set()
-        self._broken_at: float | None = None
+        self._awake = Awake(bus.clock.now())
+        self._missed_at: float | None = None
         self.seen = False
         """Whether a host was ever there."""
 
     def gone(self, finished: bool) -> bool:
-        """Whether the host was there and will not come back; after a finished match a broken link is its farewell."""
+        """Whether the host was there and will not come back; after a finished match its absence is its farewell.
+
+        The token of a host goes with the link to it, and comes back a moment after the link does.
+        """
         self._follow()
-        if self._bus.connected():
-            self._broken_at = None
-            return self.seen and not self._hosts
-        now = self._bus.clock.now()
-        if self._broken_at is None:
-            self._broken_at = now
-        return finished or now - self._broken_at >= GRACE_S
+        self._awake.look(self._bus.clock.now())
+        if self._bus.connected() and (self._hosts or not self.seen):
+            self._missed_at = None
+            return False
+        if self._missed_at is None:
+            self._missed_at = self._awake.passed
+        return finished or self._awake.passed - self._missed_at >= GRACE_S
 
     def _follow(self) -> None:
         while (presence := self._watch.receive()) is not None:

@@ -11,6 +11,7 @@ from recordings.account import Account
 from recordings.cast import Cast
 from recordings.control import Controls
 from recordings.head import attachments, date, manifest_of
+from recordings.holding import Holding
 from recordings.intake import received_of
 from recordings.manifest import Ended, Manifest, Result
 from recordings.match_notes import MatchNotes
@@ -34,10 +35,6 @@ _POLL_S = 0.05
 """Pause between two looks: many messages at a time cost less than each as it comes, half at 50 ms of that at 20."""
 _AT_ONCE = 10_000
 """Messages of one topic taken in before the next one's turn."""
-_HOLD_NS = 100_000_000
-"""Simulated time that a message waits for those of other topics that belong before it."""
-_HOLD_S = 0.5
-"""Wall time after which it waits no longer: the host stands still."""
 _ASK_AGAIN_S = (0.1, 1.6)
 """Pause before the host is asked again: the first, and the longest it doubles to."""
 _SETUP_PATIENCE_S = 10.0
@@ -103,14 +100,14 @@ class Recorder:
         self._ask_pause = _ASK_AGAIN_S[0]
         self._progress = bus.publisher(PROGRESS, name=name)
         self._reported, self._reported_at = -2, self._clock.now()
-        self._released_at = self._clock.now()
+        self._holding = Holding(self._clock.now())
         self._host = HostWatch(bus)
         self._controls = Controls(bus, name, output)
 
     def run(self, told_to_stop: Callable[[], bool]) -> RecordingSummary:
         """Record until the host is gone or somebody says stop, take in what is still on its way, and finish."""
         stopped = False
-        while not stopped and not self._host.gone(finished=self._notes.finished):
+        while not stopped and not self._host.gone(finished=self._is_whole()):
             self.pump()
             self._clock.sleep_until(self._clock.now() + _POLL_S)
             stopped = told_to_stop()
@@ -123,7 +120,7 @@ class Recorder:
             self._report(idle=True)
             return 0
         came = self._take_in()
-        self._hand_on()
+        self._hand_on(came)
         self._controls.attend(self._messages, self._account, self._notes.tick)
         self._report(idle=came == 0)
         return came
@@ -139,6 +136,9 @@ class Recorder:
                 quiet = self._clock.now() + _QUIET_S
             else:
                 self._clock.sleep_until(self._clock.now() + _POLL_S)
+        for subscription in self._subscriptions:
+            subscription.forgo()
+        self.pump()
 
     def finish(self, stopped: bool = False) -> RecordingSummary:
         """Write what is held, and the result; close the file."""
@@ -156,13 +156,16 @@ class Recorder:
             return Ended.FULL_TIME
         return Ended.STOPPED if stopped else Ended.HOST_GONE
 
-    def _hand_on(self) -> None:
-        """Give the writer what is in order, or everything when nothing could be given for long; a goal is kept safe."""
-        now = self._clock.now()
-        waited = now - self._released_at > _HOLD_S
-        batch = self._order.release(None if waited else self._order.settled_ns - _HOLD_NS)
+    def _is_whole(self) -> bool:
+        """Whether the match is over and all that comes in every tick has come of it."""
+        return self._notes.finished and self._order.settled_ns >= self._order.host_ns
+
+    def _hand_on(self, came: int) -> None:
+        """Give the writer what is in order; a goal is kept safe."""
+        self._holding.look(self._clock.now(), linked=self._bus.connected(), came=came > 0)
+        batch = self._order.release(self._holding.limit(self._order.settled_ns))
         if batch or not self._order:
-            self._released_at = now
+            self._holding.written()
         self._write(batch)
         if self._notes.goals > self._synced_goals and any(received.key == EVENT.key for _, received in batch):
             self._synced_goals = self._notes.goals

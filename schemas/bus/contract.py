@@ -108,6 +108,10 @@ class Subscription(ABC):
         """The next message, waiting up to `timeout` s for it (None: for ever); nothing when there is none."""
 
     @abstractmethod
+    def forgo(self) -> None:
+        """Wait no more for what is missing of a `recovered` topic: what came after it is given out, behind a gap."""
+
+    @abstractmethod
     def close(self) -> None:
         """Stop listening; a waiting `receive` returns nothing."""
 

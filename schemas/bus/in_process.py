@@ -104,6 +104,9 @@ class _Subscription(Subscription):
     def receive(self, timeout: float | None = 0.0) -> Received | None:
         return self._mailbox.take(timeout)
 
+    def forgo(self) -> None:
+        """Nothing is ever missing here."""
+
     def close(self) -> None:
         with self._bus.medium.lock:
             readers = self._bus.medium.subscriptions.get(self._bus.prefix + self._topic.key, [])

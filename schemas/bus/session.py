@@ -23,8 +23,9 @@ _HOST_THREADS = "(app: (worker_threads: 4), rx: (handover: app), acc: (handover:
 room. Zenoh closes a link that makes no room on the threads that read: were they few, all of them could be waiting for
 room in the dead link, and the host would stand still for good (eclipse-zenoh/zenoh, issue 1876)."""
 _RETRY = {"period_init_ms": 100, "period_max_ms": 500, "period_increase_factor": 1.5}
-_TRY_S = 0.5
-"""One attempt to connect; between attempts Ctrl-C is heard."""
+_TRY_S = (0.5, 2.0)
+"""One attempt to connect: the first, and the longest it doubles to, for a machine that is too busy to answer at once.
+Between attempts Ctrl-C is heard."""
 _ROOM_US = 1_000_000
 """Wall time that a client has to make room for what must not be dropped; then its link is cut and it may come again."""
 
@@ -71,16 +72,11 @@ def open_connection(connect: str, clock: Clock, patience: float) -> zenoh.Sessio
     Raises:
         BusError: no host answers at that endpoint.
     """
-    config = _config(
-        "client",
-        {
-            "connect/endpoints": [connect],
-            "connect/timeout_ms": round(_TRY_S * 1000),
-            "connect/retry": _RETRY,
-        },
-    )
     deadline = clock.now() + patience
+    lasts, longest = _TRY_S
     while True:
+        settings = {"connect/endpoints": [connect], "connect/retry": _RETRY}
+        config = _config("client", {**settings, "connect/timeout_ms": round(lasts * 1000)})
         try:
             return _open(config, _CLIENT_THREADS)
         except zenoh.ZError as error:
@@ -89,6 +85,7 @@ def open_connection(connect: str, clock: Clock, patience: float) -> zenoh.Sessio
                     f"--connect {connect}: no host answers there; start one with `touchline host`, or name its endpoint"
                 ) from error
             clock.sleep_until(clock.now() + 0.1)
+            lasts = min(2 * lasts, longest)
 
 
 def _open(config: zenoh.Config, threads: str) -> zenoh.Session:

@@ -8,6 +8,7 @@ from zenoh import ext
 
 from schemas.bus.contract import BusError, Publisher, Received, Stamp, Subscription
 from schemas.bus.session import Seat, first_line
+from schemas.bus.zenoh_mending import ZenohMending
 from schemas.topic import Delivery, Topic
 from schemas.topics import TOPICS
 
@@ -73,9 +74,11 @@ class ZenohSubscription(Subscription):
         self._start = len(seat.prefix)
         self._newest = newest or topic.delivery is Delivery.NEWEST
         self._timed = not seat.is_client
+        self._waits = False
         self._waits_until: float | None = None
         self._ended = False
         self._kept: dict[str, Received] = {}
+        self._mending: ZenohMending | None = None
         full = seat.prefix + key
         self._poke_key = full.replace("*", _POKE)
         self._reader: Any
@@ -86,6 +89,7 @@ class ZenohSubscription(Subscription):
             self._reader = ext.declare_advanced_subscriber(
                 seat.session, full, every, history=history, recovery=recovery
             )
+            self._mending = ZenohMending(seat, self._read, self.poke)
         else:
             # one place beside the newest, so that a poke never pushes it out; a wildcard needs all keys' samples
             ring = self._newest and "*" not in key
@@ -107,42 +111,59 @@ class ZenohSubscription(Subscription):
             received = self._next(0.0)
         return kept.pop(next(iter(kept))) if kept else None
 
+    def forgo(self) -> None:
+        if self._mending is not None:
+            self._mending.forgo()
+
     def _next(self, timeout: float | None) -> Received | None:
-        """The next message of this topic in the channel; a poke ends the waiting."""
-        reader, start = self._reader, self._start
+        """The next message of this topic; a poke ends the waiting when its time has come, or mending has news."""
+        reader, mending = self._reader, self._mending
+        until = self._seat.clock.now() + timeout if timeout else timeout
         try:
             while True:
+                received = mending.next() if mending is not None else None
+                if received is not None:
+                    return received
                 sample = reader.try_recv()
                 if sample is None:
-                    if timeout == 0.0 or self._ended:
+                    if self._ended or (until is not None and (until == 0.0 or self._seat.clock.now() >= until)):
                         return None
-                    sample = self._wait(timeout)
-                attachment = sample.attachment
-                raw = attachment.to_bytes() if attachment is not None else b""
-                if raw == _POKE_MARK:
-                    timeout = 0.0
-                    continue
-                key = str(sample.key_expr)[start:]
-                if key not in _LITERAL_KEYS or key == self._topic.key:
-                    stamp = Stamp(*STAMP.unpack(raw)) if len(raw) == STAMP.size else None
-                    arrived = _arrival(sample) if self._timed else 0
-                    return Received(self._topic, key, sample.payload.to_bytes(), stamp, arrived)
+                    sample = self._wait(until)
+                received = self._read(sample)
+                if received is None or mending is None or mending.passes(received):
+                    if received is not None:
+                        return received
+                else:
+                    mending.take(received, sample)
         except zenoh.ZError:
             return None  # the session was closed meanwhile
 
-    def _wait(self, timeout: float | None) -> zenoh.Sample:
+    def _read(self, sample: zenoh.Sample) -> Received | None:
+        """The message in a sample; nothing in a poke, and in one of another topic."""
+        attachment = sample.attachment
+        raw = attachment.to_bytes() if attachment is not None else b""
+        key = str(sample.key_expr)[self._start :]
+        if raw == _POKE_MARK or (key in _LITERAL_KEYS and key != self._topic.key):
+            return None
+        stamp = Stamp(*STAMP.unpack(raw)) if len(raw) == STAMP.size else None
+        arrived = _arrival(sample) if self._timed else 0
+        return Received(self._topic, key, sample.payload.to_bytes(), stamp, arrived)
+
+    def _wait(self, until: float | None) -> zenoh.Sample:
         """The next sample in the channel, however long it takes."""
-        if timeout is not None:
-            self._waits_until = self._seat.clock.now() + timeout
+        self._waits, self._waits_until = True, until
+        if until is not None or self._mending is not None:
             self._seat.alarm.wake()
-        sample: zenoh.Sample = self._reader.recv()
-        self._waits_until = None
+        try:
+            sample: zenoh.Sample = self._reader.recv()
+        finally:
+            self._waits = False
         return sample
 
     def poke_if_due(self, now: float) -> None:
-        """End a wait that has lasted long enough."""
-        until = self._waits_until
-        if until is not None and now >= until:
+        """End a wait that has lasted long enough, or during which something has to be asked for."""
+        until, mending = self._waits_until, self._mending
+        if self._waits and ((until is not None and now >= until) or (mending is not None and mending.is_due(now))):
             self.poke()
 
     def poke(self) -> None:

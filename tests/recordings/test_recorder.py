@@ -8,7 +8,7 @@ from recordings.writer import RecordingWriter
 from schemas.bus.contract import Bus, Received, Stamp
 from schemas.game import Phase, Score
 from schemas.host import Health
-from schemas.topics import COMMAND, HEALTH, ORDER, PROGRESS, SIGHT, WORLD
+from schemas.topics import COMMAND, EVENT, HEALTH, ORDER, PROGRESS, SIGHT, WORLD
 from schemas.world import World
 
 
@@ -289,14 +289,51 @@ def test_a_recorder_that_joins_late_is_not_behind_by_what_was_before_it(stage):
     assert heard.receive().message().tick == 5000
 
 
+def look_for(stage, seconds: float) -> None:
+    """Nothing comes for so long, and the recorder looks all the while."""
+    clock = stage.recorder_bus.clock
+    for _ in range(round(seconds / 0.05)):
+        clock.sleep_until(clock.now() + 0.05)
+        stage.recorder.pump()
+
+
 def test_a_host_that_stands_still_leaves_nothing_unwritten_for_long(stage):
     stage.play(range(4), pump_every=1)
-    clock = stage.recorder_bus.clock
-    clock.sleep_until(clock.now() + 1.0)
-    stage.recorder.pump()
+    look_for(stage, 1.0)
     stage.output.abandon()
 
     assert len(list(open_recording(stage.path.with_name("match.mcap.part")).messages("world"))) == 4
+
+
+def test_what_is_fetched_again_after_a_stall_stands_where_it_belongs(stage):
+    """Topics are fetched one by one: what came of the others has to wait, however long the recorder stood still."""
+    stage.play(range(20), pump_every=1)
+    kept = []
+    late = {topic.key: stage.recorder_bus.medium.subscriptions[f"friendly/{topic.key}"][0] for topic in (WORLD, EVENT)}
+    for key, reader in late.items():
+        reader.bring = lambda key, received, bring=reader.bring: kept.append((bring, key, received))
+    stage.play(range(20, 31), pump_every=1000)
+    stage.host.goal(30)
+    stage.play(range(31, 80), pump_every=1000)
+    clock = stage.recorder_bus.clock
+    clock.sleep_until(clock.now() + 3.0)
+    look_for(stage, 0.2)
+    for bring, key, received in kept:
+        if key == WORLD.key:
+            bring(key, received)
+    look_for(stage, 0.6)
+    for bring, key, received in kept:
+        if key == EVENT.key:
+            bring(key, received)
+    kept.clear()
+    look_for(stage, 2.0)
+    stage.leave()
+
+    recording = stage.read()
+    assert (recording.result.lost, recording.result.keys["world"].messages) == (0, 80)
+    ticks = [round(recorded.time / 0.02) for recorded in recording.messages() if recorded.key != EVENT.key]
+    assert ticks == [tick for tick in range(80) for _ in range(6)]
+    assert [round(recorded.time / 0.02) for recorded in recording.messages(EVENT.key)] == [30]
 
 
 def test_a_goal_is_on_the_disk_before_the_recording_ends(stage, monkeypatch):

@@ -1,0 +1,140 @@
+"""The order of a key whose messages went missing on the way."""
+
+import pytest
+
+from schemas.bus.contract import Received, Stamp
+from schemas.bus.mending import ASK_AGAIN_S, GIVE_UP_S, Gap, Mender
+from schemas.topics import WORLD
+
+
+def message(number: int, key: str = "world") -> Received:
+    return Received(WORLD, key, b"%d" % number, Stamp(number, 0, 0))
+
+
+class Reader:
+    """Takes in what comes, and keeps what it was given."""
+
+    def __init__(self) -> None:
+        self.mender = Mender()
+        self.given: list[int] = []
+
+    def hear(self, *numbers: int, writer: str = "a", now: float = 0.0, key: str = "world") -> list[int]:
+        """What can be given out when these have come."""
+        given = []
+        for number in numbers:
+            received = message(number, key)
+            if self.mender.passes(received):
+                given.append(number)
+            else:
+                self.mender.take(received, writer, now)
+                given += self.ready()
+        return given
+
+    def answer(self, gap: Gap, *numbers: int, now: float = 1.0) -> list[int]:
+        """What can be given out when a question was answered with these."""
+        self.mender.answered(gap, [message(number, gap.key) for number in numbers], now)
+        return self.ready()
+
+    def ready(self) -> list[int]:
+        ready = [received.stamp.sequence for received in self.mender.ready]
+        self.mender.ready.clear()
+        return ready
+
+
+@pytest.fixture
+def reader() -> Reader:
+    reader = Reader()
+    assert reader.hear(5, 6, 7) == [5, 6, 7]
+    return reader
+
+
+def test_what_comes_in_order_passes_and_nothing_is_asked(reader):
+    assert reader.mender.passes(message(8))
+    assert not reader.mender.is_broken
+    assert reader.mender.questions(100.0) == []
+
+
+def test_what_comes_behind_a_gap_waits_until_the_gap_is_filled(reader):
+    assert reader.hear(10, 11) == []
+    assert reader.mender.questions(0.0) == [Gap("world", "a", 8, 10)]
+    assert reader.hear(12) == []
+    gap = Gap("world", "a", 8, 10)
+    assert reader.answer(gap, 8, 9, 10) == [8, 9, 10, 11, 12]
+    assert not reader.mender.is_broken
+    assert reader.mender.passes(message(13))
+
+
+def test_an_answer_that_was_cut_off_is_asked_for_again_from_where_it_ended(reader):
+    reader.hear(20, now=1.0)
+    (gap,) = reader.mender.questions(1.0)
+    assert reader.mender.questions(1.0) == []  # it is on its way
+    assert reader.answer(gap, 8, 9, 10, now=2.0) == [8, 9, 10]
+    assert reader.mender.questions(2.0) == []
+    assert not reader.mender.is_due(2.0)
+    assert reader.mender.is_due(2.0 + ASK_AGAIN_S)
+    assert reader.mender.questions(2.0 + ASK_AGAIN_S) == [Gap("world", "a", 11, 20)]
+
+
+def test_a_link_that_stays_away_is_asked_again_and_again(reader):
+    reader.hear(20)
+    for question in range(10):
+        (gap,) = reader.mender.questions(question * ASK_AGAIN_S)
+        assert reader.answer(gap, now=question * ASK_AGAIN_S) == []
+    (gap,) = reader.mender.questions(10 * ASK_AGAIN_S)
+    assert reader.answer(gap, *range(8, 21)) == list(range(8, 21))
+
+
+def test_what_its_writer_keeps_no_more_is_missing_for_good(reader):
+    """The answer reaches to its end, and begins late: the cache has forgotten the rest."""
+    reader.hear(20)
+    (gap,) = reader.mender.questions(0.0)
+    assert reader.answer(gap, 15, 16, 17, 18, 19, 20) == [15, 16, 17, 18, 19, 20]
+    assert not reader.mender.is_broken
+
+
+def test_a_second_gap_is_asked_for_when_the_first_is_mended(reader):
+    reader.hear(10, 15)
+    (gap,) = reader.mender.questions(0.0)
+    assert gap == Gap("world", "a", 8, 10)
+    assert reader.answer(gap, 8, 9, 10, now=1.0) == [8, 9, 10]
+    assert reader.mender.questions(1.0 + ASK_AGAIN_S) == [Gap("world", "a", 11, 15)]
+
+
+def test_what_never_comes_is_waited_for_for_a_while_and_given_up(reader):
+    assert reader.hear(10, 11, now=3.0) == []
+    assert reader.mender.questions(3.0)
+    assert not reader.mender.is_due(3.0 + GIVE_UP_S - 1.0)
+    assert reader.mender.is_due(3.0 + GIVE_UP_S)
+    assert reader.mender.questions(3.0 + GIVE_UP_S) == []
+    assert reader.ready() == [10, 11]
+    assert reader.mender.passes(message(12))
+
+
+def test_a_gap_in_one_key_holds_no_other_back(reader):
+    assert reader.hear(0, key="host/applied") == [0]
+    reader.hear(10)
+    assert reader.hear(1, 2, key="host/applied") == [1, 2]
+
+
+def test_a_writer_that_begins_anew_is_not_asked_for_what_another_said(reader):
+    reader.hear(10, 11)
+    (gap,) = reader.mender.questions(0.0)
+    assert reader.hear(40, writer="b") == [10, 11, 40]
+    assert reader.answer(gap, 8, 9, 10) == []
+    assert reader.hear(41, writer="b") == [41]
+    assert not reader.mender.is_broken
+
+
+def test_doubles_and_messages_without_a_number_or_a_known_writer_pass_through(reader):
+    assert reader.hear(6) == [6]
+    reader.mender.take(message(10), None, 0.0)
+    reader.mender.take(Received(WORLD, "world", b"", None), "a", 0.0)
+    assert len(reader.mender.ready) == 2
+    assert not reader.mender.is_broken
+
+
+def test_who_forgoes_what_is_missing_is_given_all_that_came(reader):
+    reader.hear(10, 11, 15)
+    reader.mender.forgo()
+    assert reader.ready() == [10, 11, 15]
+    assert not reader.mender.is_broken
