@@ -41,6 +41,14 @@ class MatchNotes:
         """
         return self.applied.tick if self.applied is not None else self._joined_at_tick
 
+    def tick_at(self, sim_ns: int) -> int:
+        """The newest tick whose inputs were taken in and which had begun at this simulated time, in ns."""
+        applied = self.applied
+        if applied is None or applied.tick <= 0 or applied.time <= 0.0:
+            return self.tick
+        behind_s = applied.time - sim_ns * 1e-9
+        return applied.tick - max(0, round(behind_s * applied.tick / applied.time))
+
     @property
     def finished(self) -> bool:
         """The match was played to its end."""

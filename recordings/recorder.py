@@ -216,7 +216,7 @@ class Recorder:
     def _report(self, idle: bool) -> None:
         """Tell progress: after a number of ticks, after a while, and when the host seems to wait for it."""
         now = self._clock.now()
-        tick = self._notes.tick
+        tick = self._notes.tick_at(self._order.settled_ns)
         new = tick - self._reported
         if new >= REPORT_TICKS or (idle and new > 0) or now - self._reported_at >= REPORT_S:
             self._tell()
@@ -226,7 +226,7 @@ class Recorder:
         losses = self._account.losses
         self._progress.put(
             RecorderProgress(
-                tick=self._notes.tick,
+                tick=self._notes.tick_at(self._order.settled_ns),
                 messages=self._messages,
                 lost=sum(losses.values()),
                 losses=losses,

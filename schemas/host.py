@@ -280,6 +280,7 @@ class RecorderProgress(Message):
     """How far a recorder has come; a lockstep host does not run away from it."""
 
     tick: int
+    """The newest of which all has come that the host says in every tick."""
     messages: int
     """Taken in so far."""
     lost: int

@@ -1,7 +1,7 @@
 """The bus over Zenoh: the host is the router, everyone else a client with one explicit endpoint.
 
-With `session`, which opens what this is built on, and its ends, `zenoh_stream` and `zenoh_query`, the only module that
-knows Zenoh.
+With `session`, which opens what this is built on, and its ends, `zenoh_stream` with `zenoh_mending` and `zenoh_query`,
+the only module that knows Zenoh.
 """
 
 import threading
