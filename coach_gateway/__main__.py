@@ -49,7 +49,7 @@ def serve(
     """
     bridges.try_ports()
     known = tokens_of(web.tokens if web is not None else tokens)
-    page = _page(web, known) if web is not None else None
+    page, lobby = _page(web, known, match) if web is not None else (None, None)
     if page is None and bridges.udp is not None:
         for line in [f"tokens: {tokens}"] if tokens is not None else known.lines():
             say(line)
@@ -57,19 +57,20 @@ def serve(
     def services(bus: Bus) -> list[Service]:
         return [*([page(bus)] if page is not None else []), *services_of(bus, bridges, known, say)]
 
-    run_services(connect, match, services, say)
+    run_services(connect, match, services, say, lobby)
 
 
-def _page(settings: WebSettings, tokens: Tokens) -> Callable[[Bus], Service]:
-    """What serves the page once there is a match; where it is, is said at once."""
+def _page(settings: WebSettings, tokens: Tokens, match: str) -> tuple[Callable[[Bus], Service], Service]:
+    """What serves the page once there is a match, and what does before; where it is, is said at once."""
     need_web()
     from coach_gateway.web.entrance import open_entrance
+    from coach_gateway.web.lobby import Lobby
     from coach_gateway.web.server import WebServer
 
     entrance = open_entrance(settings, tokens)
     for line in entrance.lines():
         say(line)
-    return lambda bus: WebServer(bus, entrance, say)
+    return (lambda bus: WebServer(bus, entrance, say)), Lobby(entrance, match)
 
 
 def main(arguments: list[str] | None = None) -> int:

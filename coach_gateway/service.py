@@ -11,7 +11,7 @@ from typing import Protocol
 from schemas.bus.contract import Bus, BusError
 from schemas.bus.endpoint import parse_endpoint
 from schemas.bus.zenoh_bus import open_client
-from schemas.clock import Clock, WallClock
+from schemas.clock import WallClock
 
 _LOOK_S = 1.0
 """s of wall time that one attempt to find a host lasts."""
@@ -28,41 +28,67 @@ class Service(Protocol):
         """
 
 
-def run(connect: str, match: str, make: Callable[[Bus], Sequence[Service]], say: Callable[[str], None]) -> None:
-    """Meet the host and run the services until SIGINT or SIGTERM comes.
+def run(
+    connect: str,
+    match: str,
+    make: Callable[[Bus], Sequence[Service]],
+    say: Callable[[str], None],
+    lobby: Service | None = None,
+) -> None:
+    """Meet the host and run the services until SIGINT or SIGTERM comes; meanwhile `lobby` attends to those who wait.
 
     Raises:
         TouchlineError: a service cannot begin.
     """
     parse_endpoint(connect)
-    bus = _meet(connect, match, WallClock(), say)
-    if bus is None:
-        return
-    with bus:
-        asyncio.run(_serve(make(bus)))
+    asyncio.run(_run(connect, match, make, say, lobby))
 
 
-def _meet(connect: str, match: str, clock: Clock, say: Callable[[str], None]) -> Bus | None:
-    """A seat in the match; nothing when Ctrl-C came first."""
-    told = False
-    try:
-        while True:
-            try:
-                return open_client(match, clock, connect, _LOOK_S)
-            except BusError:
-                if not told:
-                    told = True
-                    say(f"no host at {connect} yet; waiting for it")
-    except KeyboardInterrupt:
-        return None
-
-
-async def _serve(services: Sequence[Service]) -> None:
+async def _run(
+    connect: str,
+    match: str,
+    make: Callable[[Bus], Sequence[Service]],
+    say: Callable[[str], None],
+    lobby: Service | None,
+) -> None:
     stop = asyncio.Event()
     loop = asyncio.get_running_loop()
     for number in (signal.SIGINT, signal.SIGTERM):
         loop.add_signal_handler(number, stop.set)
-    await together(services, stop)
+    bus = await _meet(connect, match, stop)
+    if bus is None and not stop.is_set():
+        say(f"no host at {connect} yet; waiting for it")
+        bus = await _wait(connect, match, stop, lobby)
+    if bus is not None:
+        with bus:
+            await together(make(bus), stop)
+
+
+async def _wait(connect: str, match: str, stop: asyncio.Event, lobby: Service | None) -> Bus | None:
+    """A seat in the match, however long that takes; nothing once `stop` is set."""
+    met = asyncio.Event()
+    waiting = asyncio.create_task(lobby.serve(met)) if lobby is not None else None
+    bus = None
+    try:
+        while bus is None and not stop.is_set():
+            bus = await _meet(connect, match, stop)
+    finally:
+        met.set()
+        if waiting is not None:
+            await waiting
+    return bus
+
+
+async def _meet(connect: str, match: str, stop: asyncio.Event) -> Bus | None:
+    """A seat in the match, where it can be had soon."""
+    try:
+        bus: Bus = await asyncio.to_thread(open_client, match, WallClock(), connect, _LOOK_S)
+    except BusError:
+        return None
+    if stop.is_set():
+        bus.close()
+        return None
+    return bus
 
 
 async def together(services: Sequence[Service], stop: asyncio.Event) -> None:

@@ -105,6 +105,7 @@ class RefBoxClient:
         stopped.cancel()
         if not reached.done():
             reached.cancel()
+            await asyncio.wait((reached,))
             raise TimeoutError(f"no answer within {_CONNECT_S:g} s")
         return reached.result()
 

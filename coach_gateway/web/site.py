@@ -1,6 +1,7 @@
 """The web site: the page's files and the WebSocket, under headers that let a browser load nothing from elsewhere."""
 
 import mimetypes
+from collections.abc import Awaitable, Callable
 from pathlib import Path
 
 from starlette.applications import Starlette
@@ -9,8 +10,7 @@ from starlette.middleware import Middleware
 from starlette.routing import Mount, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
-
-from coach_gateway.web.door import Door
+from starlette.websockets import WebSocket
 
 PAGE = Path(__file__).parent / "page"
 """What runs in the browser."""
@@ -32,12 +32,12 @@ _TYPES = {".js": "text/javascript", ".css": "text/css", ".html": "text/html", ".
 """File types that some machines know by other names."""
 
 
-def site(door: Door, folder: Path = PAGE) -> Starlette:
-    """The whole site."""
+def site(enter: Callable[[WebSocket], Awaitable[None]], folder: Path = PAGE) -> Starlette:
+    """The whole site; `enter` attends to a page that comes."""
     for ending, kind in _TYPES.items():
         mimetypes.add_type(kind, ending)
     return Starlette(
-        routes=[WebSocketRoute("/ws", door.enter), Mount("/", _Files(directory=folder, html=True))],
+        routes=[WebSocketRoute("/ws", enter), Mount("/", _Files(directory=folder, html=True))],
         middleware=[Middleware(_Strict)],
     )
 
