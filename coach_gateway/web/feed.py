@@ -88,6 +88,11 @@ class Feed:
         """What every page is told after its welcome, but for orders and the frame."""
         return [self._host(), self._refbox(), *self._known.values(), *self._told]
 
+    @property
+    def has_picture(self) -> bool:
+        """A tick has come."""
+        return self._world is not None
+
     def frame(self, beliefs: Iterable[Side]) -> str | None:
         """The newest tick with what robots of these sides believe; nothing before it is known what is played."""
         if self._world is None or self.setup is None:

@@ -133,6 +133,12 @@ class RefBoxNews(Part):
     """As whose base station we are connected; nothing where that is both, or not known."""
 
 
+class Alive(Part):
+    """Said every second: who hears nothing for several has lost the line, though nobody closed it."""
+
+    kind: Literal["alive"] = "alive"
+
+
 class Reply(Part):
     """The answer to the page's message of this number."""
 
@@ -163,6 +169,7 @@ Said = (
     | OrdersNews
     | ReplayNews
     | RefBoxNews
+    | Alive
     | Reply
     | Refusal
 )

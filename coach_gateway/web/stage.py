@@ -7,7 +7,7 @@ from coach_gateway.web.desk import Desk
 from coach_gateway.web.feed import Feed
 from coach_gateway.web.pace import FramePace
 from coach_gateway.web.pages import Page, Pages
-from coach_gateway.web.protocol import Ask, AskDrive, AskOrder, AskReplay, AskToken, ReplayNews, Role, Welcome
+from coach_gateway.web.protocol import Alive, Ask, AskDrive, AskOrder, AskReplay, AskToken, ReplayNews, Role, Welcome
 from coach_gateway.web.settings import BeliefsFor
 from schemas.bus.contract import Bus
 from schemas.errors import TouchlineError
@@ -20,7 +20,9 @@ _LOOK_S = 0.01
 _STATUS_S = 0.2
 """Likewise, between two looks at how a replay stands."""
 _SWEEP_S = 1.0
-"""Likewise, for pages that do not read."""
+"""Likewise, for pages that do not read; and what the line of each is tried after."""
+_BEGINNING_S = 1.0
+"""s of simulated time in which the first picture of a recording is looked for."""
 _AGAIN_S = 0.5
 """Wall time after which a host that did not answer is asked again."""
 
@@ -176,13 +178,26 @@ class Stage:
         while True:
             if self.feed.there and not self.feed.live and len(self._pages):
                 try:
-                    self.tell_replay(await asyncio.to_thread(self._desk.gateway.replay, ReplayRequest()))
+                    self.tell_replay(await asyncio.to_thread(self._ask_replay))
                 except TouchlineError:
                     await asyncio.sleep(_AGAIN_S)  # it is about to be seen that the host has gone
             await asyncio.sleep(_STATUS_S)
 
+    def _ask_replay(self) -> ReplayReply:
+        """How the replay stands; one that was begun paused shows nothing, and is led to its first picture.
+
+        Raises:
+            TouchlineError: it does not answer.
+        """
+        stands = self._desk.gateway.replay(ReplayRequest())
+        if stands.paused and not self.feed.has_picture and stands.time <= stands.start + _BEGINNING_S:
+            return self._desk.gateway.replay(ReplayRequest(deed=ReplayDeed.STEP))
+        return stands
+
     async def _sweep(self) -> None:
-        """Drop pages that do not read."""
+        """Drop pages that do not read, and let the others know that their line holds."""
+        alive = Alive().model_dump_json()
         while True:
             self._pages.drop_stuck(self._bus.clock.now())
+            self._pages.say(alive)
             await asyncio.sleep(_SWEEP_S)

@@ -169,6 +169,8 @@ export class Buttons {
       }, SURE_MS);
       return;
     }
+    mark(button, "sure", false);
+    say(button, row.text);
     this.#ask(button, row);
   }
 

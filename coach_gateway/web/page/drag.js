@@ -10,13 +10,14 @@ const TURN_M = 0.35; // a drawn direction is longer
 export class Drag {
   #held = null;
   #drawn = null;
+  #pointer = null; // the finger or mouse that does it; others are passed over
 
   constructor(canvas, stage, match, desk, seat) {
     Object.assign(this, { canvas, stage, match, desk, seat });
     canvas.addEventListener("pointerdown", (event) => this.#down(event));
     canvas.addEventListener("pointermove", (event) => this.#move(event));
     canvas.addEventListener("pointerup", (event) => this.#up(event));
-    canvas.addEventListener("pointercancel", () => this.cancel());
+    canvas.addEventListener("pointercancel", (event) => this.#follows(event) && this.cancel());
     // A finger on a body drags it; beside all bodies it scrolls the page.
     canvas.addEventListener("touchstart", (event) => this.#takesFinger(event) && event.preventDefault(), { passive: false });
     seat.on(() => this.#hint());
@@ -62,7 +63,7 @@ export class Drag {
   }
 
   #down(event) {
-    if (event.button !== 0 || this.stage.world === null) return;
+    if (event.button !== 0 || this.stage.world === null || this.#held || this.#drawn) return;
     const at = this.#at(event);
     const place = this.stage.view.onField(at.left, at.top);
     if (this.seat.picking) {
@@ -72,12 +73,19 @@ export class Drag {
       if (body === null) return;
       this.#held = { body, at, place, moved: false };
     }
+    this.#pointer = event.pointerId;
     event.preventDefault();
     this.canvas.focus({ preventScroll: true });
     this.canvas.setPointerCapture(event.pointerId);
   }
 
+  /** Whether an event is of the pointer that holds something; while nothing is held, any is. */
+  #follows({ pointerId }) {
+    return (this.#held === null && this.#drawn === null) || pointerId === this.#pointer;
+  }
+
   #move(event) {
+    if (!this.#follows(event)) return;
     const at = this.#at(event);
     const place = this.stage.view.onField(at.left, at.top);
     if (this.#drawn) this.#drawn.to = place;
@@ -91,14 +99,19 @@ export class Drag {
     const why = this.why(held.body);
     if (why !== null) {
       this.#held = null;
-      if (this.match.role !== "spectator") this.desk.show(byId("moving"), `Move ${held.body}`, { accepted: false, reason: why });
+      this.#refuse(held.body, why);
       return;
     }
     held.moved = true;
     this.seat.dragged = { ...place, radius: held.body === "ball" ? 0.2 : this.match.radiusOf(held.body) };
   }
 
-  #up() {
+  #refuse(body, why) {
+    if (this.match.role !== "spectator") this.desk.show(byId("moving"), `Move ${body}`, { accepted: false, reason: why });
+  }
+
+  #up(event) {
+    if (!this.#follows(event)) return;
     const held = this.#held, drawn = this.#drawn;
     this.#held = null;
     this.#drawn = null;
@@ -106,6 +119,8 @@ export class Drag {
     if (drawn) {
       const dx = drawn.to.x - drawn.from.x, dy = drawn.to.y - drawn.from.y;
       this.seat.picked(drawn.from, Math.hypot(dx, dy) > TURN_M ? Math.atan2(dy, dx) : null);
+    } else if (held?.moved && this.why(held.body) !== null) {
+      this.#refuse(held.body, this.why(held.body)); // the game has gone on meanwhile
     } else if (held?.moved) {
       this.place(byId("drop"), held.body, held.place);
     } else if (held && held.body !== "ball") {

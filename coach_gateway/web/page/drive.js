@@ -28,6 +28,7 @@ export class Drive {
     setInterval(() => this.#say(), SAID_MS);
     addEventListener("blur", () => this.#keys.clear());
     addEventListener("pagehide", () => this.giveBack());
+    document.addEventListener("visibilitychange", () => document.hidden && this.giveBack()); // its clock nearly stops
     byId("drive-take").addEventListener("click", () => (this.robot ? this.giveBack() : this.take(byId("drive-robot").value)));
     byId("drive-robot").addEventListener("change", () => seat.choose(byId("drive-robot").value || null));
     byId("dribble").addEventListener("click", () => this.#press(DRIBBLE));
@@ -56,7 +57,11 @@ export class Drive {
 
   /** Whether a key is for the robot that is driven; then it is taken. */
   key(event, down) {
-    if (!this.robot || event.ctrlKey || event.metaKey || event.altKey) return false;
+    if (!this.robot) return false;
+    if (event.ctrlKey || event.metaKey || event.altKey) {
+      this.#keys.clear(); // a key that is let go of beside one of these may not be heard of
+      return false;
+    }
     const { code } = event;
     if (MOVES[code]) {
       if (down) this.#keys.add(code);
@@ -94,6 +99,7 @@ export class Drive {
       const { code } = button.dataset;
       button.addEventListener("pointerdown", (event) => {
         event.preventDefault();
+        if (event.button !== 0) return;
         this.#keys.add(code);
       });
       for (const end of ["pointerup", "pointerleave", "pointercancel"]) button.addEventListener(end, () => this.#keys.delete(code));

@@ -59,15 +59,15 @@ export class Events {
 
   #show() {
     const list = byId("events");
-    if (this.#shown > this.match.events.length) this.#shown = 0;
-    for (const event of this.match.events.slice(this.#shown)) {
+    const { events, told } = this.match;
+    for (const event of events.slice(Math.max(0, events.length - (told - this.#shown)))) {
       if (!this.#all && LESSER.has(event.kind)) continue;
       const row = this.#row(event);
       this.#rows.push({ row, event });
       if (this.match.live) list.prepend(row);
       else list.append(row);
     }
-    this.#shown = this.match.events.length;
+    this.#shown = told;
     while (this.match.live && list.childElementCount > MOST) {
       list.lastElementChild.remove();
       this.#rows.shift();

@@ -68,7 +68,15 @@ export class Layers {
     if (input.type === "checkbox") input.checked = value;
     else input.value = value;
     const all = Object.fromEntries([...SWITCHES.map(([word]) => word), "trails", "seenFrom"].map((word) => [word, this[word]]));
+    keep(all);
+  }
+}
+
+function keep(all) {
+  try {
     localStorage.setItem(KEY, JSON.stringify(all));
+  } catch {
+    // people may forbid pages to remember: it holds for this visit
   }
 }
 

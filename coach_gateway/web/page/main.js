@@ -62,10 +62,13 @@ async function changed(up) {
   if (up && line.token) await claim(line.token);
 }
 
-/** Sits down with a token; one that is nobody's is forgotten. */
+/** Sits down with a token; one that is nobody's is forgotten, one that nobody answered is tried again. */
 async function claim(token) {
   const reply = await line.speakAs(token);
-  if (!line.up) return;
+  if (reply.unanswered) {
+    if (line.up && line.token === token) claim(token);
+    return;
+  }
   keepToken(reply.accepted ? token : "");
   if (!reply.accepted) line.token = "";
   say(byId("token-says"), reply.accepted ? "" : `refused: ${reply.reason}`);

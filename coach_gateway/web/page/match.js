@@ -18,6 +18,7 @@ const nothing = () => ({
   orders: {},
   beliefs: {},
   events: [],
+  told: 0, // events so far, also those that are not kept any more
   replay: null,
   refbox: { connected: false, team: null },
   hostThere: true,
@@ -41,6 +42,7 @@ const READERS = {
   },
   event(match, { event }) {
     match.events.push(event);
+    match.told += 1;
     if (match.events.length > MOST_EVENTS) match.events.shift();
   },
   health(match, { health }) {

@@ -19,10 +19,16 @@ export class Parameters {
   /** Asks for all parameters, when the panel is seen. */
   async load() {
     const { match } = this;
-    if (!match.live || match.setup === null || !match.deeds.has("read_parameters") || this.loading) return;
+    if (!match.live || match.setup === null || !match.deeds.has("read_parameters")) return;
+    this.again = this.loading;
+    if (this.loading) return;
     this.loading = true;
     const reply = await this.desk.line.ask("parameters", { request: { deed: "list" } });
     this.loading = false;
+    if (this.again) {
+      this.load(); // they have changed since they were asked for
+      return;
+    }
     this.stale = !reply.accepted;
     if (reply.accepted) this.#lay(reply.answer.parameters);
     else say(byId("parameters-state"), reply.reason);

@@ -4,6 +4,8 @@ const FIRST_WAIT_MS = 200;
 const LONGEST_WAIT_MS = 3000;
 const SENT_AWAY_MS = 5000;
 const ANSWER_MS = 8000; // the host answers between two ticks; later than this, nobody will
+const SILENT_MS = 7000; // the gateway says something every second, if only that it is there
+const LOOK_MS = 1000;
 
 export class Line {
   #socket = null;
@@ -11,6 +13,8 @@ export class Line {
   #waiting = 0;
   #number = 0;
   #asked = new Map();
+  #heardAt = 0;
+  #lookedAt = 0;
   #take;
   #changed;
 
@@ -20,19 +24,24 @@ export class Line {
     this.up = false;
     /** Why the gateway closed the line, or nothing. */
     this.sentAway = "";
+    /** ms without a word after which the line is taken for broken: whose network went does not hear it close. */
+    this.patience = SILENT_MS;
+    /** ms after which an answer comes no more. */
+    this.answerWithin = ANSWER_MS;
     this.#take = take;
     this.#changed = changed;
     addEventListener("online", () => this.#open());
     document.addEventListener("visibilitychange", () => document.hidden || this.#open());
+    setInterval(() => this.#look(), LOOK_MS);
     this.#open();
   }
 
-  /** Asks for a deed; the answer says whether it was accepted, and if not, why. */
+  /** Asks for a deed; the answer says whether it was accepted, and if not, why; `unanswered` where nobody said so. */
   ask(deed, content = {}) {
-    if (!this.up) return Promise.resolve({ accepted: false, reason: "the page has no connection to the gateway" });
+    if (!this.up) return Promise.resolve(unanswered(0, "the page has no connection to the gateway"));
     return new Promise((answer) => {
       const id = this.#send(deed, content);
-      const late = setTimeout(() => this.#answer({ id, accepted: false, reason: "no answer came" }), ANSWER_MS);
+      const late = setTimeout(() => this.#answer(unanswered(id, "no answer came")), this.answerWithin);
       this.#asked.set(id, { answer, late });
     });
   }
@@ -64,18 +73,33 @@ export class Line {
     if (this.#socket !== null) return;
     const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws`);
     this.#socket = socket;
+    this.#heardAt = performance.now();
     socket.addEventListener("open", () => {
+      if (socket !== this.#socket) return;
       this.up = true;
       this.sentAway = "";
       this.#changed(true);
     });
     socket.addEventListener("message", (event) => {
+      if (socket !== this.#socket) return;
+      this.#heardAt = performance.now();
       const message = JSON.parse(event.data);
       if (message.kind === "reply") this.#answer(message);
       else if (message.kind === "refusal") this.sentAway = message.reason;
       else this.#hear(message);
     });
-    socket.addEventListener("close", () => this.#closed());
+    socket.addEventListener("close", () => this.#closed(socket));
+  }
+
+  /** Whether the line still holds; a page that slept gives what came meanwhile time to be read. */
+  #look() {
+    const now = performance.now();
+    if (now - this.#lookedAt > 3 * LOOK_MS) this.#heardAt = now;
+    this.#lookedAt = now;
+    const socket = this.#socket;
+    if (socket === null || now - this.#heardAt < this.patience) return;
+    this.#closed(socket);
+    socket.close();
   }
 
   #hear(message) {
@@ -83,12 +107,11 @@ export class Line {
     this.#take(message);
   }
 
-  #closed() {
+  #closed(socket) {
+    if (socket !== this.#socket) return;
     this.#socket = null;
     this.up = false;
-    for (const id of [...this.#asked.keys()]) {
-      this.#answer({ id, accepted: false, reason: "the connection to the gateway broke" });
-    }
+    for (const id of [...this.#asked.keys()]) this.#answer(unanswered(id, "the connection to the gateway broke"));
     this.#changed(false);
     if (this.sentAway) this.#wait = SENT_AWAY_MS;
     this.#waiting = setTimeout(() => this.#open(), this.#wait);
@@ -103,3 +126,5 @@ export class Line {
     asked.answer(reply);
   }
 }
+
+const unanswered = (id, reason) => ({ id, accepted: false, reason, unanswered: true });

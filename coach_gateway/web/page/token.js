@@ -1,6 +1,7 @@
 // The token that says who sits here: it comes with the address once, and is kept for this tab alone.
 
 const KEY = "touchline.token";
+let unkept = ""; // where a browser keeps nothing
 
 /** The token of the address or of this tab; the address keeps none. */
 export function tokenHere() {
@@ -10,11 +11,21 @@ export function tokenHere() {
     keepToken(given);
     history.replaceState(null, "", location.pathname + location.search);
   }
-  return sessionStorage.getItem(KEY) ?? "";
+  return storage()?.getItem(KEY) ?? unkept;
 }
 
 /** Keeps a token for this tab; an empty one is forgotten. */
 export function keepToken(token) {
-  if (token) sessionStorage.setItem(KEY, token);
-  else sessionStorage.removeItem(KEY);
+  unkept = token;
+  if (token) storage()?.setItem(KEY, token);
+  else storage()?.removeItem(KEY);
+}
+
+/** What this tab remembers; nothing where people forbid pages to remember. */
+function storage() {
+  try {
+    return sessionStorage;
+  } catch {
+    return null;
+  }
 }

@@ -2,9 +2,11 @@
 
 import asyncio
 import json
+import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +14,7 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page
 
 from coach_gateway.web.entrance import open_entrance
+from coach_gateway.web.lobby import Lobby
 from coach_gateway.web.server import WebServer
 from coach_gateway.web.settings import WebSettings
 from coach_gateway.web.tokens import tokens_of
@@ -143,14 +146,14 @@ class Match:
 
 
 class Gateway:
-    """The page's server in a thread of its own."""
+    """The page's server in a thread of its own; without a medium it waits for a host that does not come."""
 
-    def __init__(self, medium: Medium, folder: Path, port: int = 0) -> None:
+    def __init__(self, medium: Medium | None, folder: Path, port: int = 0) -> None:
         tokens = folder / "tokens.json"
         if not tokens.exists():
             tokens.touch(0o600)
             tokens.write_text(json.dumps(TOKENS))
-        self.bus = medium.seat("friendly", WallClock())
+        self.bus = medium.seat("friendly", WallClock()) if medium is not None else None
         self._stop = asyncio.Event()
         self._ready = threading.Event()
         self._entrance = open_entrance(WebSettings(port=port, tokens=tokens), tokens_of(tokens))
@@ -162,7 +165,8 @@ class Gateway:
     def _run(self) -> None:
         async def main() -> None:
             self._loop = asyncio.get_running_loop()
-            server = WebServer(self.bus, self._entrance, lambda _: None)
+            lobby = Lobby(self._entrance, "friendly")
+            server = WebServer(self.bus, self._entrance, lambda _: None) if self.bus is not None else lobby
             self._ready.set()
             await server.serve(self._stop)
 
@@ -177,7 +181,53 @@ class Gateway:
             return
         self._loop.call_soon_threadsafe(self._stop.set)
         self._thread.join(SOON)
-        self.bus.close()
+        self._entrance.listener.close()
+        if self.bus is not None:
+            self.bus.close()
+
+
+class Tunnel:
+    """A port whose links lead to another one, until they are blocked: then nothing comes through, untold."""
+
+    def __init__(self, port: int) -> None:
+        self._to = port
+        self._listener = socket.create_server(("127.0.0.1", 0))
+        self.port = int(self._listener.getsockname()[1])
+        self._links: list[tuple[socket.socket, socket.socket]] = []
+        self._blocked: list[socket.socket] = []
+        self._threads = [threading.Thread(target=self._accept)]
+        self._threads[0].start()
+
+    def block(self) -> None:
+        """All links that there are; new ones are not."""
+        self._blocked += [end for link in self._links for end in link]
+
+    def close(self) -> None:
+        for end in (self._listener, *(end for link in self._links for end in link)):
+            with suppress(OSError):
+                end.shutdown(socket.SHUT_RDWR)
+        for thread in self._threads:
+            thread.join(SOON)
+        for end in (self._listener, *(end for link in self._links for end in link)):
+            end.close()
+
+    def _accept(self) -> None:
+        with suppress(OSError):
+            while True:
+                near, _ = self._listener.accept()
+                far = socket.create_connection(("127.0.0.1", self._to))
+                self._links.append((near, far))
+                for ends in ((near, far), (far, near)):
+                    self._threads.append(threading.Thread(target=self._pump, args=ends))
+                    self._threads[-1].start()
+
+    def _pump(self, begin: socket.socket, end: socket.socket) -> None:
+        with suppress(OSError):
+            while data := begin.recv(65_536):
+                if begin not in self._blocked:
+                    end.sendall(data)
+            if begin not in self._blocked:
+                end.shutdown(socket.SHUT_WR)
 
 
 class Tab:
@@ -248,6 +298,13 @@ class Tab:
             mouse.move(*self.at(*(a + share * (b - a) for a, b in zip(start, end, strict=True))))
         mouse.up()
 
+    def touch(self, kind: str, *fingers: tuple[float, float]) -> None:
+        """Fingers in the window, in pixels: `Start`, `Move` or `End`."""
+        if not hasattr(self, "_touching"):
+            self._touching = self.context.new_cdp_session(self.page)
+        points = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(fingers)]
+        self._touching.send("Input.dispatchTouchEvent", {"type": f"touch{kind}", "touchPoints": points})
+
 
 @pytest.fixture
 def match_of() -> Iterator[Callable[..., Match]]:
@@ -291,13 +348,26 @@ def resting(officiated: Callable[..., Match]) -> Match:
 def gateway_of(tmp_path: Path) -> Iterator[Callable[..., Gateway]]:
     made: list[Gateway] = []
 
-    def make(medium: Medium, port: int = 0) -> Gateway:
+    def make(medium: Medium | None, port: int = 0) -> Gateway:
         made.append(Gateway(medium, tmp_path, port))
         return made[-1]
 
     yield make
     for gateway in made:
         gateway.close()
+
+
+@pytest.fixture
+def tunnel_to() -> Iterator[Callable[[int], Tunnel]]:
+    made: list[Tunnel] = []
+
+    def make(port: int) -> Tunnel:
+        made.append(Tunnel(port))
+        return made[-1]
+
+    yield make
+    for tunnel in made:
+        tunnel.close()
 
 
 @pytest.fixture
@@ -341,14 +411,16 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
 class Replayed:
     """A recording that is replayed on a medium of its own."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, start: str | None = "1") -> None:
+        """It stands still at `start`, where the first picture has been shown; at the beginning nothing has."""
         self.medium = Medium()
-        self.programme = Replay(Programme(path, start="1", paused=True, stay=True))
+        self.programme = Replay(Programme(path, start=start, paused=True, stay=True))
         clock = WallClock()
         self._bus = self.medium.seat("friendly", clock)
         setup = self.programme.recording.manifest.setup
         self.host = ReplayHost(self._bus, setup, lambda **ears: self.programme.player(clock, **ears))
-        self.host.player.control(ReplayRequest(deed=ReplayDeed.STEP))
+        if start is not None:
+            self.host.player.control(ReplayRequest(deed=ReplayDeed.STEP))
         self._thread = threading.Thread(target=self.host.run)
         self._thread.start()
 
@@ -359,7 +431,18 @@ class Replayed:
 
 
 @pytest.fixture
-def replayed(recorded: Path) -> Iterator[Replayed]:
-    replay = Replayed(recorded)
-    yield replay
-    replay.close()
+def replay_of(recorded: Path) -> Iterator[Callable[..., Replayed]]:
+    made: list[Replayed] = []
+
+    def make(**words: Any) -> Replayed:
+        made.append(Replayed(recorded, **words))
+        return made[-1]
+
+    yield make
+    for replay in made:
+        replay.close()
+
+
+@pytest.fixture
+def replayed(replay_of: Callable[..., Replayed]) -> Replayed:
+    return replay_of()

@@ -57,3 +57,37 @@ def test_a_host_that_is_killed_and_started_again_is_waited_for(match, visit) -> 
     tab.until("window.touchline.stage.world !== null && window.touchline.stage.world?.time > 0.5")
     tab.button("goal", "magenta").click()
     tab.until("document.getElementById('score').textContent === '0 : 1'")
+
+
+def test_a_line_that_is_dead_and_was_not_closed_is_noticed_and_tied_anew(match, gateway_of, visit, tunnel_to) -> None:
+    """As of a laptop that changed its network, or slept: nothing comes any more, and nobody says so."""
+    tunnel = tunnel_to(gateway_of(match.medium).port)
+    tab = visit(f"http://127.0.0.1:{tunnel.port}", "referee")
+    tab.ask("window.touchline.line.patience = 3000")
+    tunnel.block()
+    tab.until("document.getElementById('notice').textContent.includes('The connection is broken')")
+    tab.until("document.getElementById('notice').hidden && window.touchline.match.role === 'referee'")
+    tick = tab.ask("window.touchline.match.film.newest?.tick ?? 0")
+    tab.until(f"window.touchline.match.film.newest?.tick > {tick + 20}")
+
+
+def test_a_page_waits_for_its_match_and_keeps_the_token_that_nobody_has_answered(match, gateway_of, browser) -> None:
+    lobby = gateway_of(None)
+    page = browser.new_context().new_page()
+    page.goto(f"{lobby.origin}/")
+    page.wait_for_function("() => document.getElementById('notice').textContent.includes('No host plays this match')")
+    page.evaluate("window.touchline.line.answerWithin = 100")
+    page.locator("#sit").click()
+    page.locator("#token").fill("the-referee")
+    page.keyboard.press("Enter")
+    page.wait_for_timeout(500)  # several times as long as an answer is waited for
+    lobby.close()
+    gateway_of(match.medium, lobby.port)
+    page.wait_for_function(
+        "() => window.touchline.match.role === 'referee' && !document.getElementById('stop').disabled"
+    )
+    assert page.locator("#notice").is_hidden()
+    assert page.evaluate("sessionStorage.getItem('touchline.token')") == "the-referee"
+    page.locator("#stop").click()
+    page.wait_for_function("() => document.getElementById('log').textContent.includes('Stop accepted')")
+    page.context.close()

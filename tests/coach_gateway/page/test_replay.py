@@ -30,6 +30,16 @@ def test_the_bar_leads_to_any_moment_and_back(replayed, visit) -> None:
             assert (shown[name]["x"], shown[name]["y"]) == (robot.x, robot.y)
 
 
+def test_a_recording_that_is_begun_paused_shows_its_first_picture(replay_of, visit) -> None:
+    replay = replay_of(start=None)
+    tab = visit(replay)
+    first = next(world for _, world in replay.programme.recording.decoded("world"))
+    assert time_of(tab) == first.time
+    assert tab.ask("window.touchline.match.replay.paused")
+    tab.page.reload()
+    tab.until(f"window.touchline?.stage.world?.time === {first.time}")
+
+
 def test_it_plays_pauses_steps_and_changes_its_rate(replayed, visit) -> None:
     tab = visit(replayed, "referee")
     scrub(tab, 2.0)

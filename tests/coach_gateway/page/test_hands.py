@@ -1,0 +1,159 @@
+"""Hands on the page: fingers that drag and drive, keys that stay down, and what nobody may move."""
+
+import math
+
+import pytest
+
+from schemas.clock import WallClock
+from schemas.game import Phase
+from schemas.topics import HAND
+
+PHONE = {"width": 390, "height": 844, "has_touch": True, "is_mobile": True}
+
+
+def rests(match, robot: str) -> bool:
+    truth = match.world["robots"][robot]
+    return math.hypot(truth["vx"], truth["vy"]) < 0.02
+
+
+def stop(match, tab) -> None:
+    tab.page.locator("#stop").click()
+    match.until(lambda: match.state.phase is Phase.STOPPED)
+    for robot in match.world["robots"]:
+        match.until(lambda robot=robot: rests(match, robot))
+        tab.until_seen(f"robots.{robot}", *match.where(robot))
+
+
+def said(match, text: str) -> bool:
+    return any(event.text == text for event in match.events)
+
+
+def take(match, tab, robot: str):
+    """Take a robot in hand; returns what is said of hands from then on."""
+    hands = match.hear(HAND)
+    tab.open("drive")
+    tab.page.locator("#drive-robot").select_option(robot)
+    tab.page.locator("#drive-take").click()
+    match.until(lambda: said(match, f"{robot} is driven by hand"))
+    return hands
+
+
+def test_a_finger_drags_a_robot_and_a_second_finger_has_no_part_in_it(match, visit) -> None:
+    tab = visit(match, "referee", **PHONE)
+    stop(match, tab)
+    begin, end, elsewhere = tab.at(*match.where("cyan1")), tab.at(-6.0, 5.0), tab.at(8.0, -4.0)
+    tab.touch("Start", begin)
+    for share in (0.3, 0.7, 1.0):
+        tab.touch("Move", tuple(a + share * (b - a) for a, b in zip(begin, end, strict=True)))
+    tab.touch("Start", end, elsewhere)
+    tab.touch("Move", end, (elsewhere[0] + 5, elsewhere[1]))
+    tab.touch("End", end)  # the second finger goes: nothing is set down by that
+    assert tab.page.locator("#log li").count() == 1
+    tab.touch("End")
+    tab.until("document.querySelector('#log li')?.textContent.includes('cyan1 to (')")
+    match.until(lambda: math.dist(match.where("cyan1"), (-6.0, 5.0)) < 1.0)
+    assert tab.page.locator("#log li").count() == 2
+
+
+def test_a_finger_beside_all_bodies_scrolls_the_page(match, visit) -> None:
+    tab = visit(match, "referee", width=390, height=500, has_touch=True, is_mobile=True)
+    stop(match, tab)
+    x, y = tab.at(0.0, 6.9)
+    tab.touch("Start", (x, y + 20))
+    for step in range(1, 8):
+        tab.touch("Move", (x, y + 20 - 30 * step))
+    tab.touch("End")
+    tab.until("window.scrollY > 50")
+    assert tab.page.locator("#log li").count() == 1
+
+
+def test_a_finger_on_the_buttons_drives_for_as_long_as_it_lies_there(match, visit) -> None:
+    tab = visit(match, "cyan", **PHONE)
+    hands = take(match, tab, "cyan2")
+    pad = tab.page.locator("#pad [data-code=KeyW]")
+    pad.scroll_into_view_if_needed()
+    box = pad.bounding_box()
+    assert box is not None
+    tab.touch("Start", (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2))
+    match.until(lambda: any(hand.drive.vx == pytest.approx(1.5) for hand in hands()))
+    tab.touch("End")
+    match.until(lambda: any(hand.drive.vx == 0.0 for hand in hands()))
+    tab.page.locator("#dribble").tap()
+    match.until(lambda: any(hand.dribble for hand in hands()))
+    tab.page.locator("#kick-lob").tap()
+    match.until(lambda: any(hand.kick is not None and hand.kick.mode == "lob" for hand in hands()))
+    tab.page.locator("#drive-take").tap()
+    match.until(lambda: said(match, "cyan2 is given back to its brain"))
+
+
+def test_a_key_that_is_let_go_of_beside_another_does_not_drive_on(match, visit) -> None:
+    tab = visit(match, "cyan")
+    hands = take(match, tab, "cyan2")
+    tab.page.keyboard.down("w")
+    match.until(lambda: any(hand.drive.vx > 0.0 for hand in hands()))
+    tab.page.keyboard.down("Control")
+    tab.page.keyboard.up("w")
+    tab.page.keyboard.up("Control")
+    match.until(lambda: any(hand.drive.vx == 0.0 for hand in hands()))
+    tab.page.wait_for_timeout(150)
+    assert all(hand.drive.vx == 0.0 for hand in hands())
+
+
+def test_a_page_that_is_no_longer_seen_gives_the_robot_back(match, visit) -> None:
+    """A hidden page's clock ticks once a second: the robot would be taken and given back each time."""
+    tab = visit(match, "cyan")
+    take(match, tab, "cyan2")
+    tab.page.evaluate(
+        """() => {
+            Object.defineProperty(document, "hidden", { get: () => true, configurable: true });
+            document.dispatchEvent(new Event("visibilitychange"));
+        }"""
+    )
+    match.until(lambda: said(match, "cyan2 is given back to its brain"))
+    assert tab.page.locator("#drive-take").inner_text() == "Take in hand"
+
+
+def test_what_a_coach_drags_stays_where_it_is(match, visit) -> None:
+    referee, tab = visit(match, "referee"), visit(match, "cyan")
+    stop(match, referee)
+    for body in ("ball", "robots.cyan1"):
+        x, y = tab.ask(f"[window.touchline.match.film.newest.{body}.x, window.touchline.match.film.newest.{body}.y]")
+        tab.until_seen(body, x, y)
+        tab.drag((x, y), (3.0, 3.0))
+        tab.wait_for_log("refused: only the referee sets bodies down")
+        tab.until_seen(body, x, y)
+    assert tab.ask("window.touchline.seat.dragged") is None
+
+
+def test_the_ball_is_not_dragged_while_a_referee_box_commands_and_the_page_says_who_does(match, visit) -> None:
+    tab, spectator = visit(match, "referee"), visit(match)
+    stop(match, tab)
+    box = match.medium.seat("friendly", WallClock())
+    box.declare_alive("refbox", "cyan")
+    for one in (tab, spectator):
+        one.until("document.getElementById('notice').textContent.includes('A referee box commands the match of cyan')")
+        assert one.page.locator("#notice").is_visible()
+    ball = match.world["ball"]
+    tab.until_seen("ball", ball["x"], ball["y"])
+    tab.drag((ball["x"], ball["y"]), (3.0, 2.0))
+    tab.wait_for_log("refused: the referee box commands the match")
+    box.declare_alive("refbox", "magenta")
+    tab.until("document.getElementById('notice').textContent.includes('A referee box commands the match; ')")
+    box.close()
+    tab.until("document.getElementById('notice').hidden")
+
+
+def test_what_is_in_the_hand_when_the_game_goes_on_is_not_set_down(match, visit) -> None:
+    tab = visit(match, "referee")
+    stop(match, tab)
+    tab.page.mouse.move(*tab.at(*match.where("cyan1")))
+    tab.page.mouse.down()
+    tab.page.mouse.move(*tab.at(-6.0, 5.0))
+    tab.until("window.touchline.seat.dragged !== null")
+    other = visit(match, "referee")
+    other.button("drop_ball").click()
+    match.until(lambda: match.state.phase is Phase.DROP_BALL)
+    other.button("start").click()
+    tab.until("window.touchline.match.state.running")
+    tab.page.mouse.up()
+    tab.wait_for_log("Move cyan1 refused: the game is running")
