@@ -77,7 +77,7 @@ class Radio(Part):
     intention: Word | None = None
     pass_to: Name | None = None
     """The teammate who is asked to receive a pass."""
-    extra: Annotated[dict[Word, float | int | bool | Word], Field(max_length=MAX_EXTRA)] = {}
+    extra: Annotated[dict[Word, float | int | bool | Word], Field(max_length=MAX_EXTRA)] = Field(default_factory=dict)
     """Whatever else the team agrees on."""
 
 

@@ -170,7 +170,7 @@ class GameState(Message):
     """Where the ball is placed for the restart."""
     left: float | None = None
     """s until the limit of what is going on: START, ball in play, end of a break or of a shoot-out's attempt."""
-    robots: dict[Name, Standing] = {}
+    robots: dict[Name, Standing] = Field(default_factory=dict)
     """Robots with a card, or off the field; all others are there and unpunished."""
     proposal: str | None = None
     """Mixed officiating: what the referee has proposed and not yet carried out."""
@@ -191,7 +191,7 @@ class GameView(Part):
     stage: Stage = Stage.REGULAR
     left: float | None = None
     """s until the limit of what is going on: START, ball in play, end of a break or of a shoot-out's attempt."""
-    robots: dict[Name, Standing] = {}
+    robots: dict[Name, Standing] = Field(default_factory=dict)
     """Our robots with a card, or off the field; all others are there and unpunished."""
     episode: int = 1
     """Another number than before: the world was set up anew, and what was believed of it is void."""
@@ -236,7 +236,7 @@ class GameEvent(Message):
     side: Side | None = None
     robot: Name | None = None
     """Who did it: the scorer, the last to touch the ball, the offender."""
-    robots: list[Name] = []
+    robots: list[Name] = Field(default_factory=list)
     """All robots that it is about, where there are more than one."""
     place: Point | None = None
     score: Score | None = None

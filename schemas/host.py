@@ -33,7 +33,7 @@ class TeamSetup(Part):
 
     name: str
     robots: list[Name]
-    types: dict[Name, Name] = {}
+    types: dict[Name, Name] = Field(default_factory=dict)
     """Robot → its type; a robot that is not named here is a standard one."""
     goalkeeper: bool = True
     """The first on the field is the goalkeeper; without one, all play in the field."""
@@ -69,11 +69,11 @@ class Setup(Message):
     areas: Areas | None = None
     """Who may be how long in an area before a goal; nothing in older recordings."""
     teams: dict[Side, TeamSetup]
-    models: dict[Name, RobotModel] = {}
+    models: dict[Name, RobotModel] = Field(default_factory=dict)
     """Type → model; `standard` for every robot that no type is given for."""
-    engine: dict[str, str] = {}
+    engine: dict[str, str] = Field(default_factory=dict)
     """Fingerprint of what computes the world: engine version, the maths library's answers."""
-    parameters: dict[ParameterName, Setting] = {}
+    parameters: dict[ParameterName, Setting] = Field(default_factory=dict)
     """Live parameters that are not what the match began with, and their values; the numbers above have them already."""
 
     @classmethod
@@ -182,12 +182,12 @@ class Applied(Message):
     tick: int
     time: float
     inputs: dict[Name, AppliedInput]
-    placements: list[Placement] = []
+    placements: list[Placement] = Field(default_factory=list)
     checkpoint: bool = False
     """The world was rebuilt from poses and velocities before this tick: re-simulation may begin here."""
     remade: bool = False
     """The world was built anew, with the parameters, robots and obstacles in force, before bodies were placed."""
-    parameters: dict[ParameterName, Setting] = {}
+    parameters: dict[ParameterName, Setting] = Field(default_factory=dict)
     """Live parameters that were changed before this tick, and their new values."""
     robots: list[RosterEntry] | None = None
     """Who takes part from this tick on, in the order of the roster, said at tick 0; nothing where that is as before."""
@@ -249,10 +249,10 @@ class Health(Message):
     """Ticks that began late, or in lockstep did not get every answer in time."""
     worst_tick_ms: float = 0.0
     """Longest wall time that a tick of the last second took, in ms."""
-    robots: dict[Name, RobotHealth] = {}
-    strangers: dict[str, int] = {}
+    robots: dict[Name, RobotHealth] = Field(default_factory=dict)
+    strangers: dict[str, int] = Field(default_factory=dict)
     """Messages on keys where nobody should speak, counted by key."""
-    recorders: dict[Name, Annotated[int, Field(ge=0)]] = {}
+    recorders: dict[Name, Annotated[int, Field(ge=0)]] = Field(default_factory=dict)
     """How many ticks each recorder is behind."""
 
 
@@ -285,7 +285,7 @@ class RecorderProgress(Message):
     """Taken in so far."""
     lost: int
     """Known to be missing."""
-    losses: dict[str, int] = {}
+    losses: dict[str, int] = Field(default_factory=dict)
     """The same by key; the keys without loss are left out."""
     paused: bool = False
     leaving: bool = False

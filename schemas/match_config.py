@@ -54,9 +54,9 @@ class Team(Part):
     command: list[str] | None = None
     """Any program that speaks the topics, in place of a brain; the environment tells it who it is."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = MAX_ROBOTS
-    robots: Annotated[list[Name], Field(max_length=MAX_ROBOTS)] = []
+    robots: Annotated[list[Name], Field(max_length=MAX_ROBOTS)] = Field(default_factory=list)
     """Names of the robots, the goalkeeper first; when none are given, colour and number."""
-    types: dict[Name, Name] = {}
+    types: dict[Name, Name] = Field(default_factory=dict)
     """Robot → its type, of the profile or of `[types.NAME]`; a robot that is not named here is a standard one."""
 
     @model_validator(mode="after")
@@ -124,9 +124,9 @@ class Recording(Part):
     sights: bool = False
     wait: bool = False
     """The first tick waits for a recorder to be there, so that nothing is missed."""
-    include: list[str] = []
+    include: list[str] = Field(default_factory=list)
     """Key expressions that are recorded, `robot/*/command`; all where there is none."""
-    exclude: list[str] = []
+    exclude: list[str] = Field(default_factory=list)
     """Key expressions that are not."""
     split_size: Annotated[float, Field(gt=0)] | None = None
     """MB after which the recording goes on in a next file."""
@@ -164,9 +164,9 @@ class MatchConfig(Part):
     profile: str = "msl"
     rules: str = "friendly"
     teams: Teams = Field(default_factory=Teams)
-    types: dict[Name, dict[str, Any]] = {}
+    types: dict[Name, dict[str, Any]] = Field(default_factory=dict)
     """Types of robots that are added to the profile's, or change them: sections of numbers, as in a profile."""
-    obstacles: list[StaticObstacle] = []
+    obstacles: list[StaticObstacle] = Field(default_factory=list)
     """What else stands on the pitch when the match begins."""
     noise: Noise = Noise()
     radio: RadioOverride = RadioOverride()

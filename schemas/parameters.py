@@ -29,9 +29,9 @@ class ParametersRequest(Message):
     """Asks for parameters, or changes them between two ticks: all that are named, or none."""
 
     deed: ParameterDeed
-    names: Annotated[list[ParameterName], Field(max_length=200)] = []
+    names: Annotated[list[ParameterName], Field(max_length=200)] = Field(default_factory=list)
     """Parameters or whole sections; for `reset` none stands for all that can be changed."""
-    values: Annotated[dict[ParameterName, Value], Field(max_length=200)] = {}
+    values: Annotated[dict[ParameterName, Value], Field(max_length=200)] = Field(default_factory=dict)
     """For `set`: parameter → its new value."""
     source: Annotated[str, StringConstraints(max_length=80)] = "operator"
     """Who asks."""
@@ -49,7 +49,7 @@ class Parameter(Part):
     """The least value that makes sense, in its unit; nothing where there is no bound."""
     high: float | None = None
     """The greatest, likewise."""
-    words: list[str] = []
+    words: list[str] = Field(default_factory=list)
     """What a parameter that is a word may be."""
     origin: str = ""
     """Where the first value comes from."""
@@ -69,4 +69,4 @@ class ParametersReply(Message):
     accepted: bool
     reason: str = ""
     """Why it was refused; then nothing was changed."""
-    parameters: list[Parameter] = []
+    parameters: list[Parameter] = Field(default_factory=list)

@@ -64,5 +64,5 @@ class ReplayReply(Message):
     loop: bool = False
     messages: int = 0
     """Sent so far."""
-    events: list[GameEvent] = []
+    events: list[GameEvent] = Field(default_factory=list)
     """All that happens in the recording, in order, where that was asked for."""

@@ -114,7 +114,7 @@ class Scene(Part):
     game: SceneGame = SceneGame()
     ball: SceneBall = SceneBall()
     robots: Annotated[list[SceneRobot], Field(min_length=1, max_length=2 * MAX_ROBOTS)]
-    obstacles: Annotated[list[StaticObstacle], Field(max_length=100)] = []
+    obstacles: Annotated[list[StaticObstacle], Field(max_length=100)] = Field(default_factory=list)
 
     @model_validator(mode="after")
     def _a_place_for_everyone(self) -> "Scene":
@@ -173,13 +173,13 @@ class SceneRequest(Message):
     """For `load`: the name of a scene that ships."""
     scene: Scene | None = None
     """For `load`: the scene itself, in place of a name."""
-    place: Annotated[list[Placement], Field(max_length=100)] = []
+    place: Annotated[list[Placement], Field(max_length=100)] = Field(default_factory=list)
     """For `place`: where robots or the ball are set down."""
-    robots: Annotated[list[SceneRobot], Field(max_length=2 * MAX_ROBOTS)] = []
+    robots: Annotated[list[SceneRobot], Field(max_length=2 * MAX_ROBOTS)] = Field(default_factory=list)
     """For `add`."""
-    obstacles: Annotated[list[StaticObstacle], Field(max_length=100)] = []
+    obstacles: Annotated[list[StaticObstacle], Field(max_length=100)] = Field(default_factory=list)
     """For `add`."""
-    remove: Annotated[list[Name], Field(max_length=100)] = []
+    remove: Annotated[list[Name], Field(max_length=100)] = Field(default_factory=list)
     """For `remove`: robots and obstacles."""
     to_match: bool = False
     """For `reset`: to the match's own start, and not to that of the scene loaded last."""

@@ -1,5 +1,7 @@
 """Everything one robot knows at one tick, in its team frame: each team believes it attacks +x."""
 
+from pydantic import Field
+
 from schemas.coach import CoachOrder
 from schemas.command import BallBelief, Motion, Radio
 from schemas.game import GameView
@@ -39,7 +41,7 @@ class Outcome(Part):
 
     answers_tick: int | None = None
     """The sight that the command answered; nothing when none arrived for this tick."""
-    refused: list[str] = []
+    refused: list[str] = Field(default_factory=list)
     """What was not done, and why."""
 
 
@@ -66,7 +68,7 @@ class Sight(Message):
     """Robots of both teams and other bodies in the newest picture, the nearest first."""
     obstacles_age: float = 0.0
     """Since that picture was taken, in s."""
-    radio: dict[Name, Heard] = {}
+    radio: dict[Name, Heard] = Field(default_factory=dict)
     """The newest word of each teammate."""
     game: GameView
     order: CoachOrder | None = None

@@ -1,5 +1,7 @@
 """The truth of one tick, in the field frame."""
 
+from pydantic import Field
+
 from schemas.game import OffField
 from schemas.message import Message, Name, Part
 from schemas.obstacle import Shape
@@ -62,13 +64,13 @@ class World(Message):
     ball: BallTruth
     possession: Name | None = None
     """The robot that holds the ball."""
-    touches: list[Name] = []
+    touches: list[Name] = Field(default_factory=list)
     """Robots that touched, held or kicked the ball since the tick before, in order of time; left out if nobody did."""
     kicked: Name | None = None
     """The robot whose kick was carried out in this tick; left out if there was none."""
     clock: float = 0.0
     """Game clock in s."""
-    obstacles: dict[Name, ObstacleTruth] = {}
+    obstacles: dict[Name, ObstacleTruth] = Field(default_factory=dict)
     """What else stands on the pitch; not said while there is nothing."""
     episode: int = 1
     """Counts the starts: the match's own, each scene that is loaded, each reset. Ticks and time go on."""
