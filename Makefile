@@ -4,6 +4,8 @@
 .DEFAULT_GOAL := help
 .PHONY: help match test check bench clean
 READY := .venv/.ready
+# Compiled once: where Python is told to write no bytecode, as in many containers, each process of each match would.
+PACKAGES := schemas sim_host robot_agent coach_gateway recordings arena
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 help: ## show this list
@@ -32,6 +34,7 @@ $(READY): requirements.lock pyproject.toml
 	@test -x .venv/bin/python || ( $(NEW_VENV) )
 	.venv/bin/python -m pip install --quiet --require-hashes -r requirements.lock
 	.venv/bin/python -m pip install --quiet --no-deps --no-build-isolation -e .
+	@.venv/bin/python -m compileall -q $(PACKAGES)
 	@touch $@
 
 # PyBullet has binary wheels for 3.11 alone among the versions that Touchline runs on. A distribution builds its Python
