@@ -22,8 +22,9 @@ from schemas.side import Side
 
 _POLL = 0.05
 """s of wall time between looks at processes and bus."""
-_FAREWELL = 0.5
-"""s of wall time for the host's last messages to arrive after its process has ended."""
+_FAREWELL = 5.0
+"""s of wall time for the host's last messages to arrive after its process has ended: they are all here when its link
+ends, which it does with the process, so that only a machine with no time for us takes long."""
 _WRONG_INPUT = 2
 
 
