@@ -38,9 +38,10 @@ class Box:
         door = socket.socket()
         door.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         kept = 2**20
-        if not self.reads:  # of themselves kernel and stream would swallow megabytes before the pipe is full
+        if not self.reads:  # else the stream and the kernel on both ends, by its large segments, swallow megabytes
             kept = 1024
             door.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, kept)
+            door.setsockopt(socket.IPPROTO_TCP, socket.TCP_MAXSEG, 536)
         door.bind(("127.0.0.1", port))
         self._server = await asyncio.start_server(self._meet, sock=door, limit=kept)
         return int(self._server.sockets[0].getsockname()[1])

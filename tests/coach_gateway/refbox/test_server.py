@@ -279,6 +279,7 @@ def test_a_base_station_that_never_reads_is_dropped_and_the_others_hear_everythi
         async with boxed() as (bench, box, come):
             deaf = socket.socket()
             deaf.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 2048)
+            deaf.setsockopt(socket.IPPROTO_TCP, socket.TCP_MAXSEG, 536)  # with large segments more is kept for it
             deaf.setblocking(False)
             await asyncio.get_running_loop().sock_connect(deaf, ("127.0.0.1", box.ports[0]))
             await asyncio.get_running_loop().sock_sendall(deaf, b'{"type": "hello", "team": "magenta"}\x00')
@@ -346,8 +347,11 @@ class Display(asyncio.DatagramProtocol):
         self.said.append(json.loads(data[:-1]))
 
 
-def test_the_audience_hears_of_teams_and_events(boxed: Any, until: Any, check_world_state: Any) -> None:
+def test_the_audience_hears_of_teams_and_events(
+    boxed: Any, until: Any, check_world_state: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Reference 9.5: a base station's own world state, and where none comes, what our robots say."""
+    monkeypatch.setattr("coach_gateway.refbox.audience_feed._OLD_S", 1000.0)  # it is said once
 
     async def play() -> None:
         async with boxed() as (bench, box, come):
@@ -355,6 +359,7 @@ def test_the_audience_hears_of_teams_and_events(boxed: Any, until: Any, check_wo
             transport, display = await loop.create_datagram_endpoint(Display, local_addr=("127.0.0.1", 0))
             address = transport.get_extra_info("sockname")[:2]
             bench.start(AudienceFeed(bench.live, [address], bench.said.append, box.views))
+            await until(lambda: display.said, "the feed")
             bench.stage.show()
             cyan = await come(team="cyan")
             mine = world_state("Sapphire", intention="win")
