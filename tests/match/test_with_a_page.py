@@ -37,12 +37,20 @@ class Page:
     def __init__(self, socket: ClientConnection, token: str) -> None:
         self.socket = socket
         self.token = token
+        self._kept: list[dict[str, Any]] = []
+
+    def wait_for_match(self) -> None:
+        """Until it is told what is played; that welcome is still to be heard."""
+        while (welcome := self.hear("welcome"))["setup"] is None:
+            pass
+        self._kept.append(welcome)
 
     def hear(self, kind: str, **fields: Any) -> dict[str, Any]:
         """The next message of a kind with these fields."""
         deadline = time.monotonic() + LIMIT
         while True:
-            message: dict[str, Any] = json.loads(self.socket.recv(max(0.0, deadline - time.monotonic())))
+            text = self.socket.recv(max(0.0, deadline - time.monotonic())) if not self._kept else None
+            message: dict[str, Any] = json.loads(text) if text is not None else self._kept.pop(0)
             if message["kind"] == kind and all(message[name] == value for name, value in fields.items()):
                 return message
 
@@ -63,19 +71,21 @@ class Page:
 
 @contextmanager
 def page_at(address: str) -> Iterator[Page]:
-    """A page opened at the address that was said, as soon as somebody serves it."""
+    """A page opened at the address that was said; like any page it comes again when it is sent away."""
     origin, _, token = address.partition("/#token=")
     deadline = time.monotonic() + LIMIT
     while True:
         try:
             opening = connect(f"{origin.replace('http', 'ws')}/ws", origin=origin, max_size=None)  # type: ignore[arg-type]
             opened = opening.__enter__()
+            page = Page(opened, token)
+            page.wait_for_match()
             break
         except (OSError, InvalidHandshake, ConnectionClosed):
             assert time.monotonic() < deadline
             time.sleep(0.05)
     try:
-        yield Page(opened, token)
+        yield page
     finally:
         with suppress(ConnectionClosed):  # a server that was killed does not take leave
             opened.close()

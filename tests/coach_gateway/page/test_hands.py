@@ -11,17 +11,18 @@ from schemas.topics import HAND
 PHONE = {"width": 390, "height": 844, "has_touch": True, "is_mobile": True}
 
 
-def rests(match, robot: str) -> bool:
-    truth = match.world["robots"][robot]
-    return math.hypot(truth["vx"], truth["vy"]) < 0.02
-
-
 def stop(match, tab) -> None:
     tab.page.locator("#stop").click()
     match.until(lambda: match.state.phase is Phase.STOPPED)
-    for robot in match.world["robots"]:
-        match.until(lambda robot=robot: rests(match, robot))
-        tab.until_seen(f"robots.{robot}", *match.where(robot))
+
+
+def drop(match, tab) -> tuple[float, float]:
+    """Drop the ball; returns where it lies."""
+    tab.button("drop_ball").click()
+    match.until(lambda: match.state.phase is Phase.DROP_BALL and match.state.spot is not None)
+    spot = match.state.spot
+    tab.until_seen("ball", spot.x, spot.y)
+    return spot.x, spot.y
 
 
 def said(match, text: str) -> bool:
@@ -38,7 +39,8 @@ def take(match, tab, robot: str):
     return hands
 
 
-def test_a_finger_drags_a_robot_and_a_second_finger_has_no_part_in_it(match, visit) -> None:
+def test_a_finger_drags_a_robot_and_a_second_finger_has_no_part_in_it(resting, visit) -> None:
+    match = resting
     tab = visit(match, "referee", **PHONE)
     stop(match, tab)
     begin, end, elsewhere = tab.at(*match.where("cyan1")), tab.at(-6.0, 5.0), tab.at(8.0, -4.0)
@@ -55,7 +57,8 @@ def test_a_finger_drags_a_robot_and_a_second_finger_has_no_part_in_it(match, vis
     assert tab.page.locator("#log li").count() == 2
 
 
-def test_a_finger_beside_all_bodies_scrolls_the_page(match, visit) -> None:
+def test_a_finger_beside_all_bodies_scrolls_the_page(resting, visit) -> None:
+    match = resting
     tab = visit(match, "referee", width=390, height=500, has_touch=True, is_mobile=True)
     stop(match, tab)
     x, y = tab.at(0.0, 6.9)
@@ -113,11 +116,10 @@ def test_a_page_that_is_no_longer_seen_gives_the_robot_back(match, visit) -> Non
     assert tab.page.locator("#drive-take").inner_text() == "Take in hand"
 
 
-def test_what_a_coach_drags_stays_where_it_is(match, visit) -> None:
+def test_what_a_coach_drags_stays_where_it_is(resting, visit) -> None:
+    match = resting
     referee, tab = visit(match, "referee"), visit(match, "cyan")
-    stop(match, referee)
-    for body in ("ball", "robots.cyan1"):
-        x, y = tab.ask(f"[window.touchline.match.film.newest.{body}.x, window.touchline.match.film.newest.{body}.y]")
+    for body, (x, y) in (("ball", drop(match, referee)), ("robots.cyan1", match.where("cyan1"))):
         tab.until_seen(body, x, y)
         tab.drag((x, y), (3.0, 3.0))
         tab.wait_for_log("refused: only the referee sets bodies down")
@@ -125,17 +127,16 @@ def test_what_a_coach_drags_stays_where_it_is(match, visit) -> None:
     assert tab.ask("window.touchline.seat.dragged") is None
 
 
-def test_the_ball_is_not_dragged_while_a_referee_box_commands_and_the_page_says_who_does(match, visit) -> None:
+def test_the_ball_is_not_dragged_while_a_referee_box_commands_and_the_page_says_who_does(resting, visit) -> None:
+    match = resting
     tab, spectator = visit(match, "referee"), visit(match)
-    stop(match, tab)
+    ball = drop(match, tab)
     box = match.medium.seat("friendly", WallClock())
     box.declare_alive("refbox", "cyan")
     for one in (tab, spectator):
         one.until("document.getElementById('notice').textContent.includes('A referee box commands the match of cyan')")
         assert one.page.locator("#notice").is_visible()
-    ball = match.world["ball"]
-    tab.until_seen("ball", ball["x"], ball["y"])
-    tab.drag((ball["x"], ball["y"]), (3.0, 2.0))
+    tab.drag(ball, (3.0, 2.0))
     tab.wait_for_log("refused: the referee box commands the match")
     box.declare_alive("refbox", "magenta")
     tab.until("document.getElementById('notice').textContent.includes('A referee box commands the match; ')")
@@ -143,7 +144,8 @@ def test_the_ball_is_not_dragged_while_a_referee_box_commands_and_the_page_says_
     tab.until("document.getElementById('notice').hidden")
 
 
-def test_what_is_in_the_hand_when_the_game_goes_on_is_not_set_down(match, visit) -> None:
+def test_what_is_in_the_hand_when_the_game_goes_on_is_not_set_down(resting, visit) -> None:
+    match = resting
     tab = visit(match, "referee")
     stop(match, tab)
     tab.page.mouse.move(*tab.at(*match.where("cyan1")))
@@ -151,8 +153,7 @@ def test_what_is_in_the_hand_when_the_game_goes_on_is_not_set_down(match, visit)
     tab.page.mouse.move(*tab.at(-6.0, 5.0))
     tab.until("window.touchline.seat.dragged !== null")
     other = visit(match, "referee")
-    other.button("drop_ball").click()
-    match.until(lambda: match.state.phase is Phase.DROP_BALL)
+    drop(match, other)
     other.button("start").click()
     tab.until("window.touchline.match.state.running")
     tab.page.mouse.up()
