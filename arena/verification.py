@@ -13,22 +13,14 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from pydantic_core import from_json, to_json
-
+from arena.beginning import beginning
 from recordings.answers import Contradiction
 from recordings.course import Course, LeftOut, Stretch, TickNote, Why, answers_of, course_of, notes
-from recordings.head import PROFILE
-from recordings.manifest import Manifest
 from recordings.reader import Recording, open_recording
 from schemas.errors import TouchlineError
-from schemas.host import Applied, RosterEntry, noted
+from schemas.host import Applied, noted
 from schemas.message import BadMessageError
-from schemas.obstacle import Shape, StaticObstacle
-from schemas.profile import STANDARD, load_profile, profile_of
-from schemas.side import Side
-from schemas.world import World
-from sim_host.resimulation import ImpossibleTickError, InForce, Known, Resimulation, differences, numbers_of
-from sim_host.tuning import Tuning
+from sim_host.resimulation import ImpossibleTickError, Resimulation, differences
 from sim_host.world.engine import fingerprint
 
 _WORTH_A_PROCESS = 1500
@@ -125,11 +117,12 @@ def verify(path: Path, from_kick_off: int | None = None, processes: int = 1) -> 
         left_out=list(course.left_out(since)),
     )
     for stretch, came in zip(stretches, _all(path, stretches, verdict.processes), strict=True):
+        verdict.ticks += came.ticks
         verdict.without_world += came.without_world
-        if verdict.difference is None:
-            verdict.ticks += came.ticks
-            verdict.seconds += (stretch.seconds[1] - stretch.seconds[0]) * came.ticks / max(1, len(stretch.ticks))
-            verdict.difference = came.difference
+        verdict.seconds += (stretch.seconds[1] - stretch.seconds[0]) * came.ticks / max(1, len(stretch.ticks))
+        verdict.difference = came.difference
+        if verdict.difference is not None:
+            break
     verdict.took = time.perf_counter() - began
     return verdict
 
@@ -153,13 +146,10 @@ def _other_machine(recording: Recording) -> dict[str, tuple[str, str]]:
 
 
 def _all(path: Path, stretches: list[Stretch], processes: int) -> Iterable[_Retraced]:
-    """Go over every stretch, one after the other or by several processes."""
+    """What comes of each stretch, one after the other or by several processes; it is asked for up to a difference."""
     if processes == 1:
         for stretch in stretches:
-            came = retrace(path, stretch)
-            yield came
-            if came.difference is not None:
-                return
+            yield retrace(path, stretch)
         return
     with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
         yield from pool.map(retrace, [path] * len(stretches), stretches)
@@ -184,7 +174,7 @@ def retrace(path: Path, stretch: Stretch) -> _Retraced:
                 before = note
                 continue
             try:
-                again = again or Resimulation(*_beginning(recording, stretch, before))
+                again = again or Resimulation(*beginning(recording, stretch, before))
                 applied: Applied = note.applied or note.recorded.message()  # which says what is wrong with it
                 answers.applied(applied)
                 difference = _compared(again, applied, note)
@@ -244,75 +234,3 @@ def _detail(one: Contradiction) -> Detail:
     numbers = [value for value in (one.applied, one.sent) if isinstance(value, float)]
     by = abs(numbers[0] - numbers[1]) if len(numbers) == 2 else None
     return Detail(f"input of {one.robot}", one.field, one.applied, one.sent, by)
-
-
-def _beginning(recording: Recording, stretch: Stretch, before: TickNote | None) -> tuple[InForce, Known | None]:
-    """What is in force before the first tick of a stretch, and what is known of the world then.
-
-    Raises:
-        ImpossibleTickError: the tick before is not as any host would note it.
-        TouchlineError: the recording does not say how the match was set up.
-    """
-    changes = stretch.start.changes
-    from_start = stretch.ticks.start == 0 or any(one.tick == 0 for one in changes)
-    in_force = InForce(_numbers(recording, from_start=from_start))
-    known = None
-    if stretch.ticks.start > 0:
-        known = _known(before)
-        if not from_start:
-            robots, obstacles = tuple(_robots(recording.manifest)), tuple(_obstacles(known.world))
-            in_force = InForce(in_force.tuning, robots, obstacles)
-    for one in changes:
-        in_force = in_force.after(one)
-    return in_force, known
-
-
-def _known(before: TickNote | None) -> Known:
-    if before is None or before.applied is None or before.world is None:
-        raise ImpossibleTickError("the world of the tick before, to begin with, was not recorded")
-    try:
-        return Known(World.decode(to_json(before.world)), before.applied.chain)
-    except BadMessageError as error:
-        raise ImpossibleTickError(str(error)) from None
-
-
-def _numbers(recording: Recording, *, from_start: bool) -> Tuning:
-    """What the match was played with: at its start, or when the recorder asked the host."""
-    setup, config = recording.manifest.setup, recording.manifest.config
-    if config is not None:
-        try:
-            tables = recording.attachments.get(PROFILE)
-            profile = load_profile(config.profile) if tables is None else profile_of(config.profile, from_json(tables))
-        except ValueError:
-            raise TouchlineError(
-                f"{recording.path}: {PROFILE}, attached to it, is damaged; take another copy"
-            ) from None
-        tuning = Tuning.begun(config, profile)
-        return tuning if from_start or setup is None else tuning.laid_over(setup.parameters)
-    if setup is None or (from_start and setup.parameters):
-        raise TouchlineError(
-            f"{recording.path}: nothing in it says what numbers the match began with; record it from its beginning, "
-            "with touchline match --record"
-        )
-    return numbers_of(setup)
-
-
-def _robots(manifest: Manifest) -> Iterable[RosterEntry]:
-    """Who took part when the recorder asked, in the order of the roster."""
-    for side in Side:
-        if manifest.setup is not None:
-            names, types = manifest.setup.teams[side].robots, manifest.setup.teams[side].types
-        elif manifest.config is not None:
-            names, types = manifest.config.robots(side), manifest.config.team(side).types
-        else:
-            return
-        yield from (RosterEntry(name=name, side=side, type=types.get(name, STANDARD)) for name in names)
-
-
-def _obstacles(world: World) -> Iterable[StaticObstacle]:
-    """What stood on the pitch, as the world tells it."""
-    for name, one in world.obstacles.items():
-        extents: dict[str, Any] = {"size": [one.size_x, one.size_y, one.height]}
-        if one.shape is Shape.CYLINDER:
-            extents = {"radius": one.radius, "height": one.height}
-        yield StaticObstacle(name=name, shape=one.shape, place=[one.x, one.y], heading=one.heading, **extents)

@@ -143,6 +143,21 @@ def test_ticks_that_are_missing_are_said_and_the_rest_is_compared(operated: Path
     assert "ticks 300 to 309 are missing in the recording: nothing can be said of them" in result.stdout
 
 
+def test_a_difference_before_ticks_that_are_missing_is_told_by_one_process_as_by_two(operated: Path, edited) -> None:
+    """What stands behind the gap is a stretch of its own, and is not gone over any more."""
+
+    def edit(fields):
+        if 300 <= fields["tick"] < 310:
+            return None
+        return faster(fields) if fields["tick"] == 200 else fields
+
+    path = edited(operated, "host/applied", edit)
+    one, two = verify(path, processes=1), verify(path, processes=2)
+    assert one.difference is not None
+    assert one.difference.tick == 200
+    assert (one.difference, one.ticks) == (two.difference, two.ticks)
+
+
 def test_a_recording_that_sets_in_late_is_compared_from_its_first_kick_off(operated: Path, edited, tmp_path) -> None:
     """Who takes part, with what numbers, and what stands there: from the setup and the world."""
     course = course_of(open_recording(operated))
