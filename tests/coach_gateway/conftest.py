@@ -28,8 +28,8 @@ from sim_host.host import Host
 from sim_host.pace import Lockstep
 from sim_host.referee.state import RefereeState
 
-LIMIT_S = 30.0
-"""No condition on loopback takes so long: only what never comes fails."""
+LIMIT_S = 90.0
+"""Only what never comes fails: a match that is stepped beside the bridges may take long on a busy machine."""
 MATCH = "friendly"
 
 
