@@ -17,7 +17,7 @@ from websockets.sync.client import ClientConnection, connect
 
 from schemas.bus.endpoint import with_port
 
-pytestmark = pytest.mark.processes
+pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
 LIMIT = 90.0
 """Seconds after which something that should have happened will not; nothing depends on how soon it does."""
