@@ -1,11 +1,8 @@
 """Controls a recorder while it records: asked of it by name, answered at once."""
 
 from enum import StrEnum
-from typing import Annotated
 
-from pydantic import StringConstraints
-
-from schemas.message import Message, Name
+from schemas.message import Message, Name, Source
 
 
 class RecorderDeed(StrEnum):
@@ -25,7 +22,7 @@ class RecorderRequest(Message):
     """Asks a recorder to do something, or how it is doing."""
 
     deed: RecorderDeed = RecorderDeed.STATUS
-    source: Annotated[str, StringConstraints(max_length=80)] = "operator"
+    source: Source = "operator"
     """Who asks."""
 
 

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from schemas.message import Message, Name, Part
+from schemas.message import Message, Name, Part, Source
 from schemas.side import Side
 
 
@@ -291,7 +291,7 @@ class RefereeAction(Message):
     """Who scored, for a goal; whom a card, a repair, a substitution or the parking is for."""
     place: Point | None = None
     """Field frame; where a restart takes its spot from, by default where the ball lies."""
-    source: str = "coach"
+    source: Source = "coach"
     """Who asks."""
 
 

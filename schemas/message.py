@@ -11,6 +11,10 @@ Name = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_]*$", max_length
 """A key chunk: the name of a robot, a match, a process."""
 
 
+Source = Annotated[str, StringConstraints(pattern=r"^[^\x00-\x1f\x7f-\x9f]*$", max_length=80)]
+"""Who asks, in words that are shown to people: one line without control characters, which a terminal would obey."""
+
+
 class BadMessageError(ValueError):
     """A payload that is not a valid message; the sentence says why."""
 

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from pydantic import Field, StrictFloat, StrictInt, StringConstraints
 
-from schemas.message import Message, Part
+from schemas.message import Message, Part, Source
 
 ParameterName = Annotated[str, StringConstraints(pattern=r"^[a-z_0-9]+(\.[a-z_0-9]+)*$", max_length=120)]
 """As the profile names it, `ball.rolling_deceleration`; a section's name alone stands for all that is in it."""
@@ -33,7 +33,7 @@ class ParametersRequest(Message):
     """Parameters or whole sections; for `reset` none stands for all that can be changed."""
     values: Annotated[dict[ParameterName, Value], Field(max_length=200)] = Field(default_factory=dict)
     """For `set`: parameter → its new value."""
-    source: Annotated[str, StringConstraints(max_length=80)] = "operator"
+    source: Source = "operator"
     """Who asks."""
 
 

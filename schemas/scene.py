@@ -15,7 +15,7 @@ from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import RESTARTS, SIDED, Phase, Score
 from schemas.host import Placement, RosterEntry
 from schemas.match_config import MAX_ROBOTS, RESERVED
-from schemas.message import Message, Name, Part
+from schemas.message import Message, Name, Part, Source
 from schemas.obstacle import StaticObstacle
 from schemas.side import Side
 from schemas.toml_file import validated
@@ -183,7 +183,7 @@ class SceneRequest(Message):
     """For `remove`: robots and obstacles."""
     to_match: bool = False
     """For `reset`: to the match's own start, and not to that of the scene loaded last."""
-    source: Annotated[str, StringConstraints(max_length=80)] = "operator"
+    source: Source = "operator"
     """Who asks."""
 
 

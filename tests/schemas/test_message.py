@@ -9,8 +9,10 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from schemas.command import Command, Drive, Kick, KickMode, Radio
-from schemas.game import Phase, TeamPhase
-from schemas.message import BadMessageError
+from schemas.game import ActionName, Phase, RefereeAction, TeamPhase
+from schemas.message import BadMessageError, Message
+from schemas.parameters import ParameterDeed, ParametersRequest
+from schemas.scene import SceneDeed, SceneRequest
 from schemas.side import Side
 from schemas.topics import TOPICS
 from schemas.world import BallTruth, World
@@ -100,3 +102,21 @@ def test_each_side_sees_its_own_restarts_as_its_own(side: Side) -> None:
     assert TeamPhase.of(Phase.THROW_IN, side, side.opponent) is TeamPhase.THEIR_THROW_IN
     assert TeamPhase.of(Phase.DROP_BALL, None, side) is TeamPhase.DROP_BALL
     assert TeamPhase.of(Phase.PENALTY, side, side).ours and TeamPhase.of(Phase.PENALTY, side, side.opponent).theirs
+
+
+ASKED = (
+    RefereeAction(action=ActionName.STOP),
+    SceneRequest(deed=SceneDeed.RESET),
+    ParametersRequest(deed=ParameterDeed.RESET),
+)
+
+
+@pytest.mark.parametrize("asked", ASKED, ids=lambda asked: type(asked).__name__)
+@pytest.mark.parametrize("source", ["x" * 81, "coach\x1b[2J", "coach\nGOAL"])
+def test_who_asks_is_named_in_one_short_line_that_no_terminal_obeys(asked: Message, source: str) -> None:
+    """The host says it in its events, which people read on terminals."""
+    payload = asked.model_copy(update={"source": source}).encode()
+    with pytest.raises(BadMessageError, match="source is"):
+        type(asked).decode(payload)
+    told = asked.model_copy(update={"source": "coach program Ärger, [two]"})
+    assert type(asked).decode(told.encode()) == told
