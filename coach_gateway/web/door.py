@@ -9,6 +9,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from coach_gateway.web import access
 from coach_gateway.web.desk import Desk, is_stop
+from coach_gateway.web.hands import Hands
 from coach_gateway.web.origins import Origins
 from coach_gateway.web.pages import Page, Pages
 from coach_gateway.web.protocol import ASK, MAX_BYTES, Ask, AskDrive, AskToken, Refusal, Reply, Role
@@ -30,6 +31,7 @@ class Door:
     def __init__(self, stage: Stage, pages: Pages, desk: Desk, tokens: Tokens, origins: Origins, clock: Clock) -> None:
         self._stage, self._pages, self._desk = stage, pages, desk
         self._tokens, self._origins, self._clock = tokens, origins, clock
+        self._hands = Hands()
 
     async def enter(self, socket: WebSocket) -> None:
         """One page, from its coming to its going."""
@@ -121,7 +123,7 @@ class Door:
             page.note_wrong_token()
             _say(page, Reply(id=ask.id, accepted=False, reason=_NOBODY))
             return
-        why = access.refusal(role, ask, self._stage.robots()) or self._stage.refusal(ask) or self._in_a_hurry(page, ask)
+        why = access.refusal(role, ask, self._stage.robots()) or self._stage.refusal(ask) or self._in_the_way(page, ask)
         if why is not None:
             _say(page, Reply(id=ask.id, accepted=False, reason=why))
         elif isinstance(ask, AskToken):
@@ -135,11 +137,13 @@ class Door:
             page.asks.add(task)
             task.add_done_callback(page.asks.discard)
 
-    def _in_a_hurry(self, page: Page, ask: Ask) -> str | None:
-        """Why a page has to wait before it asks this; a stop never has to."""
+    def _in_the_way(self, page: Page, ask: Ask) -> str | None:
+        """Why a page has to wait before it asks this, or for another page; a stop never has to."""
+        if isinstance(ask, AskDrive):
+            return self._hands.refusal(page, ask, self._clock.now())
         if isinstance(ask, AskToken) and not page.welcomes.take(self._clock.now()):
             return "this page has asked too often what its token is worth; wait a second"
-        if len(page.asks) >= _ASKS_AT_ONCE and not (isinstance(ask, AskToken | AskDrive) or is_stop(ask)):
+        if len(page.asks) >= _ASKS_AT_ONCE and not (isinstance(ask, AskToken) or is_stop(ask)):
             return f"{_ASKS_AT_ONCE} questions of this page still wait for their answers"
         return None
 

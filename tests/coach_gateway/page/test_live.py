@@ -188,3 +188,24 @@ def test_the_page_asks_for_nothing_but_its_own_files(match, visit) -> None:
 def speed(match, robot: str) -> tuple[float, float]:
     truth = match.world["robots"][robot]
     return truth["vx"], truth["vy"]
+
+
+def test_a_page_that_is_open_for_long_goes_on_telling_events(match, visit) -> None:
+    tab = visit(match)
+    tab.page.locator("#all-events").click()
+    tab.page.evaluate(
+        """() => {
+            for (let number = 1; number <= 5100; number += 1) {
+                const text = `number ${number}.`;
+                const event = { tick: number, time: 0, clock: 0, kind: "action", rule: "test", text };
+                window.touchline.match.take({ kind: "event", event });
+            }
+        }"""
+    )
+    tab.until("document.querySelector('#events').textContent.includes('number 5100.')")
+    tab.page.evaluate(
+        """() => window.touchline.match.take({ kind: "event", event: {
+            tick: 1, time: 0, clock: 0, kind: "action", rule: "test", text: "and one more" } })"""
+    )
+    tab.until("document.querySelector('#events li')?.textContent.includes('and one more')")
+    assert tab.ask("document.querySelectorAll('#events li').length") == 400

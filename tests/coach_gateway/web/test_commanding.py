@@ -7,8 +7,12 @@ from typing import Any
 import pytest
 
 from coach_gateway.gateway import Gateway as Bench
+from coach_gateway.web.hands import HELD_S, Hands
+from coach_gateway.web.pages import Page
+from coach_gateway.web.protocol import AskDrive
 from schemas.coach import CoachMode, CoachOrder
 from schemas.game import ActionName
+from schemas.hand import HandDrive
 from schemas.side import Side
 
 from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, wait_for
@@ -149,3 +153,31 @@ def test_orders_of_one_side_hold_up_none_of_the_other(
     assert magenta.ask("order", side="magenta", order={"mode": "hold"})["accepted"]
     held.set()
     assert all(cyan.hear("reply", id=number)["accepted"] for number in asked)
+
+
+def test_a_robot_is_driven_from_one_page_at_a_time(visit: Visit, host: FakeHost) -> None:
+    first, second = visit("cyan"), visit("referee")
+    for vx in (1.0, 1.5):
+        first.say("drive", robot="cyan1", hand={"drive": {"vx": vx}})
+        assert wait_for(host.hands).drive.vx == vx
+    first.say("drive", robot="cyan1", hand={"drive": {"vx": 2.0}})
+    second.say("drive", robot="cyan2", hand={"drive": {"vx": -1.0}})
+    assert sorted(wait_for(host.hands).drive.vx for _ in range(2)) == [-1.0, 2.0]  # each its own
+    first.say("drive", robot="cyan1", hand={"release": True})
+    assert wait_for(host.hands).release
+    second.say("drive", robot="cyan1", hand={"drive": {"vx": -2.0}})
+    assert wait_for(host.hands).drive.vx == -2.0
+
+
+def test_a_second_hand_on_a_robot_is_refused_until_the_first_has_let_go() -> None:
+    hands, first, second = Hands(), Page(None, None, 0.0), Page(None, None, 0.0)
+    drive = AskDrive(id=1, deed="drive", robot="cyan1", hand=HandDrive())
+    release = drive.model_copy(update={"hand": HandDrive(release=True)})
+    assert hands.refusal(first, drive, 10.0) is None
+    assert "cyan1 is driven from another page" in (hands.refusal(second, drive, 10.1) or "")
+    assert hands.refusal(second, release, 10.1) is not None  # nor does it take it out of the other's hand
+    assert hands.refusal(first, drive, 10.4) is None
+    assert hands.refusal(second, drive, 10.8) is not None
+    assert hands.refusal(first, release, 10.8) is None
+    assert hands.refusal(second, drive, 10.8) is None
+    assert hands.refusal(first, drive, 10.8 + HELD_S) is None  # silent for so long, it has let go
