@@ -81,6 +81,7 @@ def test_a_page_waits_for_its_match_and_keeps_the_token_that_nobody_has_answered
     page.locator("#token").fill("the-referee")
     page.keyboard.press("Enter")
     page.wait_for_timeout(500)  # several times as long as an answer is waited for
+    page.evaluate("window.touchline.line.answerWithin = 20000")
     lobby.close()
     gateway_of(match.medium, lobby.port)
     page.wait_for_function(
