@@ -25,7 +25,7 @@ from schemas.league.signals import BY_NAME, START, STOP
 from schemas.side import Side
 
 MOST = 16
-"""Base stations at the same time; more are turned away."""
+"""Base stations at the same time; of more, those give way who have not said who they are, or they are turned away."""
 UNREAD = 65_536
 """Bytes that may wait for one that does not read. Ours: some thousand commands."""
 _SILENCE_S = 1.0
@@ -127,7 +127,7 @@ class RefBoxServer:
         """One connection, from its beginning to its end."""
         host, port = (writer.get_extra_info("peername") or ("gone", 0))[:2]
         peer = _Peer(writer, f"{host}:{port}")
-        if len(self._peers) >= MOST:
+        if len(self._peers) >= MOST and not self._make_room():
             self._say(f"base station {peer.name} turned away: {MOST} are connected")
             writer.transport.abort()
             return
@@ -145,6 +145,15 @@ class RefBoxServer:
         finally:
             late.cancel()
             self._forget(peer)
+
+    def _make_room(self) -> bool:
+        """Whether somebody gives way: whoever came first of those who have not said who they are."""
+        stranger = next((peer for peer in self._peers if peer.side is None), None)
+        if stranger is None:
+            return False
+        self._say(f"base station {stranger.name} gives way: it has not said who it is, and {MOST} are connected")
+        self._drop(stranger)
+        return True
 
     def _take(self, peer: _Peer, said: dict[str, Any]) -> None:
         """One object of a base station: who it is, or how it sees the world.

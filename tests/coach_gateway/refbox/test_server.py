@@ -323,6 +323,27 @@ def test_more_base_stations_than_there_is_room_for_are_turned_away(
     asyncio.run(play())
 
 
+def test_who_has_not_said_who_it_is_gives_way_to_a_team(
+    boxed: Any, until: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whoever opens links and says nothing keeps no team out."""
+    monkeypatch.setattr(server_module, "MOST", 3)
+
+    async def play() -> None:
+        async with boxed() as (bench, box, come):
+            silent = []
+            for number in range(3):
+                silent.append(await come())
+                await until(lambda number=number: len(box._peers) == number + 1)
+            cyan, magenta = await come(team="cyan"), await come(team="magenta")
+            await until(lambda: silent[0].gone and silent[1].gone)
+            assert not silent[2].gone
+            bench.stage.say(phase=Phase.KICK_OFF, side=Side.CYAN)
+            await until(lambda: all("KICKOFF Sapphire" in team.commands() for team in (cyan, magenta, silent[2])))
+
+    asyncio.run(play())
+
+
 def test_a_port_that_is_taken_is_an_error_of_one_line(opened: Any) -> None:
     async def play() -> None:
         with socket.socket() as taken:
