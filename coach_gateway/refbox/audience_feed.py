@@ -22,6 +22,10 @@ _OLD_S = 1.0
 """s of wall time after which a base station's world state no longer counts, and ours stands in."""
 
 
+_MOST_BYTES = 65_507
+"""Of one datagram, by UDP over IPv4."""
+
+
 class AudienceFeed:
     """Sends to a list of addresses."""
 
@@ -41,6 +45,7 @@ class AudienceFeed:
         self._audience = Audience()
         self._narrator = Narrator()
         self._transport: asyncio.DatagramTransport | None = None
+        self._complained = False
         live.follow(self._narrate)
 
     async def serve(self, stop: asyncio.Event) -> None:
@@ -77,19 +82,34 @@ class AudienceFeed:
 
     def _tell(self) -> None:
         state, setup = self._live.state, self._live.setup
-        if state is not None and setup is not None:
-            self._send(self._audience.teams(state, setup, {side: self._world(side) for side in Side}))
+        if state is None or setup is None:
+            return
+        if self._send(self._audience.teams(state, setup, {side: self._world(side) for side in Side})):
+            return
+        if not self._complained:
+            self._complained = True
+            self._say("audience feed: a base station tells more than a datagram holds; what our robots say stands in")
+        self._send(self._audience.teams(state, setup, {side: self._own(side) for side in Side}))
 
     def _world(self, side: Side) -> Mapping[str, Any]:
         live, view = self._live, self._views.get(side)
         if view is not None and view.newest is not None and live.now - view.newest_at < _OLD_S:
             return view.newest
+        return self._own(side)
+
+    def _own(self, side: Side) -> Mapping[str, Any]:
+        live = self._live
         world, setup = live.world, live.setup
         if world is None or setup is None:
             return {}
         return own_view(side, setup, live.sides, live.state, world, live.beliefs([side]))
 
-    def _send(self, content: Mapping[str, Any]) -> None:
+    def _send(self, content: Mapping[str, Any]) -> bool:
+        """Send it to everybody; whether it is small enough for that."""
+        datagram = json.dumps(content, separators=(",", ":")).encode() + b"\x00"
+        if len(datagram) > _MOST_BYTES:
+            return False
         if self._transport is not None and not self._transport.is_closing():
             for address in self._targets:
-                self._transport.sendto(json.dumps(content, separators=(",", ":")).encode() + b"\x00", address)
+                self._transport.sendto(datagram, address)
+        return True

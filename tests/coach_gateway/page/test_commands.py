@@ -87,6 +87,7 @@ def test_what_ends_a_match_is_pressed_twice(match, visit) -> None:
     assert tab.button("end_game").inner_text() == "Press again"
     assert match.state.phase is not Phase.FULL_TIME
     tab.button("end_game").click()
+    assert tab.button("end_game").inner_text() == "End match"  # a third press would have to be made sure of again
     match.until(lambda: match.host.simulation.over)
 
 

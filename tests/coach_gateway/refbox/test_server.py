@@ -418,3 +418,26 @@ def test_the_audience_hears_of_teams_and_events(
             transport.close()
 
     asyncio.run(play())
+
+
+def test_a_base_station_that_tells_too_much_does_not_silence_the_audience_feed(
+    boxed: Any, until: Any, check_world_state: Any
+) -> None:
+    async def play() -> None:
+        async with boxed() as (bench, box, come):
+            loop = asyncio.get_running_loop()
+            transport, display = await loop.create_datagram_endpoint(Display, local_addr=("127.0.0.1", 0))
+            bench.start(
+                AudienceFeed(bench.live, [transport.get_extra_info("sockname")[:2]], bench.said.append, box.views)
+            )
+            bench.stage.show()
+            cyan = await come(team="cyan")
+            cyan.say(**world_state("Sapphire", intention="x" * 64_500))
+            await until(lambda: box.views[Side.CYAN].states)
+            told = len(display.said)
+            await until(lambda: len(display.said) > told + 3)
+            check_world_state(display.said[-1]["teamA"]["worldState"])
+            assert sum("more than a datagram holds" in line for line in bench.said) == 1
+            transport.close()
+
+    asyncio.run(play())
