@@ -23,8 +23,10 @@ def test_an_action_is_answered_in_the_next_tick(stage, request):
     pitch = request.getfixturevalue(stage)
     states = pitch.hear(STATE)
     pitch.ticks(2)
-    assert ask(pitch, ActionName.STOP) == ActionReply(accepted=True)
-    assert states.all()[-1].phase is Phase.STOPPED
+    reply = ask(pitch, ActionName.STOP)
+    said = states.all()[-1]
+    assert said.phase is Phase.STOPPED
+    assert reply == ActionReply(accepted=True, tick=said.tick)
     again = ask(pitch, ActionName.STOP)
     assert not again.accepted
     assert "the game is stopped already" in again.reason
