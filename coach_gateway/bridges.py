@@ -2,11 +2,12 @@
 
 import socket
 from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 
 from coach_gateway import refbox
 from coach_gateway.live import Live
-from coach_gateway.ports import try_port
+from coach_gateway.ports import port_tried
 from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
 from coach_gateway.refbox.framing import Protocol
@@ -42,15 +43,16 @@ class Bridges:
         return self.udp is not None or bool(self.boxes or self.doors or self.audience)
 
     def try_ports(self) -> None:
-        """Make sure that whoever is to come can be listened for.
+        """Make sure that whoever is to come can be listened for, all of them beside each other.
 
         Raises:
             TouchlineError: a port is taken.
         """
-        if self.udp is not None:
-            try_port("--udp", self.listen, self.udp, socket.SOCK_DGRAM)
-        for door in self.doors:
-            try_port("--refbox-server", door.host, door.port, socket.SOCK_STREAM)
+        with ExitStack() as stack:
+            if self.udp is not None:
+                stack.enter_context(port_tried("--udp", self.listen, self.udp, socket.SOCK_DGRAM))
+            for door in self.doors:
+                stack.enter_context(port_tried("--refbox-server", door.host, door.port, socket.SOCK_STREAM))
 
 
 NO_BRIDGES = Bridges()

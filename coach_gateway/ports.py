@@ -2,24 +2,31 @@
 
 import errno
 import socket
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 
 from schemas.errors import TouchlineError
 
 
-def try_port(option: str, address: str, port: int, kind: socket.SocketKind) -> None:
-    """Make sure that this port can be listened on, and let it go again.
+@contextmanager
+def port_tried(option: str, address: str, port: int, kind: socket.SocketKind) -> Iterator[None]:
+    """Make sure that this port can be listened on, and let it go again at the end of the block.
 
     Raises:
         TouchlineError: it cannot.
     """
-    try:
-        family, _, _, _, place = socket.getaddrinfo(address, port, type=kind, flags=socket.AI_PASSIVE)[0]
-        with socket.socket(family, kind) as probe:
+    with ExitStack() as stack:
+        try:
+            family, _, _, _, place = socket.getaddrinfo(address, port, type=kind, flags=socket.AI_PASSIVE)[0]
+            probe = stack.enter_context(socket.socket(family, kind))
             if kind is socket.SOCK_STREAM:
                 probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # as the server itself does
             probe.bind(place)
-    except (OSError, UnicodeError) as error:
-        raise cannot_listen(option, address, port, error) from None
+            if kind is socket.SOCK_STREAM:
+                probe.listen()
+        except (OSError, UnicodeError) as error:
+            raise cannot_listen(option, address, port, error) from None
+        yield
 
 
 def cannot_listen(option: str, address: str, port: int, error: OSError | UnicodeError) -> TouchlineError:

@@ -88,6 +88,14 @@ def test_a_port_that_is_taken_is_told_before_there_is_a_host(capsys: pytest.Capt
     assert line.startswith(f"touchline: --udp {port} cannot be listened on at 127.0.0.1 (Address already in use)")
 
 
+def test_a_port_that_is_asked_for_twice_is_told_too() -> None:
+    port = with_port("tcp/127.0.0.1:0").rpartition(":")[2]
+    with pytest.raises(TouchlineError, match=rf"--refbox-server {port} cannot be listened on"):
+        asked(doors=[port, f"cyan:{port}"]).try_ports()
+    asked(doors=[port]).try_ports()
+    asked(doors=["0", "0"]).try_ports()
+
+
 @pytest.mark.parametrize("address", ["192.0.2.1", "a..b"])
 def test_an_address_that_is_not_this_machines_is_told_as_such(address: str) -> None:
     with pytest.raises(TouchlineError, match=f"--listen-bridges {address} is no address of this machine"):
