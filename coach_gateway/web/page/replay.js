@@ -38,7 +38,9 @@ export class Replay {
   update() {
     const { replay, live } = this.match;
     show(byId("replay"), !live);
-    if (live || replay === null) return;
+    if (live) return;
+    this.#lock(this.#why());
+    if (replay === null) return;
     const scrub = byId("scrub");
     if (Number(scrub.min) !== replay.start || Number(scrub.max) !== replay.end) {
       scrub.min = replay.start;
@@ -49,10 +51,19 @@ export class Replay {
     byId("play").setAttribute("aria-label", replay.paused ? "Play (space)" : "Pause (space)");
     byId("loop").setAttribute("aria-pressed", replay.loop);
     if (document.activeElement !== byId("rate")) byId("rate").value = replay.rate === null ? "fast" : String(replay.rate);
-    const may = this.match.may("replay");
+  }
+
+  /** Why nobody may do anything here, or nothing. */
+  #why() {
+    if (this.match.replay === null) return "it is not known yet how the replay stands";
+    return this.match.may("replay") ? "" : "only the referee of this replay may";
+  }
+
+  /** Lets the replay be controlled, or says why it cannot be. */
+  #lock(why) {
     for (const control of byId("replay").querySelectorAll("button, select, #scrub")) {
-      control.disabled = !may;
-      control.title = may ? control.dataset.title ?? "" : "only the referee of this replay may";
+      control.disabled = why !== "";
+      control.title = why || (control.dataset.title ?? "");
     }
   }
 
@@ -64,7 +75,9 @@ export class Replay {
   }
 
   toggle() {
-    return this.#ask("play", this.match.replay?.paused ? "Play" : "Pause", { deed: this.match.replay?.paused ? "play" : "pause" });
+    if (this.#why()) return null;
+    const { paused } = this.match.replay;
+    return this.#ask("play", paused ? "Play" : "Pause", { deed: paused ? "play" : "pause" });
   }
 
   step(ticks = 1) {
@@ -77,8 +90,8 @@ export class Replay {
 
   /** Goes to a time in s; while one is on its way, only the newest wish counts. */
   async seek(time) {
-    if (!this.match.may("replay")) return;
-    const { start, end } = this.match.replay ?? { start: 0, end: time };
+    if (this.#why()) return;
+    const { start, end } = this.match.replay;
     this.#wanted = Math.min(Math.max(time, start), end);
     if (this.#asking) return;
     this.#asking = true;

@@ -1,8 +1,12 @@
 """A recording on the same page: scrubbed, stepped, at another rate, from event to event."""
 
+import threading
+
 import pytest
 
+from coach_gateway.web.stage import Stage
 from schemas.game import EventKind
+from schemas.replay import ReplayReply
 from schemas.world import World
 
 
@@ -38,6 +42,22 @@ def test_a_recording_that_is_begun_paused_shows_its_first_picture(replay_of, vis
     assert tab.ask("window.touchline.match.replay.paused")
     tab.page.reload()
     tab.until(f"window.touchline?.stage.world?.time === {first.time}")
+
+
+def test_a_replay_is_controlled_when_it_is_known_how_it_stands(replayed, visit, monkeypatch) -> None:
+    """Until then the bar has no length: whoever drew it to its middle would go to the beginning."""
+    ask, told = Stage._ask_replay, threading.Event()
+
+    def late(stage: Stage) -> ReplayReply:
+        told.wait(30.0)
+        return ask(stage)
+
+    monkeypatch.setattr(Stage, "_ask_replay", late)
+    tab = visit(replayed, "referee")
+    for control in ("scrub", "play", "step", "rate", "loop", "next"):
+        assert tab.page.locator(f"#{control}").is_disabled()
+    told.set()
+    scrub(tab, 8.0)
 
 
 def test_it_plays_pauses_steps_and_changes_its_rate(replayed, visit) -> None:
