@@ -6,9 +6,6 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from mcap.writer import CompressionType
-from mcap.writer import IndexType as Index
-
 from recordings.container import ChannelRecord
 from recordings.environment import library
 from recordings.lean_writer import LeanWriter
@@ -32,13 +29,7 @@ class CopyWriter:
             self._file = self._part.open("wb")
         except OSError as error:
             raise TouchlineError(f"{path}: {error.strerror}; give a path that can be written") from None
-        self._mcap = LeanWriter(
-            self._file,
-            chunk_size=CHUNK_BYTES,
-            compression=CompressionType.ZSTD,
-            index_types=Index.ALL,
-            enable_data_crcs=True,
-        )
+        self._mcap = LeanWriter(self._file, CHUNK_BYTES)
         self._channels: dict[str, int] = {}
         self._schemas: dict[tuple[str, bytes], int] = {}
         self._ledgers: dict[str, KeyLedger] = {}

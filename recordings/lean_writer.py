@@ -1,25 +1,39 @@
-"""The stock MCAP writer with a shorter way for messages: one that is added costs a third.
+"""The stock MCAP writer with a shorter way for messages, where one that is added costs a third, and a choice of level.
 
-It writes the same bytes. To do so it reaches into the stock writer's own parts, by the names that they have there; a
-version of the library that calls them otherwise is found by the test that compares the two.
+Of the same level it writes the same bytes. To do so it reaches into the stock writer's own parts, by the names that
+they have there; a version of the library that calls them otherwise is found by the test that compares the two.
 """
 
 import struct
+import zlib
 from itertools import chain
-from typing import Any
+from typing import IO, Any
 
+import zstandard
 from mcap.data_stream import RecordBuilder
 from mcap.opcode import Opcode
-from mcap.records import MessageIndex
-from mcap.writer import Writer
+from mcap.records import Chunk, ChunkIndex, MessageIndex
+from mcap.writer import CompressionType, IndexType, Writer
 
 _HEAD = struct.Struct("<BQHIQQ")
 """Opcode, length, channel, number, log time and publish time of a message; its payload follows."""
 _BEFORE_PAYLOAD = _HEAD.size - 9
+LEVEL = 1
+"""Of zstd. On the messages of a match it takes half the time of the stock writer's 3, and packs no worse."""
 
 
 class LeanWriter(Writer):
-    """As `mcap.writer.Writer`, which has to write chunks."""
+    """As `mcap.writer.Writer`, with chunks of `chunk_size` bytes that zstd packs, all indexes and all checksums."""
+
+    def __init__(self, file: IO[bytes], chunk_size: int, level: int = LEVEL) -> None:
+        super().__init__(
+            file,
+            chunk_size=chunk_size,
+            compression=CompressionType.ZSTD,
+            index_types=IndexType.ALL,
+            enable_data_crcs=True,
+        )
+        self._compressor = zstandard.ZstdCompressor(level=level)
 
     def add_message(self, channel_id: int, log_time: int, data: bytes, publish_time: int, sequence: int = 0) -> None:
         """Write a message; times in ns."""
@@ -46,7 +60,48 @@ class LeanWriter(Writer):
         )
         buffer.write(data)
         if buffer.tell() > parts._Writer__chunk_size:
-            parts._Writer__finalize_chunk()
+            self._Writer__finalize_chunk()
+
+    def _Writer__finalize_chunk(self) -> None:  # noqa: N802 - the stock writer's own, by the name that it has there
+        """Write the chunk that is open, and its indexes."""
+        parts: Any = self
+        chunk, stream, records = parts._Writer__chunk_builder, parts._Writer__stream, parts._Writer__record_builder
+        if not chunk.num_messages:
+            return
+        parts._Writer__statistics.chunk_count += 1
+        content = chunk.end()
+        packed = self._compressor.compress(content)
+        parts._Writer__flush()
+        begin, first, last = stream.tell(), chunk.message_start_time, chunk.message_end_time
+        Chunk(
+            compression="zstd",
+            data=packed,
+            message_start_time=first,
+            message_end_time=last,
+            uncompressed_crc=zlib.crc32(content),
+            uncompressed_size=len(content),
+        ).write(records)
+        length = records.count
+        parts._Writer__flush()
+        indexes, places = stream.tell(), {}
+        for channel, index in chunk.message_indices.items():
+            places[channel] = indexes + records.count
+            index.write(records)
+        parts._Writer__chunk_indices.append(
+            ChunkIndex(
+                message_start_time=first,
+                message_end_time=last,
+                chunk_start_offset=begin,
+                chunk_length=length,
+                message_index_offsets=places,
+                message_index_length=records.count,
+                compression="zstd",
+                compressed_size=len(packed),
+                uncompressed_size=len(content),
+            )
+        )
+        parts._Writer__flush()
+        chunk.reset()
 
 
 class _LeanIndex(MessageIndex):

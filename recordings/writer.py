@@ -11,8 +11,6 @@ from pathlib import Path
 from queue import Empty, Queue
 from threading import Thread
 
-from mcap.writer import CompressionType
-from mcap.writer import IndexType as Index
 from pydantic_core import to_json
 
 from recordings.cast import Cast
@@ -68,13 +66,7 @@ class RecordingWriter:
             self._file = self.part.open("wb")
         except OSError as error:
             raise TouchlineError(f"{path}: {error.strerror}; give a path that can be written") from None
-        self._mcap = LeanWriter(
-            self._file,
-            chunk_size=CHUNK_BYTES,
-            compression=CompressionType.ZSTD,
-            index_types=Index.ALL,
-            enable_data_crcs=True,
-        )
+        self._mcap = LeanWriter(self._file, CHUNK_BYTES)
         self._thread = Thread(target=self._run, name="recording writer", daemon=True)
         self.begun = False
 

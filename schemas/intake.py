@@ -7,11 +7,14 @@ from pydantic import Field
 
 from schemas.message import Message, Part
 
+MAX_KEY = 200
+"""Characters of a key."""
+
 
 class IntakeEntry(Part):
     """One payload, with what travelled beside it."""
 
-    key: Annotated[str, Field(max_length=200)]
+    key: Annotated[str, Field(max_length=MAX_KEY)]
     """Key below the match, `robot/cyan1/command`."""
     text: str | None = None
     """The payload, where it is UTF-8."""

@@ -5,12 +5,16 @@ import struct
 VARINT, DOUBLE, BYTES, FIXED32 = 0, 1, 2, 5
 """Wire types."""
 _64_BITS = (1 << 64) - 1
+_ONE_BYTE = [bytes((number,)) for number in range(0x80)]
+"""Most numbers are small."""
 double = struct.Struct("<d").pack
 fixed32 = struct.Struct("<I").pack
 
 
 def varint(number: int) -> bytes:
     """A whole number, seven bits at a time; negative ones in two's complement of 64 bits."""
+    if 0 <= number <= 0x7F:
+        return _ONE_BYTE[number]
     number &= _64_BITS
     out = bytearray()
     while number > 0x7F:
