@@ -11,9 +11,9 @@ from schemas.topics import HAND
 PHONE = {"width": 390, "height": 844, "has_touch": True, "is_mobile": True}
 
 
-def stop(match, tab) -> None:
+def stop(tab) -> None:
     tab.page.locator("#stop").click()
-    match.until(lambda: match.state.phase is Phase.STOPPED)
+    tab.wait_for_log("Stop accepted")
 
 
 def drop(match, tab) -> tuple[float, float]:
@@ -42,7 +42,7 @@ def take(match, tab, robot: str):
 def test_a_finger_drags_a_robot_and_a_second_finger_has_no_part_in_it(resting, visit) -> None:
     match = resting
     tab = visit(match, "referee", **PHONE)
-    stop(match, tab)
+    stop(tab)
     begin, end, elsewhere = tab.at(*match.where("cyan1")), tab.at(-6.0, 5.0), tab.at(8.0, -4.0)
     tab.touch("Start", begin)
     for share in (0.3, 0.7, 1.0):
@@ -60,7 +60,7 @@ def test_a_finger_drags_a_robot_and_a_second_finger_has_no_part_in_it(resting, v
 def test_a_finger_beside_all_bodies_scrolls_the_page(resting, visit) -> None:
     match = resting
     tab = visit(match, "referee", width=390, height=500, has_touch=True, is_mobile=True)
-    stop(match, tab)
+    stop(tab)
     x, y = tab.at(0.0, 6.9)
     tab.touch("Start", (x, y + 20))
     for step in range(1, 8):
@@ -161,7 +161,7 @@ def test_the_ball_is_not_dragged_while_a_referee_box_commands_and_the_page_says_
 def test_what_is_in_the_hand_when_the_game_goes_on_is_not_set_down(resting, visit) -> None:
     match = resting
     tab = visit(match, "referee")
-    stop(match, tab)
+    stop(tab)
     tab.page.mouse.move(*tab.at(*match.where("cyan1")))
     tab.page.mouse.down()
     tab.page.mouse.move(*tab.at(-6.0, 5.0))

@@ -39,7 +39,7 @@ def test_a_recording_that_is_begun_paused_shows_its_first_picture(replay_of, vis
     tab = visit(replay)
     first = next(world for _, world in replay.programme.recording.decoded("world"))
     assert time_of(tab) == first.time
-    assert tab.ask("window.touchline.match.replay.paused")
+    tab.until("window.touchline.match.replay?.paused")
     tab.page.reload()
     tab.until(f"window.touchline?.stage.world?.time === {first.time}")
 
