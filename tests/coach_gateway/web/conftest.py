@@ -207,11 +207,15 @@ class Visitor:
         self.socket: ClientConnection = opening.__enter__()
 
     def hear(self, kind: str = "", **fields: Any) -> dict[str, Any]:
-        """The next message, of a kind and with these fields where they are named; others are passed over."""
+        """The next message, of a kind and with these fields where they are named; others are passed over.
+
+        So are signs of life, which come once a second between all else.
+        """
         deadline = time.monotonic() + SOON
         while True:
             message: dict[str, Any] = json.loads(self.socket.recv(max(0.0, deadline - time.monotonic())))
-            if kind in ("", message["kind"]) and all(message[name] == value for name, value in fields.items()):
+            of_kind = message["kind"] == kind if kind else message["kind"] != "alive"
+            if of_kind and all(message[name] == value for name, value in fields.items()):
                 return message
 
     def hear_what_is_played(self) -> dict[str, Any]:
