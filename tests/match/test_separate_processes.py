@@ -47,7 +47,7 @@ class Story:
         meeting = ("--connect", endpoint, "--match", "apart")
         self.agents = [
             start(
-                *("robot_agent", *meeting, "--robot", robot, "--brain", "mind:Marked", "--patience", "20"),
+                *("robot_agent", *meeting, "--robot", robot, "--brain", "mind:Marked", "--patience", "90"),
                 folder=folder,
                 name=robot,
                 **without_pybullet,
