@@ -25,7 +25,8 @@ def scrub(tab, time: float) -> None:
 
 def test_the_bar_leads_to_any_moment_and_back(replayed, visit) -> None:
     tab = visit(replayed, "referee")
-    assert tab.page.locator("#replay").is_visible() and tab.page.locator("#role").inner_text() == "recording"
+    tab.until("document.getElementById('role').textContent === 'recording'")
+    assert tab.page.locator("#replay").is_visible()
     for time in (8.0, 3.0, 11.5, 1.5):
         scrub(tab, time)
         world = world_at(replayed, time_of(tab))
@@ -103,7 +104,7 @@ def test_each_event_of_the_list_and_each_mark_leads_to_its_moment(replayed, visi
 
 def test_a_spectator_of_a_replay_watches(replayed, visit) -> None:
     tab = visit(replayed)
-    assert tab.page.locator("#play").is_disabled() and tab.page.locator("#scrub").is_disabled()
+    tab.until("document.getElementById('play').disabled && document.getElementById('scrub').disabled")
     before = time_of(tab)
     for key in ("n", "ArrowRight", "Space"):
         tab.page.keyboard.press(key)
@@ -114,6 +115,7 @@ def test_a_spectator_of_a_replay_watches(replayed, visit) -> None:
 
 def test_a_recording_is_played_and_not_commanded(replayed, visit) -> None:
     tab = visit(replayed, "referee")
+    tab.until("document.querySelector('[data-action=start]').title === 'this is a recording'")
     for panel in ("match", "coach", "drive", "settings"):
         assert not tab.page.locator(f"#to-{panel}").is_visible()
     assert not tab.page.locator("#stop").is_visible()
