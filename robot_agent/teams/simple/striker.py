@@ -140,10 +140,9 @@ def _shoot(ground: Ground, target: Point, width: float, setup: Setup, limits: Li
 
 
 def _pass(ground: Ground, receiver: str, setup: Setup, limits: Limits) -> Action:
+    """Aim, and kick; the receiver is named while there is no kick yet, too, so that it stays the same."""
     motion, kick = pass_to(ground.me, ground.mates[receiver].body[:2], setup, limits)
-    return Action(
-        Role.STRIKER, f"pass to {receiver}", motion, dribble=True, kick=kick, pass_to=receiver if kick else None
-    )
+    return Action(Role.STRIKER, f"pass to {receiver}", motion, dribble=True, kick=kick, pass_to=receiver)
 
 
 def _carry(ground: Ground, setup: Setup, limits: Limits) -> Action:

@@ -8,6 +8,7 @@ import pytest
 from robot_agent.contract import Briefing, load_brain
 from robot_agent.teams.player import SPEAKS_EVERY
 from robot_agent.teams.set_piece import asked_distance
+from robot_agent.teams.simple.striker import PATIENCE
 from schemas.coach import CoachMode, CoachOrder
 from schemas.command import Drive
 from schemas.game import OffField, Point, Standing, TeamPhase
@@ -70,6 +71,21 @@ def test_a_taker_between_two_receivers_who_are_as_good_turns_to_one_of_them(squa
         turns.append(said["cyan2"].drive.omega if is_held else said["cyan2"].drive.vy)
     settled = turns[20:]
     assert min(settled) > 0.0 or max(settled) < 0.0
+
+
+def test_a_striker_in_a_hurry_between_two_receivers_turns_to_one_of_them(squad):
+    """The one that it had chosen was forgotten in every tick without a kick."""
+    poses = {2: (-3.0, 0.0, 0.0), 3: (-1.0, 4.0, 3.0), 4: (-1.0, -4.0, 3.0)}
+    made, turns = squad("simple", poses), []
+    made.brains = {"cyan2": made.brains["cyan2"]}
+    for tick in range(round(1.5 * PATIENCE * 50)):
+        better = 3 if tick // 10 % 2 else 4
+        for number in (3, 4):
+            made.poses[f"cyan{number}"] = (-0.9 if number == better else -1.1, *poses[number][1:])
+        made.meet()
+        turns.append(made.act(ball=(-2.65, 0.0), holding=True)["cyan2"].drive.omega)
+    hurried = turns[round(1.1 * PATIENCE * 50) :]
+    assert min(hurried) > 0.0 or max(hurried) < 0.0
 
 
 @pytest.mark.parametrize("team", TEAMS)
