@@ -26,17 +26,17 @@ def rng() -> random.Random:
 
 @pytest.fixture
 def several_chunks(make_stage) -> Path:
-    """A finished recording of 400 ticks in 16 chunks."""
+    """A finished recording of 208 ticks in 16 chunks."""
     stage = make_stage()
     stage.begin()
     clock = stage.recorder_bus.clock
-    for tick in range(400):
+    for tick in range(208):
         stage.host.play(tick)
         clock.sleep_until(clock.now() + 0.02)
         stage.recorder.pump()
-        if tick % 25 == 24:
+        if tick % 13 == 12:
             stage.output.sync()  # ends a chunk, however busy the machine is
-    stage.host.goal(399)
+    stage.host.goal(207)
     stage.leave()
     return stage.path
 
@@ -64,7 +64,7 @@ def check_with_the_stock_readers(path: Path) -> int:
 def test_a_file_that_is_whole_is_left_as_it_is(several_chunks):
     before = several_chunks.read_bytes()
     done = recover(several_chunks)
-    assert (done.repaired, done.messages, done.cut) == (False, 2401, 0)
+    assert (done.repaired, done.messages, done.cut) == (False, 1249, 0)
     assert several_chunks.read_bytes() == before
 
 
@@ -314,4 +314,4 @@ def test_a_recorder_that_is_killed_at_any_moment_leaves_all_that_it_had_flushed(
         recovered += len(messages)
         done.path.unlink()
     nursery.communicate("")
-    assert recovered > 20 * KILLS
+    assert recovered >= 20 * KILLS  # a batch each at least
