@@ -121,6 +121,7 @@ export class Replay {
   }
 
   #pointed(event) {
+    if (this.#why()) return;
     const box = byId("marks").getBoundingClientRect();
     const { start, end } = this.match.replay;
     this.seek(start + ((event.clientX - box.left) / box.width) * (end - start));

@@ -57,8 +57,12 @@ def test_a_replay_is_controlled_when_it_is_known_how_it_stands(replayed, visit, 
     tab = visit(replayed, "referee")
     for control in ("scrub", "play", "step", "rate", "loop", "next"):
         assert tab.page.locator(f"#{control}").is_disabled()
+    tab.page.locator("#marks").click()
+    tab.page.keyboard.press("Space")
+    assert tab.ask("window.touchline.match.replay") is None
     told.set()
     scrub(tab, 8.0)
+    assert tab.page.locator("#log li").count() == 0
 
 
 def test_it_plays_pauses_steps_and_changes_its_rate(replayed, visit) -> None:
