@@ -16,6 +16,7 @@ from schemas.bus.endpoint import near, parse_endpoint
 from schemas.errors import TouchlineError
 
 if TYPE_CHECKING:
+    from arena.match_run import StopSignals
     from arena.supervisor import Notice
     from recordings.reader import Recorded
     from recordings.replay.live_view import LiveView
@@ -76,6 +77,7 @@ def replay(
     if agent is not None:
         _compare(file, agent, json=json)
         return
+    from arena.match_run import StopSignals
     from arena.page import page_beside, page_port
     from recordings.replay.programme import Programme, Replay
     from recordings.selection import Selection
@@ -100,13 +102,14 @@ def replay(
     endpoint = connect or options.listening(listen, insecure=insecure)
     with ExitStack() as stack:
         bus = stack.enter_context(_seat(name, clock, endpoint, is_host=connect is None))
+        stop = stack.enter_context(StopSignals())  # from before it is told where to look at it
         look_after: Callable[[], list[Notice]] = list
         if port is not None:
             tell = partial(typer.echo, err=True)
             look_after = stack.enter_context(page_beside(name, near(endpoint), listen_web, port, clock, tell))
         view = stack.enter_context(_live_view(opened, foxglove_port)) if foxglove else None
         began = clock.now()
-        player = _play(opened, bus, clock, look_after, view, quiet=json)
+        player = _play(opened, bus, clock, stop, look_after, view, quiet=json)
         wall = clock.now() - began
     status = player.status()
     if json:
@@ -154,13 +157,13 @@ def _play(
     opened: "Replay",
     bus: "Bus",
     clock: "Clock",
+    stop: "StopSignals",
     look_after: "Callable[[], list[Notice]]",
     view: "LiveView | None",
     *,
     quiet: bool,
 ) -> "Player":
-    """Play it on the screen that suits, by keys where there is a terminal; Ctrl-C and SIGTERM end it."""
-    from arena.match_run import StopSignals
+    """Play it on the screen that suits, by keys where there is a terminal, until its end or a signal to stop."""
     from arena.replay_keys import asks, legend
     from arena.replay_screen import screen_on
     from arena.terminal import terminal
@@ -181,7 +184,7 @@ def _play(
         return opened.player(clock, say=say_and_show, has_room=has_room)
 
     host = ReplayHost(bus, opened.recording.manifest.setup, make_player)
-    with StopSignals() as stop, keyboard as keys, screen_on(stream, clock) as show:
+    with keyboard as keys, screen_on(stream, clock) as show:
         if by_keys:
             typer.echo(legend())
 
