@@ -10,6 +10,7 @@ from pathlib import Path
 
 from coach_gateway import refbox
 from coach_gateway.bridges import NO_BRIDGES, Bridges, bridges_of, services_of
+from coach_gateway.lines import plain
 from coach_gateway.refbox.framing import Protocol
 from coach_gateway.service import Service
 from coach_gateway.service import run as run_services
@@ -160,9 +161,8 @@ def _add_bridges(bridges: argparse._ArgumentGroup) -> None:
 
 
 def say(line: str) -> None:
-    """A line on stdout, at once; what strangers have said in it can neither break it nor speak to the terminal."""
-    plain = "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in line)
-    sys.stdout.write(plain + "\n")
+    """A line on stdout, at once."""
+    sys.stdout.write(plain(line) + "\n")
     sys.stdout.flush()
 
 

@@ -3,6 +3,11 @@
 from schemas.game import SIDED, GameEvent, GameState, Stage
 
 
+def plain(text: str) -> str:
+    """What others have written as one line that cannot speak to the terminal it is shown on."""
+    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)
+
+
 def clock_words(seconds: float) -> str:
     """Game time as `m:ss.s`."""
     tenths = round(seconds * 10)

@@ -8,7 +8,7 @@ from rich.text import Text
 
 from arena.status import losses_words, robots_words
 from arena.watch.pitch import SIDES, arrow
-from coach_gateway.lines import clock_words, event_line, half_words, phase_words
+from coach_gateway.lines import clock_words, event_line, half_words, phase_words, plain
 from coach_gateway.orders import OrderBook
 from coach_gateway.view import MatchView
 from schemas.coach import CoachOrder
@@ -84,7 +84,7 @@ def _everybody(setup: Setup) -> Iterator[tuple[Side, str, int]]:
 
 def _does(word: Radio | None) -> str:
     """`striker: get the ball`; empty while it has said nothing."""
-    return ": ".join(part for part in (word.role, word.intention) if part) if word is not None else ""
+    return plain(": ".join(part for part in (word.role, word.intention) if part)) if word is not None else ""
 
 
 def _troubles(

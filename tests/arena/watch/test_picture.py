@@ -123,6 +123,12 @@ def test_a_picture_says_score_phase_events_and_how_the_host_is_doing(setup: Setu
     assert "striker: shoot" in text
 
 
+def test_what_a_robot_says_cannot_speak_to_the_terminal(setup: Setup) -> None:
+    words = {"cyan2": Radio(role="\x1b[2J", intention="to\nnight")}
+    rows = [row.plain for row in robots(setup, world(cyan2=robot(1.0, 0.0)), words, None, None)]
+    assert any("\N{REPLACEMENT CHARACTER}[2J: to\N{REPLACEMENT CHARACTER}night" in row for row in rows)
+
+
 def test_what_keeps_a_robot_from_playing_stands_beside_it(setup: Setup) -> None:
     standing = {"cyan3": Standing(yellow=1, off_field=OffField.REPAIR, left=12.0)}
     health = Health(

@@ -199,7 +199,7 @@ def test_start_lets_the_game_run_though_our_referee_takes_it_in_steps(met: Any, 
                 if isinstance(step, str):
                     return ActionReply(accepted=False, reason=step)
                 bench.stage.say(**step)
-                return ActionReply(accepted=True)
+                return ActionReply(accepted=True, tick=bench.stage.state.tick)
 
             bench.stage.answer = answer
             box.say("START")

@@ -124,7 +124,7 @@ def test_a_team_of_the_league_hears_the_match_that_our_referee_officiates(
             await until(lambda: box.ports)
             reader, writer = await asyncio.open_connection("127.0.0.1", box.ports[0])
             heard: list[str] = []
-            async with asyncio.timeout(60):
+            async with asyncio.timeout(240):
                 while "DROP_BALL" not in heard:
                     heard.append(json.loads((await reader.readuntil(b"\x00"))[:-1])["command"])
             assert heard[0] == "WELCOME"
