@@ -86,11 +86,12 @@ def play_ball(ground: Ground, setup: Setup, limits: Limits) -> Action:
 
 
 def _receiver(ground: Ground, ball: Point, hurried: bool) -> str | None:
-    """The one who was chosen already while the lane to him stays open; somebody new only in a hurry."""
-    places, chosen = places_of(ground.mates), ground.receiver
-    if chosen in places and is_open(ball, places[chosen], ground.opponents, EASE):
-        return chosen
-    if hurried or not ground.may_score:
+    """The one who was chosen already while the lane to him stays open; somebody new, or behind, only in a hurry."""
+    places, has_to = places_of(ground.mates), hurried or not ground.may_score
+    chosen = places.get(ground.receiver or "")
+    if chosen is not None and (has_to or chosen[0] > ball[0]) and is_open(ball, chosen, ground.opponents, EASE):
+        return ground.receiver
+    if has_to:
         ahead = {name: place for name, place in places.items() if hurried or place[0] > PREPARED}
         return best_receiver(ball, ahead, ground.opponents, ground.me.heading)
     return None
