@@ -111,10 +111,13 @@ class Container:
     def _streamed(
         self, file: IO[bytes], keys: set[str], start_ns: int | None, end_ns: int | None
     ) -> Iterator[tuple[str, Message]]:
+        known: dict[int, str] = {}  # a file that is still written has more channels than when it was looked into
         for record in _records(file, self.path.stat().st_size):
+            if isinstance(record, Channel):
+                known.setdefault(record.id, record.topic)
             if not isinstance(record, Message):
                 continue
-            key = self.channels[record.channel_id].key
+            key = known[record.channel_id]
             late_enough = start_ns is None or record.log_time >= start_ns
             if key in keys and late_enough and (end_ns is None or record.log_time < end_ns):
                 yield key, record
@@ -249,8 +252,14 @@ def _by_reading(path: Path, file: IO[bytes]) -> Container:
 
 
 def _records(file: IO[bytes], size: int) -> Iterator[McapRecord]:
-    """Every record up to the first that is not whole."""
+    """Every record up to the first that is not whole, or belongs to no channel."""
+    channels = set()
     try:
-        yield from StreamReader(file, validate_crcs=True, record_size_limit=size).records
+        for record in StreamReader(file, validate_crcs=True, record_size_limit=size).records:
+            if isinstance(record, Channel):
+                channels.add(record.id)
+            elif isinstance(record, Message) and record.channel_id not in channels:
+                return
+            yield record
     except BROKEN:
         return

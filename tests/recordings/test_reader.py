@@ -1,4 +1,5 @@
 import pytest
+from mcap.reader import make_reader
 from mcap.writer import Writer
 
 from recordings import manifest as manifest_module
@@ -64,6 +65,19 @@ def test_a_truncated_file_is_readable_up_to_the_cut(make_stage, share):
     assert rest == whole[: len(rest)]
     assert sum(channel.messages for channel in recording.channels) == len(rest)
     assert len(list(recording.messages("world", start=0.2, end=0.4))) == 10
+
+
+def test_a_file_that_is_still_written_may_have_got_its_channels_since_it_was_looked_into(recorded):
+    """As seen once: the first chunk was written between the look and the reading."""
+    begun = recorded.path.with_name("begun.mcap.part")
+    data = recorded.path.read_bytes()
+    with recorded.path.open("rb") as file:
+        first = make_reader(file).get_summary().chunk_indexes[0]
+    begun.write_bytes(data[: first.chunk_start_offset])
+    recording = open_recording(begun)
+    begun.write_bytes(data[: first.chunk_start_offset + first.chunk_length])
+    assert list(recording.messages("world")) == []
+    assert len(list(open_recording(begun).messages("world"))) > 0
 
 
 def test_zeros_after_the_cut_do_no_harm(recorded):
