@@ -2,7 +2,8 @@
 
 import asyncio
 import json
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
 from typing import Any
 
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
@@ -33,17 +34,23 @@ class Box:
         self.link.write(json.dumps(said).encode() + b"\x00")
 
 
+@asynccontextmanager
+async def officiated(kicked_off: Callable[..., Any], until: Any) -> AsyncIterator[tuple[Any, Box]]:
+    """A match whose referee only does as he is told, and a box that cyan's base station has come to."""
+    async with kicked_off(**{"referee.mode": "manual", "rules": "friendly", "duration": 3600.0}) as bench:
+        box = Box()
+        async with await asyncio.start_server(box.meet, "127.0.0.1", 0) as server:
+            port = server.sockets[0].getsockname()[1]
+            bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append))
+            await until(lambda: box.link and bench.live.refboxes)
+            yield bench, box
+
+
 def test_a_whole_match_is_played_by_the_commands_of_the_box(kicked_off: Callable[..., Any], until: Any) -> None:
     """Kick-off, goal, goal taken back, corner, repair, the break, the second half, and the end; by hand only stop."""
 
     async def play() -> None:
-        words = {"referee.mode": "manual", "rules": "friendly", "duration": 3600.0}
-        async with kicked_off(**words) as bench:
-            box = Box()
-            server = await asyncio.start_server(box.meet, "127.0.0.1", 0)
-            port = server.sockets[0].getsockname()[1]
-            bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append))
-            await until(lambda: box.link and bench.live.refboxes)
+        async with officiated(kicked_off, until) as (bench, box):
             state = lambda: bench.stage.state  # noqa: E731  the referee's own
 
             box.say("KICKOFF", US)
@@ -79,7 +86,6 @@ def test_a_whole_match_is_played_by_the_commands_of_the_box(kicked_off: Callable
             box.say("END_GAME")
             await until(lambda: bench.stage.host.simulation.over, "the end")
             assert box.states, "nothing of the world was told"
-            server.close()
 
     asyncio.run(play())
 
@@ -88,13 +94,7 @@ def test_a_box_need_not_wait_between_its_commands(kicked_off: Callable[..., Any]
     """All in one breath: each is taken as what the one before has led to asks for."""
 
     async def play() -> None:
-        words = {"referee.mode": "manual", "rules": "friendly", "duration": 3600.0}
-        async with kicked_off(**words) as bench:
-            box = Box()
-            server = await asyncio.start_server(box.meet, "127.0.0.1", 0)
-            port = server.sockets[0].getsockname()[1]
-            bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append))
-            await until(lambda: box.link and bench.live.refboxes)
+        async with officiated(kicked_off, until) as (bench, box):
             box.say("KICKOFF", US)
             box.say("FIRST_HALF")
             box.say("START")
@@ -107,7 +107,6 @@ def test_a_box_need_not_wait_between_its_commands(kicked_off: Callable[..., Any]
             box.say("START")
             await until(lambda: bench.stage.state.half == 2 and bench.stage.state.running, "the second half")
             assert bench.stage.state.score.magenta == 1
-            server.close()
 
     asyncio.run(play())
 
