@@ -11,12 +11,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from coach_gateway.allowance import Allowance
 from coach_gateway.live import Live, pause
 from coach_gateway.refbox import DEFAULT_PORT, characters, commands
 from coach_gateway.refbox.forwarding import WAITS_FOR_START, Deeds, deeds, is_ours, speaks_for
 from coach_gateway.refbox.framing import Framer, Protocol
 from coach_gateway.refbox.own_view import own_view
-from coach_gateway.web.limits import Allowance
 from schemas.coach import CoachMode
 from schemas.errors import TouchlineError
 from schemas.game import Mode, RefereeAction

@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from coach_gateway.allowance import Allowance
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode, Meaning, for_coach, for_referee
 from coach_gateway.udp.protocol import (
     ASK,
@@ -24,7 +25,6 @@ from coach_gateway.udp.protocol import (
 )
 from coach_gateway.udp.session import AT_ONCE, PER_SECOND, Session, Turn
 from coach_gateway.web import access
-from coach_gateway.web.limits import Allowance
 from coach_gateway.web.protocol import AskAction as PageAction
 from coach_gateway.web.protocol import AskOrder as PageOrder
 from coach_gateway.web.protocol import OrderContent, Role

@@ -4,8 +4,8 @@ from collections import OrderedDict
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+from coach_gateway.allowance import Allowance
 from coach_gateway.udp.protocol import DEFAULT_RATE, Ack
-from coach_gateway.web.limits import Allowance
 from coach_gateway.web.protocol import Role
 
 SILENCE_S = 5.0

@@ -4,7 +4,7 @@ import asyncio
 from collections import Counter
 from collections.abc import Iterator
 
-from coach_gateway.web.limits import Allowance
+from coach_gateway.allowance import Allowance
 from coach_gateway.web.outlet import Outlet
 from coach_gateway.web.protocol import Role
 

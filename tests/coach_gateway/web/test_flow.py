@@ -4,7 +4,7 @@ import asyncio
 
 import pytest
 
-from coach_gateway.web.limits import Allowance
+from coach_gateway.allowance import Allowance
 from coach_gateway.web.outlet import MOST, Outlet
 from coach_gateway.web.pace import FramePace
 

@@ -1,4 +1,4 @@
-"""How much one page may say: so many messages a second, with some at once. Pure."""
+"""How much a page, a program or a box may say: so many messages a second, with some at once. Pure."""
 
 
 class Allowance:
