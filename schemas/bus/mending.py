@@ -9,12 +9,14 @@ from collections import deque
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from schemas.bus.contract import Received
+from schemas.bus.contract import Received, Stamp
 
 ASK_AGAIN_S = 0.2
 """Wall time between an answer that was cut off and the next question."""
 GIVE_UP_S = 20.0
 """Wall time after which what is missing is waited for no more: longer than any link takes that comes back."""
+REACH = 100
+"""Messages of a key that are asked for before the first that came: as many as go missing while a link is busy."""
 
 
 class Gap(NamedTuple):
@@ -45,7 +47,11 @@ class _Line:
 class Mender:
     """Puts messages into the order of their numbers; times are wall time in s."""
 
-    def __init__(self) -> None:
+    def __init__(self, since_ns: int, reach: int = REACH) -> None:
+        """Before the first message of a key that comes, up to `reach` others are asked for: nobody could see a gap
+        there. Of these, what was sent before `since_ns` (wall time) is not wanted.
+        """
+        self._since_ns, self._reach = since_ns, reach
         self.ready: deque[Received] = deque()
         """What is in order, to be taken from the left."""
         self._lines: dict[str, _Line] = {}
@@ -66,13 +72,13 @@ class Mender:
         line = self._lines.get(key)
         if stamp is None or writer is None:
             self.ready.append(received)
-        elif line is None or line.writer != writer:
-            self._skip_all(key)
-            self._lines[key] = _Line(writer, stamp.sequence + 1)
-            self.ready.append(received)
-        elif stamp.sequence < line.expected:
-            self.ready.append(received)  # a double; who keeps account will see it
         else:
+            if line is None or line.writer != writer:
+                self._skip_all(key)
+                line = self._lines[key] = _Line(writer, self._first_of(stamp))
+            if stamp.sequence < line.expected:
+                self.ready.append(received)  # a double; who keeps account will see it
+                return
             if not line.held:
                 line.ask_at, line.give_up_at = now, now + GIVE_UP_S
                 self._broken[key] = line
@@ -112,11 +118,11 @@ class Mender:
             if received.stamp is not None:
                 number = received.stamp.sequence
                 whole = whole or number == gap.last
-                if number >= line.expected:
+                if self._is_wanted(received.stamp, line):
                     line.held.setdefault(number, received)
         self._advance(gap.key, line)
         if whole and line.expected < gap.last:
-            self._skip(gap.key, line)  # the writer keeps it no more
+            self._skip(gap.key, line)  # the writer keeps it no more, or nobody wants it
         if line.expected > expected:
             line.give_up_at = now + GIVE_UP_S
 
@@ -124,6 +130,13 @@ class Mender:
         """Wait for nothing that is missing."""
         for key in list(self._broken):
             self._skip_all(key)
+
+    def _first_of(self, stamp: Stamp) -> int:
+        """The number to begin a key with whose first message that came has this stamp."""
+        return max(0, stamp.sequence - self._reach) if stamp.sent_ns >= self._since_ns else stamp.sequence
+
+    def _is_wanted(self, stamp: Stamp, line: _Line) -> bool:
+        return stamp.sequence >= line.expected and stamp.sent_ns >= self._since_ns
 
     def _skip_all(self, key: str) -> None:
         while (line := self._broken.get(key)) is not None:

@@ -18,10 +18,11 @@ _CACHE = "/@adv/pub/"
 class ZenohMending:
     """Of one subscription: samples in, messages in the order of their numbers out."""
 
-    def __init__(self, seat: Seat, read: Callable[[zenoh.Sample], Received | None], wake: Callable[[], None]) -> None:
+    def __init__(
+        self, seat: Seat, mender: Mender, read: Callable[[zenoh.Sample], Received | None], wake: Callable[[], None]
+    ) -> None:
         """`read` makes a message of a sample; `wake` is called when an answer has ended."""
-        self._seat, self._read, self._wake = seat, read, wake
-        self._mender = Mender()
+        self._seat, self._mender, self._read, self._wake = seat, mender, read, wake
         self._answers: SimpleQueue[tuple[Gap, list[zenoh.Sample]]] = SimpleQueue()
         self.passes = self._mender.passes
         self.is_due = self._mender.is_due

@@ -7,6 +7,7 @@ import zenoh
 from zenoh import ext
 
 from schemas.bus.contract import BusError, Publisher, Received, Stamp, Subscription
+from schemas.bus.mending import Mender
 from schemas.bus.session import Seat, first_line
 from schemas.bus.zenoh_mending import ZenohMending
 from schemas.topic import Delivery, Topic
@@ -81,6 +82,7 @@ class ZenohSubscription(Subscription):
         self._mending: ZenohMending | None = None
         full = seat.prefix + key
         self._poke_key = full.replace("*", _POKE)
+        born_ns = seat.clock.unix_ns()
         self._reader: Any
         if topic.delivery is Delivery.RECOVERED and not self._newest:
             recovery = ext.RecoveryConfig(heartbeat=True, periodic_queries=None)
@@ -89,7 +91,8 @@ class ZenohSubscription(Subscription):
             self._reader = ext.declare_advanced_subscriber(
                 seat.session, full, every, history=history, recovery=recovery
             )
-            self._mending = ZenohMending(seat, self._read, self.poke)
+            mender = Mender(since_ns=0, reach=_CACHE) if past else Mender(since_ns=born_ns)
+            self._mending = ZenohMending(seat, mender, self._read, self.poke)
         else:
             # one place beside the newest, so that a poke never pushes it out; a wildcard needs all keys' samples
             ring = self._newest and "*" not in key

@@ -128,3 +128,25 @@ def test_nothing_is_lost_of_what_was_said_meanwhile_though_the_link_breaks_again
         heard += hear(reader, said - 1 - heard[0])
     assert cable.links == 3
     assert heard == list(range(heard[0], said))
+
+
+def test_the_first_message_of_a_key_is_heard_though_the_link_was_cut_when_it_was_sent(ends: tuple[Bus, Cable]) -> None:
+    """Before a first message nobody sees a gap, unless its number says that it is not the first."""
+    host, cable = ends
+    with open_client("test", WallClock(), cable.endpoint, patience=LIMIT) as client:
+        reader = client.subscribe(WORLD)
+        cable.whole = False
+        wait_until(lambda: not client.connected())
+        writer = host.publisher(WORLD)
+        for _ in range(3):
+            writer.put_payload(b"{}")
+        cable.whole = True
+        wait_until(client.connected)
+        said = 3
+        heard: list[int] = []
+        while not heard:
+            writer.put_payload(b"{}")
+            said += 1
+            heard = hear(reader, 1, limit=0.1)
+        heard += hear(reader, said - 1)
+    assert heard == list(range(said))

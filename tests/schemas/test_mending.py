@@ -3,19 +3,23 @@
 import pytest
 
 from schemas.bus.contract import Received, Stamp
-from schemas.bus.mending import ASK_AGAIN_S, GIVE_UP_S, Gap, Mender
+from schemas.bus.mending import ASK_AGAIN_S, GIVE_UP_S, REACH, Gap, Mender
 from schemas.topics import WORLD
 
 
+SUBSCRIBED_NS = 5
+"""Wall time of the reader's beginning; message n is sent at time n."""
+
+
 def message(number: int, key: str = "world") -> Received:
-    return Received(WORLD, key, b"%d" % number, Stamp(number, 0, 0))
+    return Received(WORLD, key, b"%d" % number, Stamp(number, number, 0))
 
 
 class Reader:
     """Takes in what comes, and keeps what it was given."""
 
-    def __init__(self) -> None:
-        self.mender = Mender()
+    def __init__(self, since_ns: int = SUBSCRIBED_NS) -> None:
+        self.mender = Mender(since_ns)
         self.given: list[int] = []
 
     def hear(self, *numbers: int, writer: str = "a", now: float = 0.0, key: str = "world") -> list[int]:
@@ -43,9 +47,37 @@ class Reader:
 
 @pytest.fixture
 def reader() -> Reader:
+    """One who began before message 5, and has heard all since."""
     reader = Reader()
-    assert reader.hear(5, 6, 7) == [5, 6, 7]
+    assert reader.hear(4, 5, 6, 7) == [4, 5, 6, 7]
     return reader
+
+
+def test_before_the_first_message_of_a_key_is_asked_for_what_was_sent_since_the_reader_began():
+    reader = Reader()
+    assert reader.hear(8, 9) == []
+    (gap,) = reader.mender.questions(0.0)
+    assert gap == Gap("world", "a", 0, 8)
+    assert reader.answer(gap, *range(9)) == [5, 6, 7, 8, 9]
+    assert not reader.mender.is_broken
+
+
+def test_a_first_message_before_which_all_is_older_than_the_reader_is_given_at_once():
+    reader = Reader()
+    assert reader.hear(4) == [4]
+    assert not reader.mender.is_broken
+
+
+def test_who_joins_late_is_brought_no_more_than_some_messages_from_before():
+    reader = Reader()
+    assert reader.hear(1000) == []
+    (gap,) = reader.mender.questions(0.0)
+    assert gap == Gap("world", "a", 1000 - REACH, 1000)
+    assert reader.answer(gap, 1000) == [1000]
+
+
+def test_nothing_is_before_the_message_with_number_0():
+    assert Reader(since_ns=0).hear(0, 1) == [0, 1]
 
 
 def test_what_comes_in_order_passes_and_nothing_is_asked(reader):
@@ -119,9 +151,9 @@ def test_a_gap_in_one_key_holds_no_other_back(reader):
 def test_a_writer_that_begins_anew_is_not_asked_for_what_another_said(reader):
     reader.hear(10, 11)
     (gap,) = reader.mender.questions(0.0)
-    assert reader.hear(40, writer="b") == [10, 11, 40]
+    assert reader.hear(0, writer="b") == [10, 11, 0]
     assert reader.answer(gap, 8, 9, 10) == []
-    assert reader.hear(41, writer="b") == [41]
+    assert reader.hear(1, writer="b") == [1]
     assert not reader.mender.is_broken
 
 
