@@ -6,7 +6,6 @@ from schemas.bus.contract import Received, Stamp
 from schemas.bus.mending import ASK_AGAIN_S, GIVE_UP_S, REACH, Gap, Mender
 from schemas.topics import WORLD
 
-
 SUBSCRIBED_NS = 5
 """Wall time of the reader's beginning; message n is sent at time n."""
 
