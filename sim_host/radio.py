@@ -15,7 +15,7 @@ _WINDOW_S = 1.0
 """The budget counts what a team said in the last second."""
 
 _EMPTY = b"{}"
-
+_WORD = Radio.__pydantic_serializer__
 
 _SAME = 1e-6
 """Ticks; a delay that exceeds whole ticks by no more is these ticks, for all that floats round."""
@@ -87,7 +87,7 @@ class RadioAir:
     def say(self, tick: int, speaker: str, word: Radio) -> str | None:
         """Send a word to all teammates; returns why it was refused, or nothing."""
         place = self._roster.names.index(speaker)
-        said = word.model_dump_json(exclude_defaults=True).encode()
+        said = _WORD.to_json(word, exclude_defaults=True)
         bits = 8 * len(said)
         team = self._teams[self._roster.sides[place]]
         self._forget(team, tick)

@@ -111,6 +111,7 @@ class Sights:
             )
             send(name, sight)
             sights[name] = sight
+        self._perception.develop()
         return sights
 
 

@@ -21,16 +21,25 @@ class StuckWatch:
     def __init__(self, count: int, tick: float) -> None:
         self._tick = tick
         self._held_for = np.zeros(count)
+        self._free = [False] * count
+        self._all_free = True
+        """Nobody has been held back: there is nothing to count."""
 
     def forget(self) -> None:
         """Nobody has been held back."""
         self._held_for = np.zeros_like(self._held_for)
+        self._all_free = True
 
     def note(self, places: Sequence[int], held: NDArray[np.bool_]) -> None:
         """Whether the robots at these places are held back in this tick."""
-        self._held_for[places] = (self._held_for[places] + self._tick) * held if held.any() else 0.0
+        if self._all_free and True not in held.tolist():
+            return
+        self._held_for[places] = (self._held_for[places] + self._tick) * held
+        self._all_free = not np.logical_or.reduce(self._held_for)
 
     def stuck(self) -> list[bool]:
         """Per robot: it has long been held back."""
+        if self._all_free:
+            return self._free
         stuck: list[bool] = (self._held_for >= _AFTER).tolist()
         return stuck

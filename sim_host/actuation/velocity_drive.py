@@ -60,7 +60,7 @@ class VelocityDrive:
         """
         count = self._count
         disturbed = np.abs(measured - self._set_in_field) > _AS_SET
-        if not disturbed.any():
+        if True not in disturbed.tolist():
             self.held = self._undisturbed
             return self._set_in_body
         in_body = np.concatenate((measured[:count] * np.exp(-1j * heading), measured[count:]))

@@ -57,12 +57,15 @@ class Perception:
         self._cyan_attacks: int | None = None
         self._under_way: deque[Picture] = deque()
         """Pictures that were taken and are not known yet."""
+        self._exposed: tuple[Snapshot, Motions, TeamFrames] | None = None
+        """What the newest picture shows, while it is not developed."""
         self._known = Picture.nothing(len(roster.names))
         self._balls: list[LastSeen | None] = [None] * len(roster.names)
         self.change(sensing)
 
     def change(self, sensing: Sensing) -> None:
         """Other sensors from the next tick on; what was seen before stays known."""
+        self.develop()
         roster, streams = self._roster, self._streams
         self._shutter = Shutter.of(sensing, self._tick_s)
         self._drift = Drift(sensing, roster, streams, self._tick_s)
@@ -71,6 +74,7 @@ class Perception:
 
     def handed_on(self, sensing: Sensing, roster: Roster) -> "Perception":
         """For other robots: who stays on its side has seen what it saw."""
+        self.develop()
         heir, before = Perception(sensing, roster, self._streams, self._tick_s), self._roster
         places = [
             before.names.index(name) if name in before.names and before.side_of(name) is side else None
@@ -84,13 +88,16 @@ class Perception:
 
     def at(self, snapshot: Snapshot, cyan_attacks: int) -> list[Percept]:
         """Everyone's percept, in the order of the roster; to be asked for once in every tick, in order."""
+        self.develop()
         if cyan_attacks != self._cyan_attacks:
             self._change_sides()
             self._cyan_attacks = cyan_attacks
         tick, robots = snapshot.tick, Motions.of(snapshot.robots)
         frames = self._frames(tick, self._attack[cyan_attacks])
         if self._shutter.takes(tick):
-            self._under_way.append(self._camera.take(snapshot, robots, frames))
+            self._exposed = snapshot, robots, frames
+            if self._shutter.latency == 0:
+                self.develop()
         while self._under_way and self._under_way[0].tick <= tick - self._shutter.latency:
             self._take_in(self._under_way.popleft())
         own = self._own.at(tick, robots, frames).T.tolist()
@@ -102,6 +109,13 @@ class Perception:
             else Percept(me, ball.place, (tick - ball.tick) * tick_s, ball.tick == known.tick, obstacles, age)
             for me, ball, obstacles in zip(own, self._balls, known.obstacles, strict=True)
         ]
+
+    def develop(self) -> None:
+        """Work out a picture that was taken and is not known before a later tick; robots can think meanwhile."""
+        if self._exposed is not None:
+            snapshot, robots, frames = self._exposed
+            self._exposed = None
+            self._under_way.append(self._camera.take(snapshot, robots, frames))
 
     def _frames(self, tick: int, sign: Floats) -> TeamFrames:
         """Where each robot believes its team frame to lie; `sign` is 1 or −1 from field to team frame."""

@@ -203,6 +203,22 @@ def test_what_is_seen_is_the_newest_picture_that_is_old_enough(scenery, latency,
         assert one.own[1] == approx(0.5 * tick), "its own motion it knows at once"
 
 
+def test_when_a_picture_is_developed_makes_no_difference_to_what_is_seen(scenery):
+    """The host develops it when the sights are out; whoever does not is given it developed in time."""
+    wanted = {"camera_rate": 25.0, "latency": 0.02, "ball_position": 0.05, "obstacle_position": 0.05}
+    at_once, in_time = (scenery([(0, 0), (2, 1)], (1, 1), **wanted) for _ in range(2))
+    for tick in range(8):
+        for one in (at_once, in_time):
+            one.move(1, 2 + 0.1 * tick, 1)
+            one.ball = one.ball._replace(x=1 + 0.2 * tick)
+        if tick == 5:
+            at_once.attacks = in_time.attacks = -1
+        seen = at_once.look()
+        at_once.perception.develop()
+        assert seen == in_time.look()
+
+
+
 @pytest.mark.parametrize(
     ("rate", "tick", "taken"), [(30.0, 0.02, 30), (25.0, 0.021, 25), (1000.0, 0.02, 50), (0.1, 0.02, 0)]
 )
