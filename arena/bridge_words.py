@@ -59,7 +59,7 @@ class BridgeWords:
         Raises:
             TouchlineError: as `bridges`.
         """
-        if not self.bridges().wanted:
+        if self == NO_BRIDGES or not self.bridges().wanted:
             return ()
         one = {"udp": self.udp, "refbox": self.refbox}
         return (

@@ -4,7 +4,7 @@ import sys
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -15,9 +15,10 @@ from arena.record_words import RecordWords
 from coach_gateway.web.settings import DEFAULT_PORT, LOOPBACK
 
 if TYPE_CHECKING:
-    from arena.processes import Plan
+    from arena.processes import Page, Plan
     from arena.result import MatchResult
     from schemas.clock import Clock
+    from schemas.match_config import MatchConfig
 
 
 @unbundled
@@ -48,15 +49,14 @@ def match(
     Example: touchline match --seed 7 --duration 60 --pace realtime
     """
     from arena.brains import check_teams
-    from arena.ghost import check, teams_of
-    from arena.page import invitation, page_in, page_port
     from arena.processes import check_names
     from arena.runs import prepare
     from schemas.clock import WallClock
 
-    teams = teams_of(ghost) if ghost else {}
+    teams = _teams_of(ghost) if ghost else {}
     bridged = bridges.arguments()
-    bridges.bridges().try_ports()
+    if bridged:
+        bridges.bridges().try_ports()
     if (web or bridged) and words.pace is None:
         words = replace(words, pace="realtime")
     if bridges.refbox is not None and words.referee is None:
@@ -66,18 +66,16 @@ def match(
         **recording.flags(),
         record__wait=not no_record,
     )
-    check(config, ghost or ())
+    if ghost:
+        _check_ghosts(config, ghost)
     check_names(config)
     check_teams(config)
     endpoint = words.endpoint()
     clock = WallClock()
-    port = page_port(listen_web, web_port) if web else None
+    port = _page_port(listen_web, web_port) if web else None
     plan = prepare(config, endpoint, record, clock, recorded=not no_record)
     if port is not None:
-        page = page_in(plan.folder, listen_web, port)
-        plan = replace(plan, page=page)
-        for line in invitation(page):
-            typer.echo(line, err=json)
+        plan = replace(plan, page=_page(plan, listen_web, port, err=json))
     if bridged:
         plan = replace(plan, bridges=bridged)
         typer.echo(f"bridges: {plan.folder / 'bridges.log'}; the coaches' tokens: {plan.tokens}", err=json)
@@ -90,6 +88,37 @@ def match(
         from arena.console import console
 
         console().print(result.picture())
+
+
+# What a plain match has no use for is imported when it is asked for: nothing is launched before the imports are done.
+
+
+def _teams_of(ghosts: list[str]) -> dict[str, dict[str, Any]]:
+    from arena.ghost import teams_of
+
+    return teams_of(ghosts)
+
+
+def _check_ghosts(config: "MatchConfig", ghosts: list[str]) -> None:
+    from arena.ghost import check
+
+    check(config, ghosts)
+
+
+def _page_port(address: str, port: int) -> int:
+    from arena.page import page_port
+
+    return page_port(address, port)
+
+
+def _page(plan: "Plan", address: str, port: int, *, err: bool) -> "Page":
+    """The match's page; whoever reads is told where it is."""
+    from arena.page import invitation, page_in
+
+    page = page_in(plan.folder, address, port)
+    for line in invitation(page):
+        typer.echo(line, err=err)
+    return page
 
 
 def _play(plan: "Plan", clock: "Clock", *, quiet: bool) -> "MatchResult":

@@ -22,7 +22,7 @@ _HOST_THREADS = "(app: (worker_threads: 4), rx: (handover: app), acc: (handover:
 """Whoever waits for room in a link's queue, as an answer from a cache does, must not wait on the thread that makes the
 room. Zenoh closes a link that makes no room on the threads that read: were they few, all of them could be waiting for
 room in the dead link, and the host would stand still for good (eclipse-zenoh/zenoh, issue 1876)."""
-_RETRY = {"period_init_ms": 100, "period_max_ms": 500, "period_increase_factor": 1.5}
+_RETRY = {"period_init_ms": 20, "period_max_ms": 500, "period_increase_factor": 1.5}
 _TRY_S = (0.5, 2.0)
 """One attempt to connect: the first, and the longest it doubles to, for a machine that is too busy to answer at once.
 Between attempts Ctrl-C is heard."""

@@ -218,7 +218,6 @@ def test_when_a_picture_is_developed_makes_no_difference_to_what_is_seen(scenery
         assert seen == in_time.look()
 
 
-
 @pytest.mark.parametrize(
     ("rate", "tick", "taken"), [(30.0, 0.02, 30), (25.0, 0.021, 25), (1000.0, 0.02, 50), (0.1, 0.02, 0)]
 )
