@@ -41,16 +41,12 @@ def prepare(config: MatchConfig, listen: str, recording: Path | None, clock: Clo
 
 def _refusal(out: Path) -> str:
     """Why no file can be written there; empty where one can."""
-    if out.is_dir():
-        return "is a folder"
-    part = out.with_name(out.name + ".part")
-    was_there = part.exists()
+    from recordings.part import NotWritableError, Part
+
     try:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        with part.open("ab"):
-            pass
-        if not was_there:
-            part.unlink()
+        Part(out).discard()
+    except NotWritableError as error:
+        return error.reason
     except OSError as error:
         return error.strerror or "cannot be written"
     return ""

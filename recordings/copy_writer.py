@@ -10,6 +10,7 @@ from recordings.container import ChannelRecord
 from recordings.environment import library
 from recordings.lean_writer import LeanWriter
 from recordings.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
+from recordings.part import Part
 from recordings.sequences import KeyLedger
 from recordings.sketch import Sketch
 from recordings.writer import CHUNK_BYTES, MEDIA_TYPES
@@ -23,13 +24,8 @@ class CopyWriter:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._part = path.with_name(path.name + ".part")
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            self._file = self._part.open("wb")
-        except OSError as error:
-            raise TouchlineError(f"{path}: {error.strerror}; give a path that can be written") from None
-        self._mcap = LeanWriter(self._file, CHUNK_BYTES)
+        self._part = Part(path)
+        self._mcap = LeanWriter(self._part.file, CHUNK_BYTES)
         self._channels: dict[str, int] = {}
         self._schemas: dict[tuple[str, bytes], int] = {}
         self._ledgers: dict[str, KeyLedger] = {}
@@ -84,8 +80,8 @@ class CopyWriter:
                 counts = {key: ledger.count() for key, ledger in sorted(self._ledgers.items())}
                 self._mcap.add_metadata(RESULT, to_metadata(result.counted(counts)))
             self._mcap.finish()  # type: ignore[no-untyped-call]
-            self._file.close()
-            self._part.replace(self._path)
+            self._part.file.flush()
+            self._part.finish()
         return self._messages
 
     def __enter__(self) -> Self:
@@ -95,8 +91,7 @@ class CopyWriter:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         with suppress(OSError):
-            self._file.close()
-        self._part.unlink(missing_ok=True)
+            self._part.discard()
 
     @contextmanager
     def _told(self) -> Iterator[None]:

@@ -32,6 +32,7 @@ from recordings.frames import (
     unpacked,
 )
 from recordings.manifest import MANIFEST, RESULT, is_sealed
+from recordings.part import unwritten
 from recordings.summary import SummaryBuilder, message_count
 from recordings.writer import CHUNK_BYTES
 from schemas.errors import TouchlineError
@@ -59,20 +60,16 @@ def recover(path: Path) -> Recovered:
     """Repair a file in place; a `*.mcap.part` gets the name of a finished one, where no other has it.
 
     Raises:
-        TouchlineError: it cannot be read or written, is not MCAP, or holds nothing that is whole.
+        TouchlineError: it cannot be read or written, is being written, is not MCAP, or holds nothing that is whole.
     """
     try:
-        with path.open("r+b") as file:
-            if file.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
-                raise TouchlineError(f"{path}: not a recording; give an *.mcap or *.mcap.part file")
-            with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
-                repair = _Repair(path, content)
-                done = repair.look_through()
-                plan = None if done.was_whole else repair.plan(done)
-        if plan is not None:
-            _carry_out(path, plan)
+        with unwritten(path):
+            done, plan = _looked_through(path)
+            if plan is not None:
+                _carry_out(path, plan)
+            name = _named(path)
         return Recovered(
-            path=_named(path),
+            path=name,
             repaired=plan is not None,
             messages=done.messages,
             cut=done.cut,
@@ -106,6 +103,17 @@ class _Found:
     indexes: bytes = b""
     """Of the last chunk, to be written anew."""
     patches: list[tuple[int, bytes]] = field(default_factory=list)
+
+
+def _looked_through(path: Path) -> tuple[_Found, _Plan | None]:
+    """What is in a file, and what has to be written so that it is whole; nothing where it is."""
+    with path.open("r+b") as file:
+        if file.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
+            raise TouchlineError(f"{path}: not a recording; give an *.mcap or *.mcap.part file")
+        with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
+            repair = _Repair(path, content)
+            found = repair.look_through()
+            return found, None if found.was_whole else repair.plan(found)
 
 
 def _carry_out(path: Path, plan: _Plan) -> None:

@@ -22,10 +22,12 @@ class Snapshots:
     def __init__(
         self, path: Path, clock: Clock, match: str, account: Account, limits: Limits, *, viz: bool = True
     ) -> None:
-        """Checks that a file can be written there; with `viz`, what viewers draw is written, too.
+        """Holds the name of the first snapshot, so that no other recorder takes it.
+
+        With `viz`, what viewers draw is written, too.
 
         Raises:
-            TouchlineError: it cannot.
+            TouchlineError: another recorder has it, or a file cannot be written there.
         """
         self._viz = viz
         assert limits.snapshot is not None
@@ -37,8 +39,8 @@ class Snapshots:
         self._number = 0
         self.files: list[Path] = []
         check_free(path)
-        probe = RecordingWriter(numbered(path, 1), clock, match)
-        probe.discard()
+        self._cast = Cast()
+        self._next = self._open()
 
     @property
     def path(self) -> Path:
@@ -48,6 +50,7 @@ class Snapshots:
     def begin(self, head: Head, tail: Tail, cast: Cast) -> None:
         """Remember how to make a file."""
         self._head, self._tail, self._cast = head, tail, cast
+        self._next.know(cast)
 
     def write(self, batch: list[Logged]) -> None:
         """Hold messages, forget those that are too old, and write all when there was a goal."""
@@ -78,9 +81,8 @@ class Snapshots:
         """Write what is held."""
         if not self._held:
             return "it holds nothing yet"
+        writer = self._next
         self._number += 1
-        path = numbered(self._base, self._number)
-        writer = RecordingWriter(path, self._clock, self._match, self._cast, viz=self._viz)
         manifest, attachments = self._head()
         made = {"part": self._number, "made": f"snapshot: {why}"}
         try:
@@ -90,16 +92,25 @@ class Snapshots:
         finally:
             writer.abandon()
         self.files.append(writer.path)
+        self._next = self._open()
         drop_oldest(self.files, self._keep)
         return ""
 
     def finish(self, ended: Ended) -> int:
         """What is held and nobody wanted is forgotten."""
         del ended
+        self._next.discard()
         return sum(file.stat().st_size for file in self.files)
 
     def abandon(self) -> None:
-        """No file is open between two calls."""
+        """Let go of the name of the next snapshot."""
+        if not self._next.begun:
+            self._next.discard()
+
+    def _open(self) -> RecordingWriter:
+        return RecordingWriter(
+            numbered(self._base, self._number + 1), self._clock, self._match, self._cast, viz=self._viz
+        )
 
     def _forget(self, before_ns: int | None) -> None:
         while self._held and (before_ns is None or self._held[0][0] < before_ns):

@@ -18,6 +18,7 @@ from recordings.environment import library
 from recordings.json_schema import flat_schema
 from recordings.lean_writer import LeanWriter
 from recordings.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
+from recordings.part import Part
 from recordings.sketch import Sketch
 from recordings.standing import Logged
 from recordings.viz.drawing import READS
@@ -45,12 +46,15 @@ class RecordingWriter:
     """One file that is being written. Any method may raise `TouchlineError` when the disk refuses."""
 
     def __init__(self, path: Path, clock: Clock, match: str, cast: Cast | None = None, *, viz: bool = True) -> None:
-        """`cast` knows who the robots are that the keys name; with `viz`, what viewers draw is written, too."""
+        """`cast` knows who the robots are that the keys name; with `viz`, what viewers draw is written, too.
+
+        Raises:
+            TouchlineError: another writes the file, or it cannot be written.
+        """
         self.path = path
         self._cast = cast or Cast()
         self.size = 0
         """Bytes in the file so far; what waits for the thread or for its chunk to be full is not among them."""
-        self.part = path.with_name(path.name + ".part")
         self._clock = clock
         self._root = root(match)
         self._viz = viz
@@ -59,13 +63,9 @@ class RecordingWriter:
         self._schemas: dict[str, int] = {}
         self._jobs: Queue[Callable[[], None] | None] = Queue(_BACKLOG)
         self._error: Exception | None = None
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            if self.part.exists():
-                self.part.replace(self.part.with_name(self.part.name + ".old"))
-            self._file = self.part.open("wb")
-        except OSError as error:
-            raise TouchlineError(f"{path}: {error.strerror}; give a path that can be written") from None
+        self._part = Part(path)
+        self.part = self._part.path
+        self._file = self._part.file
         self._mcap = LeanWriter(self._file, CHUNK_BYTES)
         self._thread = Thread(target=self._run, name="recording writer", daemon=True)
         self.begun = False
@@ -99,8 +99,7 @@ class RecordingWriter:
         self._end()
         self._raise_error()
         try:
-            self._file.close()
-            self.part.replace(self.path)
+            self._part.finish()
             return self.path.stat().st_size
         except OSError as error:
             raise TouchlineError(f"{self.path}: {error.strerror}; {self.part} has everything") from None
@@ -110,9 +109,8 @@ class RecordingWriter:
         self._cast = cast
 
     def discard(self) -> None:
-        """Leave no file; for one that was opened to see whether it can be, and not begun."""
-        self._file.close()
-        self.part.unlink()
+        """Leave no file; for one that was not begun, and not closed."""
+        self._part.discard()
 
     def abandon(self) -> None:
         """Close the file as it is, `*.part`, with all that was handed over. Does nothing after `finish`."""
@@ -120,7 +118,7 @@ class RecordingWriter:
             self._jobs.put(self._sync)
             self._end()
         with suppress(OSError):  # the disk has refused before, and that was raised
-            self._file.close()
+            self._part.leave()
 
     def _hand_over(self, job: Callable[[], None]) -> None:
         self._jobs.put(job)
