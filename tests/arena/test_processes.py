@@ -7,6 +7,7 @@ import pytest
 from arena.bridge_words import BridgeWords
 from arena.processes import PROCESSES, Kind, Page, Plan, Process, check_names, processes_of
 from arena.runs import prepare
+from recordings.part import Part
 from schemas.clock import SteppedClock
 from schemas.errors import TouchlineError
 from schemas.match_config import MatchConfig, load_match
@@ -140,6 +141,20 @@ def test_a_recording_that_cannot_be_written_goes_into_the_folder_of_the_run_and_
         run = prepare(load_match(None), "tcp/127.0.0.1:7447", path, SteppedClock())
         assert run.recording == run.folder / "match.mcap"
         assert re.search(rf"--record .*: ({why}); the match is played, its recording goes to runs/", run.warning)
+
+
+def test_a_recording_that_another_recorder_writes_is_left_to_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    other = Part(Path("a.mcap"))
+    other.file.write(b"its first bytes")
+    other.file.flush()
+    run = prepare(load_match(None), "tcp/127.0.0.1:7447", Path("a.mcap"), SteppedClock())
+    assert run.recording == run.folder / "match.mcap"
+    assert "--record a.mcap: is being written by another recorder; the match is played" in run.warning
+    assert other.path.read_bytes() == b"its first bytes"
+    other.leave()
 
 
 def test_the_recorder_is_told_what_the_match_file_wants(tmp_path: Path) -> None:
