@@ -108,7 +108,7 @@ def control_after(before: Control, scene: Scene, name: str, roll: float) -> Cont
     if scene.game.phase.ours or scene.game.phase.theirs:
         return Control(scene.game.phase.ours, ball[0] > HALFWAY, holder=None, left=ball)
     ours = _nearest_of_us(scene, ball, name)
-    theirs = min((math.dist(ball, opponent) for opponent in scene.opponents), default=math.inf) < HAS_IT
+    theirs = any(math.dist(ball, opponent) < HAS_IT for opponent in scene.opponents)
     if ours is None:
         return before._replace(ours=False, holder=None) if theirs else before
     if theirs and not scene.holding:
@@ -124,10 +124,10 @@ def _nearest_of_us(scene: Scene, ball: Point, name: str) -> str | None:
     """Who of us has the ball."""
     if scene.holding:
         return name
-    away = {mate: math.dist(ball, seen.body[:2]) for mate, seen in scene.mates.items()}
-    away[name] = math.dist(ball, scene.me[:2])
-    nearest = min(away, key=lambda one: (away[one], one))
-    return nearest if away[nearest] < HAS_IT else None
+    away = [(math.dist(ball, seen.body[:2]), mate) for mate, seen in scene.mates.items()]
+    away.append((math.dist(ball, scene.me[:2]), name))
+    least, nearest = min(away)
+    return nearest if least < HAS_IT else None
 
 
 def _along(me: Body) -> float:

@@ -56,10 +56,12 @@ class Opponents:
         expected = [track.after(dt) for track in before]
         tracks = []
         for x, y in seen:
-            nearest = min(range(len(before)), key=lambda i: math.dist((x, y), expected[i]), default=-1)
-            if nearest < 0 or math.dist((x, y), expected[nearest]) > _NEAR:
+            away = [math.dist((x, y), place) for place in expected]
+            least = min(away, default=math.inf)
+            if least > _NEAR:
                 tracks.append(_Track(x, y))
                 continue
+            nearest = away.index(least)
             known, (at_x, at_y) = before.pop(nearest), expected.pop(nearest)
             dx, dy, gain = x - at_x, y - at_y, _TRUST_VELOCITY / dt
             tracks.append(_Track(at_x + _TRUST * dx, at_y + _TRUST * dy, known.vx + gain * dx, known.vy + gain * dy))

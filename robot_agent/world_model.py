@@ -103,13 +103,13 @@ class WorldModel:
     def _mates(self, radio: dict[str, Heard], game: GameView) -> dict[str, Mate]:
         """Those who were heard lately and are on the field."""
         mates = {}
+        standings = game.robots
         for name in self._teammates:
-            if name in game.robots and game.robots[name].off_field is not None:
+            if name in standings and standings[name].off_field is not None:
                 continue
             word = radio.get(name)
             if word is not None and word.self is not None and word.age <= STALE:
-                body = _body(word.self).after(word.age)
-                mates[name] = Mate(body, word.role or "", word.intention or "", word.pass_to)
+                mates[name] = Mate(_body_after(word.self, word.age), word.role or "", word.intention or "", word.pass_to)
         return mates
 
     def _believed_ball(self, sight: Sight, me: Body, dt: float) -> SeenBall | None:
@@ -176,6 +176,12 @@ def _body(motion: Motion) -> Body:
     return Body(motion.x, motion.y, motion.heading, motion.vx, motion.vy, motion.omega)
 
 
+def _body_after(motion: Motion, age: float) -> Body:
+    """Where a robot is that moved like this `age` s ago, and went on so."""
+    vx, vy, omega = motion.vx, motion.vy, motion.omega
+    return Body(motion.x + vx * age, motion.y + vy * age, motion.heading + omega * age, vx, vy, omega)
+
+
 def _smooth_body(before: Body | None, seen: Motion, dt: float) -> Body:
     now = _body(seen)
     if before is None:
@@ -192,9 +198,10 @@ def _opponents(sight: Sight, mates: dict[str, Mate]) -> list[tuple[float, float]
     """The obstacles that are no teammate: each teammate accounts for the one nearest to it, if near enough."""
     left = [(obstacle.x, obstacle.y) for obstacle in sight.obstacles]
     for mate in mates.values():
+        at = mate.body[:2]
         best, least = -1, SAME
-        for index, (x, y) in enumerate(left):
-            away = math.hypot(x - mate.body.x, y - mate.body.y)
+        for index, place in enumerate(left):
+            away = math.dist(place, at)
             if away <= least:
                 best, least = index, away
         if best >= 0:

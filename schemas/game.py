@@ -101,12 +101,12 @@ class TeamPhase(StrEnum):
     @property
     def ours(self) -> bool:
         """A restart of our own."""
-        return self.value.startswith("our_")
+        return self.startswith("our_")
 
     @property
     def theirs(self) -> bool:
         """A restart of the opponents."""
-        return self.value.startswith("their_")
+        return self.startswith("their_")
 
 
 class Point(Part):

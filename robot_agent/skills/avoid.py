@@ -66,7 +66,7 @@ def free_direction(me: Body, wanted: float, distance: float, blocked: Sequence[C
 
     A robot inside a circle may leave it: at its edge sideways, the more outward the deeper it is inside.
     """
-    if not any(_enters(me, wanted, distance, circle) for circle in blocked):
+    if not _enters(me, wanted, distance, blocked):
         return wanted
     arcs = _arcs(me, distance, blocked)
     moving = math.atan2(me.vy, me.vx) if math.hypot(me.vx, me.vy) > 0.3 else wanted
@@ -79,15 +79,17 @@ def free_direction(me: Body, wanted: float, distance: float, blocked: Sequence[C
     return best
 
 
-def _enters(me: Body, direction: float, distance: float, circle: Circle) -> bool:
-    """Whether the next piece of a straight way leads into a circle, or deeper into it."""
-    dx, dy = circle.x - me.x, circle.y - me.y
+def _enters(me: Body, direction: float, distance: float, blocked: Iterable[Circle]) -> bool:
+    """Whether the next piece of a straight way leads into one of the circles, or deeper into it."""
     c, s = math.cos(direction), math.sin(direction)
-    along = dx * c + dy * s
-    if along <= 0.0:
-        return False
-    along = min(along, distance, LOOK_AHEAD + circle.radius)
-    return math.hypot(dx - along * c, dy - along * s) < circle.radius
+    for x, y, radius in blocked:
+        dx, dy = x - me.x, y - me.y
+        along = dx * c + dy * s
+        if along > 0.0:
+            along = min(along, distance, LOOK_AHEAD + radius)
+            if math.hypot(dx - along * c, dy - along * s) < radius:
+                return True
+    return False
 
 
 def _arcs(me: Body, distance: float, blocked: Sequence[Circle]) -> list[tuple[float, float]]:
@@ -105,4 +107,4 @@ def _arcs(me: Body, distance: float, blocked: Sequence[Circle]) -> list[tuple[fl
 
 def is_in_the_way(me: Body, x: float, y: float, circle: Circle) -> bool:
     """Whether the straight way to (x, y) leads into a circle."""
-    return _enters(me, math.atan2(y - me.y, x - me.x), math.hypot(x - me.x, y - me.y), circle)
+    return _enters(me, math.atan2(y - me.y, x - me.x), math.hypot(x - me.x, y - me.y), (circle,))

@@ -9,6 +9,8 @@ from robot_agent.skills.braking import travel_time
 
 MOMENTS = (0.0, 0.25, 0.5, 0.8, 1.2, 1.7, 2.4, 3.5)
 """s from now at which the ball's way is looked at; between them the meeting is interpolated."""
+_SURELY = 1e-6
+"""m; more than rounding can change."""
 
 
 class Meeting(NamedTuple):
@@ -29,9 +31,20 @@ def meet(me: Body, way: Sequence[Ball], reach: float, limits: Limits) -> Meeting
 
     `reach` is how close to the ball the robot's centre has to come, in m.
     """
+    return _meet(me, way, reach, limits, _last_too_early(me, way, reach, limits))
+
+
+def meeting_time(me: Body, way: Sequence[Ball], reach: float, limits: Limits, by: float) -> float:
+    """When the robot meets the ball, s from now; of a meeting later than `by`, only some time after `by`."""
+    begin = _last_too_early(me, way, reach, limits)
+    return MOMENTS[begin] if MOMENTS[begin] > by else _meet(me, way, reach, limits, begin).time
+
+
+def _meet(me: Body, way: Sequence[Ball], reach: float, limits: Limits, begin: int) -> Meeting:
+    """The meeting, looked for from one of the moments at which it is still too early for it."""
     early = spare = 0.0
-    before = way[0]
-    for moment, ball in zip(MOMENTS, way, strict=True):
+    before = way[begin]
+    for moment, ball in zip(MOMENTS[begin:], way[begin:], strict=True):
         late = _time_to(me, ball, reach, limits) - moment
         if late <= 0.0:
             part = spare / (spare - late) if spare - late > 1e-9 else 0.0
@@ -42,6 +55,18 @@ def meet(me: Body, way: Sequence[Ball], reach: float, limits: Limits) -> Meeting
             )
         early, spare, before = moment, late, ball
     return Meeting(before.x, before.y, early + spare)
+
+
+def _last_too_early(me: Body, way: Sequence[Ball], reach: float, limits: Limits) -> int:
+    """The last moment before the first at which the robot, at top speed all the way, could be at the ball.
+
+    What is too late for certain needs no exact time.
+    """
+    at_x, at_y = me.x, me.y
+    for index, (x, y, _, _) in enumerate(way):
+        if math.hypot(x - at_x, y - at_y) <= reach + limits.speed * MOMENTS[index] + _SURELY:
+            return max(0, index - 1)
+    return len(way) - 1
 
 
 def _time_to(me: Body, ball: Ball, reach: float, limits: Limits) -> float:

@@ -93,7 +93,7 @@ class Player(ABC):
         if self._game is not None and sight.game.episode != self._game.episode:
             self.begin_anew()
         if self._last is not None and self._may_go_on(sight, self._last):
-            self._last = self._last.model_copy(update={"answers_tick": sight.tick, "radio": None})
+            self._last = _again(self._last, sight.tick)
         else:
             self._last = self._decide(sight)
             self._game = sight.game
@@ -173,11 +173,16 @@ class Player(ABC):
         """The same action as far as the rules in play let this robot do it."""
         if action.kick is None and self._carry is not None:
             action = self._carry_on(scene, action, self._carry)
-        if self._asked.keeps_out and not self.is_keeper:
-            action = action._replace(drive=keep_out(scene.me, action.drive, self._goal_area, self.limits))
-        if self._asked.takes_turns and not self.is_keeper and self._is_second_in_area(scene):
-            action = action._replace(drive=keep_out(scene.me, action.drive, self._penalty_area, self.limits))
-        return action
+        if self.is_keeper:
+            return action
+        drive = action.drive
+        if self._asked.keeps_out:
+            drive = keep_out(scene.me, drive, self._goal_area, self.limits)
+        if self._asked.takes_turns:
+            outside = keep_out(scene.me, drive, self._penalty_area, self.limits)
+            if outside is not drive and self._is_second_in_area(scene):
+                drive = outside
+        return action if drive is action.drive else action._replace(drive=drive)
 
     def _is_second_in_area(self, scene: Scene) -> bool:
         """Whether a teammate in the field is nearer to the ball than this robot, and in the nearer penalty area.
@@ -279,3 +284,10 @@ class Player(ABC):
             intention=action.intention,
             pass_to=action.pass_to,
         )
+
+
+def _again(last: Command, tick: int) -> Command:
+    """The last command as the answer to one more sight, with nothing kicked and nothing said."""
+    return Command(
+        answers_tick=tick, drive=last.drive, dribble=last.dribble, acknowledges_order=last.acknowledges_order
+    )

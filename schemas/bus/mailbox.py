@@ -85,9 +85,9 @@ class NewestMailbox(Generic[T]):
 
 
 def _get(queue: SimpleQueue[T], timeout: float | None) -> T | None:
+    if timeout == 0.0 and queue.empty():
+        return None  # mostly so where somebody only looks; an exception costs more than the look
     try:
-        if timeout == 0.0:
-            return queue.get_nowait()
-        return queue.get(timeout=timeout)
+        return queue.get(timeout != 0.0, timeout)
     except Empty:
         return None

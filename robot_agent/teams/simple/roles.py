@@ -11,7 +11,7 @@ from itertools import permutations
 from typing import NamedTuple
 
 from robot_agent.bodies import Ball, Body, Limits
-from robot_agent.skills.intercept import meet, way_of
+from robot_agent.skills.intercept import meeting_time, way_of
 
 
 class Role(StrEnum):
@@ -39,6 +39,8 @@ RECEIVES = 0.8
 """s that the robot which was promised the ball is given."""
 KEEPS_PLACE = 0.8
 """m that another robot must be nearer to a place than the one that has it."""
+_TIE = 1e-6
+"""s; more than rounding can change."""
 
 
 def striker_of(
@@ -46,15 +48,13 @@ def striker_of(
 ) -> str:
     """The robot that plays the ball: first at it, ties by name."""
     way = way_of(ball, deceleration)
-
-    def cost(name: str) -> tuple[float, str]:
-        candidate = candidates[name]
-        time = meet(candidate.body, way, reach, limits).time
-        time -= STAYS if candidate.role == Role.STRIKER else 0.0
-        time -= RECEIVES if candidate.is_receiver else 0.0
-        return time, name
-
-    return min(candidates, key=cost)
+    first, least = "", math.inf
+    for name, (body, role, is_receiver) in candidates.items():
+        stays, receives = STAYS if role == Role.STRIKER else 0.0, RECEIVES if is_receiver else 0.0
+        time = meeting_time(body, way, reach, limits, by=least + stays + receives + _TIE) - stays - receives
+        if time < least or (time == least and name < first):
+            first, least = name, time
+    return first
 
 
 def share_places(
@@ -63,13 +63,18 @@ def share_places(
     """Who takes which place: the least sum of distances, as many places as robots, the first ones first."""
     names = sorted(candidates)
     open_places = places[: len(names)]
+    far = [[_far(candidates[name], role, place) for name in names] for role, place in open_places]
 
-    def cost(order: Sequence[str]) -> float:
+    def cost(order: Sequence[int]) -> float:
         total = 0.0
-        for name, (role, (x, y)) in zip(order, open_places, strict=True):
-            body, now, _ = candidates[name]
-            total += math.hypot(body.x - x, body.y - y) - (KEEPS_PLACE if now == role else 0.0)
+        for place, robot in enumerate(order):
+            total += far[place][robot]
         return total
 
-    best = min(permutations(names), key=cost, default=())
-    return {name: role for name, (role, _) in zip(best, open_places, strict=True)}
+    best = min(permutations(range(len(names))), key=cost)
+    return {names[robot]: role for robot, (role, _) in zip(best, open_places, strict=True)}
+
+
+def _far(candidate: Candidate, role: Role, place: tuple[float, float]) -> float:
+    """m from a place, less for who has it."""
+    return math.dist(candidate.body[:2], place) - (KEEPS_PLACE if candidate.role == role else 0.0)
