@@ -68,7 +68,7 @@ class Scene(NamedTuple):
     @property
     def others(self) -> list[tuple[float, float]]:
         """Where everybody else is, of both teams."""
-        return [*self.opponents, *(mate.body[:2] for mate in self.mates.values())]
+        return [*self.opponents, *[mate.body[:2] for mate in self.mates.values()]]
 
 
 def places_of(mates: Mapping[str, Mate]) -> dict[str, tuple[float, float]]:
@@ -108,8 +108,9 @@ class WorldModel:
             if name in standings and standings[name].off_field is not None:
                 continue
             word = radio.get(name)
-            if word is not None and word.self is not None and word.age <= STALE:
-                mates[name] = Mate(_body_after(word.self, word.age), word.role or "", word.intention or "", word.pass_to)
+            if word is None or (age := word.age) > STALE or (motion := word.self) is None:
+                continue
+            mates[name] = Mate(_body_after(motion, age), word.role or "", word.intention or "", word.pass_to)
         return mates
 
     def _believed_ball(self, sight: Sight, me: Body, dt: float) -> SeenBall | None:

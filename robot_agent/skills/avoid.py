@@ -33,6 +33,13 @@ def circles(points: Iterable[tuple[float, float]], radius: float) -> list[Circle
     return [Circle(x, y, radius) for x, y in points]
 
 
+def circles_near(me: Body, points: Iterable[tuple[float, float]], radius: float) -> list[Circle]:
+    """The same circle around each point, without those that are too far away to be in the way yet."""
+    near = LOOK_AHEAD + 3.0 * radius  # beyond 2 radii nothing is entered, whatever is rounded
+    x0, y0 = me.x, me.y
+    return [Circle(x, y, radius) for x, y in points if -near < x - x0 < near and -near < y - y0 < near]
+
+
 def go_around(me: Body, x: float, y: float, heading: float, blocked: Sequence[Circle], limits: Limits) -> Drive:
     """Drive to (x, y) around the circles and stop there."""
     vx, vy = velocity_to(me, x, y, limits)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 from robot_agent.bodies import Ball, Body, Limits
-from robot_agent.skills.avoid import Circle, circles, steer
+from robot_agent.skills.avoid import Circle, circles_near, steer
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.go_to import LAG, drive, velocity_to
 from robot_agent.skills.intercept import Meeting
@@ -38,7 +38,7 @@ def take_ball(
     distance = math.hypot(dx, dy)
     facing = math.atan2(dy, dx)
     front = front_of_holder(me, ball, opponents, gap)
-    blocked = circles([*opponents, *mates], clearance)
+    blocked = circles_near(me, [*opponents, *mates], clearance)
     if front is not None:
         velocity = _go(me, *front, blocked, limits)
         velocity = velocity[0] + ball.vx, velocity[1] + ball.vy

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 
 from robot_agent.bodies import Body, Limits
-from robot_agent.skills.avoid import Circle, bend_speed, circles, go_around
+from robot_agent.skills.avoid import Circle, bend_speed, circles_near, go_around
 from robot_agent.skills.go_to import drive
 from robot_agent.skills.keep_off import inside, keep_off
 from robot_agent.skills.line_up import line_up
@@ -63,7 +63,7 @@ def stand(
     radius = setup.robot.reach
     x, y = legal_place(*place, game, spot, setup)
     facing = math.atan2(spot[1] - me.y, spot[0] - me.x)
-    blocked = circles(others, 2.0 * radius + 0.1)
+    blocked = circles_near(me, others, 2.0 * radius + 0.1)
     asked = asked_distance(game.phase, setup.restarts)
     goes_home = game.phase in KICK_OFFS and not game.running and me.x > 0.0
     if asked == 0.0 or goes_home:
@@ -90,7 +90,7 @@ def wait_behind(
 ) -> Drive:
     """Before START: behind the ball for the target, without touching it."""
     distance = setup.robot.radius + setup.ball.radius + LINE_UP
-    return line_up(me, spot, target, distance, circles(others, 2.0 * setup.robot.reach + 0.1), limits)
+    return line_up(me, spot, target, distance, circles_near(me, others, 2.0 * setup.robot.reach + 0.1), limits)
 
 
 def step_in(me: Body, ball: tuple[float, float], target: tuple[float, float], setup: Setup, limits: Limits) -> Drive:

@@ -111,13 +111,19 @@ class NuBot(Player):
 
     def _nearest(self, scene: Scene, spot: tuple[float, float]) -> str:
         """The field robot that plays the ball: the nearest; who does already or was promised it, unless farther."""
-        me = self.briefing.robot
         promised = self._promised.receiver if self._promised is not None else None
-        far = {me: math.dist(spot, scene.me[:2]) - (LOYALTY if self._role == PLAYS else 0.0)}
-        for name, mate in scene.mates.items():
-            if name != self.keeper:
-                far[name] = math.dist(spot, mate.body[:2]) - (LOYALTY if mate.role == PLAYS else 0.0)
-        return min(far, key=lambda name: (far[name] - (PROMISED if name == promised else 0.0), name))
+        robots = [(self.briefing.robot, scene.me, self._role)]
+        robots += [(name, mate.body, mate.role) for name, mate in scene.mates.items() if name != self.keeper]
+        _, nearest = min(
+            (
+                math.dist(spot, body[:2])
+                - (LOYALTY if role == PLAYS else 0.0)
+                - (PROMISED if name == promised else 0.0),
+                name,
+            )
+            for name, body, role in robots
+        )
+        return nearest
 
     def _run_machine(self, scene: Scene, ball: SeenBall) -> Action:
         """The paper's machine; when it has kicked and the ball is this robot's own again, it begins anew."""

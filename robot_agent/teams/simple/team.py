@@ -58,37 +58,40 @@ class Simple(Player):
         spot = (scene.game.spot.x, scene.game.spot.y) if scene.game.spot is not None else (ball.x, ball.y)
         if self.is_keeper:
             return self._keep(scene, ball, spot)
-        self._role = self._find_role(scene, ball, spot)
+        self._role, place = self._find_role(scene, ball, spot)
         if self._role is not Role.STRIKER or phase.theirs:
-            return self._support(scene, spot)
+            return self._support(scene, place, spot)
         if phase.ours:
             return self._take_restart(scene, ball, spot)
         if phase is TeamPhase.DROP_BALL and not scene.game.running:
             return self._wait_for_drop(scene, spot)
         if any(mate.intention == CLEAR for mate in scene.mates.values()):
-            return self._support(scene, spot)
+            return self._support(scene, place, spot)
         return self._strike(scene, ball)
 
-    def _find_role(self, scene: Scene, ball: Ball, spot: Point) -> Role:
-        """The role that everybody's poses and present roles give this robot."""
+    def _find_role(self, scene: Scene, ball: Ball, spot: Point) -> tuple[Role, Point]:
+        """The role that everybody's poses and present roles give this robot, and its place.
+
+        A striker who may not play the ball stands between it and the own goal.
+        """
         me = self.briefing.robot
         receiver = self._promised.receiver if self._promised is not None else None
         candidates = {me: Candidate(scene.me, self._role, receiver == me)}
-        for name, mate in self._field_mates(scene).items():
-            candidates[name] = Candidate(mate.body, mate.role, receiver == name)
+        for name, mate in scene.mates.items():
+            if name != self.keeper:
+                candidates[name] = Candidate(mate.body, mate.role, receiver == name)
         if scene.game.phase is not TeamPhase.PLAY:
             ball = Ball(*spot)
         striker = striker_of(candidates, ball, self.setup.ball.rolling_deceleration, self._gap, self.limits)
         if striker == me:
-            return Role.STRIKER
+            return Role.STRIKER, self._before_own_goal(spot)
         del candidates[striker]
-        return share_places(candidates, self._places(spot)).get(me, Role.DEFENDER)
+        formation = places(spot, self.setup.pitch, self.setup.robot.reach)
+        role = share_places(candidates, formation).get(me, Role.DEFENDER)
+        return role, dict(formation)[role]
 
     def _field_mates(self, scene: Scene) -> dict[str, Mate]:
         return {name: mate for name, mate in scene.mates.items() if name != self.keeper}
-
-    def _places(self, ball: Point) -> list[tuple[Role, Point]]:
-        return places(ball, self.setup.pitch, self.setup.robot.reach)
 
     @property
     def _gap(self) -> float:
@@ -124,12 +127,11 @@ class Simple(Player):
         foes, mates = scene.opponents, places_of(scene.mates).values()
         return take_ball(scene.me, ball, meeting, self._gap, foes, self._clearance, self.limits, mates)
 
-    def _support(self, scene: Scene, spot: Point) -> Action:
-        """Hold the role's place; a striker who may not play the ball stands between it and the own goal."""
+    def _support(self, scene: Scene, place: Point, spot: Point) -> Action:
+        """Hold the role's place; the defender leaves it for an opponent with the ball."""
         if self._role is Role.DEFENDER and self._is_threat(scene, spot):
             return Action(self._role, "block", self._stand(scene, self._before_own_goal(spot), spot))
-        wanted = dict(self._places(spot)).get(self._role) or self._before_own_goal(spot)
-        return Action(self._role, "hold", self._stand(scene, wanted, spot))
+        return Action(self._role, "hold", self._stand(scene, place, spot))
 
     def _is_threat(self, scene: Scene, ball: Point) -> bool:
         """An opponent has the ball near our goal."""
