@@ -9,6 +9,7 @@ from typing import NamedTuple
 from robot_agent.bodies import Body
 from robot_agent.skills.take_ball import HAS_IT
 from robot_agent.world_model import Scene
+from schemas.game import TeamPhase
 from schemas.host import Setup
 
 Point = tuple[float, float]
@@ -104,11 +105,11 @@ def control_after(before: Control, scene: Scene, name: str, roll: float) -> Cont
     """Who has the ball after one more sight; `roll` in m makes a pass."""
     if scene.ball is None:
         return before
-    ball = scene.ball.now[:2]
-    if scene.game.phase.ours or scene.game.phase.theirs:
-        return Control(scene.game.phase.ours, ball[0] > HALFWAY, holder=None, left=ball)
+    ball, phase = scene.ball.now[:2], scene.game.phase
+    if phase is not TeamPhase.PLAY and (phase.ours or phase.theirs):
+        return Control(phase.ours, ball[0] > HALFWAY, holder=None, left=ball)
     ours = _nearest_of_us(scene, ball, name)
-    theirs = any(math.dist(ball, opponent) < HAS_IT for opponent in scene.opponents)
+    theirs = min([math.dist(ball, opponent) for opponent in scene.opponents], default=math.inf) < HAS_IT
     if ours is None:
         return before._replace(ours=False, holder=None) if theirs else before
     if theirs and not scene.holding:

@@ -199,11 +199,10 @@ def _opponents(sight: Sight, mates: dict[str, Mate]) -> list[tuple[float, float]
     """The obstacles that are no teammate: each teammate accounts for the one nearest to it, if near enough."""
     left = [(obstacle.x, obstacle.y) for obstacle in sight.obstacles]
     for mate in mates.values():
-        at = mate.body[:2]
+        at_x, at_y = mate.body[:2]
         best, least = -1, SAME
-        for index, place in enumerate(left):
-            away = math.dist(place, at)
-            if away <= least:
+        for index, (x, y) in enumerate(left):
+            if -least <= x - at_x <= least and (away := math.hypot(x - at_x, y - at_y)) <= least:
                 best, least = index, away
         if best >= 0:
             del left[best]

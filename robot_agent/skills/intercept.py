@@ -23,6 +23,8 @@ class Meeting(NamedTuple):
 
 def way_of(ball: Ball, deceleration: float) -> list[Ball]:
     """The ball at each of the moments."""
+    if ball.vx == 0.0 == ball.vy:
+        return [ball] * len(MOMENTS)
     return [ball.after(moment, deceleration) for moment in MOMENTS]
 
 

@@ -64,7 +64,7 @@ class Player(ABC):
         plays_field = not team.goalkeeper or (self.plays_alone and not briefing.teammates)
         self._keepers = [] if plays_field else team.robots
         """Who keeps the goal: the first of them that is on the field."""
-        self.keeper = keeper_of(self._keepers, ())
+        self.keeper = self._first_keeper = keeper_of(self._keepers, ())
         """Who keeps it now, or nothing."""
         self._full_limits = self.limits
         self._world = WorldModel(briefing)
@@ -125,8 +125,7 @@ class Player(ABC):
     def _decide(self, sight: Sight) -> Command:
         """A new decision."""
         scene = self._world.take_in(sight)
-        away = [name for name, standing in scene.game.robots.items() if standing.off_field is not None]
-        self.keeper = keeper_of(self._keepers, away)
+        self.keeper = keeper_of(self._keepers, _away(scene.game)) if scene.game.robots else self._first_keeper
         self._penalty_kicked = self._penalty_kicked and scene.game.phase is TeamPhase.OUR_PENALTY
         order = sight.order
         self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits
@@ -284,6 +283,11 @@ class Player(ABC):
             intention=action.intention,
             pass_to=action.pass_to,
         )
+
+
+def _away(game: GameView) -> list[str]:
+    """Who of us is off the field."""
+    return [name for name, standing in game.robots.items() if standing.off_field is not None]
 
 
 def _again(last: Command, tick: int) -> Command:

@@ -49,7 +49,8 @@ def striker_of(
     """The robot that plays the ball: first at it, ties by name."""
     way = way_of(ball, deceleration)
     first, least = "", math.inf
-    for name, (body, role, is_receiver) in candidates.items():
+    for name in sorted(candidates, key=lambda name: candidates[name].role != Role.STRIKER):
+        body, role, is_receiver = candidates[name]
         stays, receives = STAYS if role == Role.STRIKER else 0.0, RECEIVES if is_receiver else 0.0
         time = meeting_time(body, way, reach, limits, by=least + stays + receives + _TIE) - stays - receives
         if time < least or (time == least and name < first):

@@ -3,7 +3,7 @@ import math
 import pytest
 
 from robot_agent.bodies import Body
-from robot_agent.skills.avoid import Circle, free_direction, go_around, steer
+from robot_agent.skills.avoid import Circle, circles, circles_near, free_direction, go_around, steer
 
 ME = Body(0.0, 0.0, 0.0)
 
@@ -56,3 +56,11 @@ def test_a_robot_goes_around_an_obstacle_and_arrives(plant, limits, offset):
         nearest = min(nearest, math.dist(me[:2], (0.0, offset)))
     assert math.dist(me[:2], (2.0, 0.0)) < 0.05
     assert nearest > 0.5
+
+
+def test_circles_that_are_too_far_away_to_matter_are_left_out_without_a_change_of_the_way():
+    points = [(0.37 * i - 6.0, (1.7 * i) % 7.0 - 3.5) for i in range(33)]
+    near = circles_near(ME, points, 0.6)
+    assert 0 < len(near) < len(points)
+    for wanted in (-3.0, -1.2, 0.0, 0.4, 2.9):
+        assert free_direction(ME, wanted, 5.0, near) == free_direction(ME, wanted, 5.0, circles(points, 0.6))

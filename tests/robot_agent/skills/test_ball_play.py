@@ -6,7 +6,7 @@ import pytest
 
 from robot_agent.bodies import Ball, Body
 from robot_agent.skills.dribble_to import SPEED, TURN_RATE, dribble_to
-from robot_agent.skills.intercept import meet, way_of
+from robot_agent.skills.intercept import meet, meeting_time, way_of
 from robot_agent.skills.keep_goal import guard_place, keep_goal, shot_place
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.line_up import behind, line_up
@@ -170,3 +170,14 @@ def test_a_keeper_runs_to_a_shot(plant, limits, setup):
         ball = Ball(-4.0 - 8.0 * tick * limits.tick, 0.6, -8.0, 0.0)
         robot.step(keep_goal(robot.body, ball, setup.pitch, setup.robot.radius, limits))
     assert robot.body.y == pytest.approx(0.6, abs=setup.robot.radius)
+
+
+@pytest.mark.parametrize("ball", [Ball(0.0, 0.0), Ball(1.0, -2.0, 2.5, 1.0), Ball(-4.0, 3.0, 0.0, -6.0)])
+@pytest.mark.parametrize("me", [Body(0.2, 0.1, 0.0), Body(-3.0, 1.0, 0.0, 1.5, 0.5), Body(9.0, -6.0, 1.0, 0.0, -2.0)])
+def test_a_meeting_is_timed_exactly_unless_it_is_later_than_asked_for(limits, me, ball):
+    way = way_of(ball, 0.5)
+    exact = meet(me, way, GAP, limits).time
+    assert meeting_time(me, way, GAP, limits, by=math.inf) == exact
+    for by in (0.0, 0.3, 0.9, 2.0):
+        told = meeting_time(me, way, GAP, limits, by)
+        assert told == exact or by < told <= exact
