@@ -2,8 +2,10 @@
 
 import os
 import signal
+import socket
 import subprocess
 import sys
+from abc import ABC, abstractmethod
 from pathlib import Path
 
 from arena import leash
@@ -12,40 +14,36 @@ from arena.processes import Process
 _TAIL_BYTES = 8192
 
 
-class Child:
-    """A program that runs, or has run."""
+class Launched(ABC):
+    """A process of this one that runs, or has run; it leads a session and a group of its own."""
 
     def __init__(self, process: Process, log: Path) -> None:
+        """What it writes goes to the end of `log`."""
         self.process = process
         self.log = log
-        command = [sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), *process.command]
-        with log.open("ab") as out:
-            self._begin = out.tell()
-            self._popen = subprocess.Popen(
-                command,
-                stdin=subprocess.DEVNULL,
-                stdout=out,
-                stderr=subprocess.STDOUT,
-                env={**os.environ, **process.environment},
-                start_new_session=True,
-            )
+        self._begin = log.stat().st_size if log.exists() else 0
+        self._status: int | None = None
 
     @property
+    @abstractmethod
     def pid(self) -> int:
         """Process id, which is also the id of its group."""
-        return self._popen.pid
+
+    @abstractmethod
+    def _poll(self) -> int | None:
+        """Exit status, negative for a signal; nothing while it runs. Not asked again when it has ended."""
 
     def status(self) -> int | None:
         """Exit status, negative for the signal that ended it; nothing while it runs."""
-        known = self._popen.returncode
-        status = self._popen.poll()
-        if known is None and status is not None:
-            self._signal_group(signal.SIGKILL)  # whatever it started goes with it
-        return status
+        if self._status is None:
+            self._status = self._poll()
+            if self._status is not None:
+                self._signal_group(signal.SIGKILL)  # whatever it started goes with it
+        return self._status
 
     def send(self, number: signal.Signals) -> None:
         """Send a signal to the program and all it started, unless it has ended."""
-        if self._popen.returncode is None:
+        if self._status is None:
             self._signal_group(number)
 
     def last_lines(self, count: int = 5) -> list[str]:
@@ -60,3 +58,37 @@ class Child:
             os.killpg(self.pid, number)
         except ProcessLookupError:
             return  # nobody of it is left
+
+
+class Child(Launched):
+    """A program, launched by its command line."""
+
+    def __init__(self, process: Process, log: Path, stdin: socket.socket | None = None) -> None:
+        """It reads from `stdin`, or nothing."""
+        super().__init__(process, log)
+        command = [sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), *process.command]
+        with log.open("ab") as out:
+            self._popen = subprocess.Popen(
+                command,
+                stdin=stdin.fileno() if stdin is not None else subprocess.DEVNULL,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+                env={**os.environ, **process.environment},
+                start_new_session=True,
+            )
+
+    @property
+    def pid(self) -> int:
+        """Process id, which is also the id of its group."""
+        return self._popen.pid
+
+    def end(self, patience: float) -> None:
+        """Wait until it has ended by itself, for so many s of wall time, and no longer."""
+        try:
+            self._popen.wait(patience)
+        except subprocess.TimeoutExpired:
+            self.send(signal.SIGKILL)
+            self._popen.wait()
+
+    def _poll(self) -> int | None:
+        return self._popen.poll()

@@ -5,8 +5,9 @@ from collections.abc import Callable
 from types import FrameType, TracebackType
 from typing import Self
 
-from arena.child import Child
-from arena.processes import Plan, processes_of
+from arena.child import Launched
+from arena.nursery import Nursery
+from arena.processes import Plan, Process, processes_of
 from arena.result import NOTABLE, MatchResult
 from arena.screen import Screen
 from arena.status import status_line
@@ -68,9 +69,8 @@ class MatchRun:
         self._clock = clock
         self._losses = losses
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
-        self._supervisor = Supervisor(
-            processes_of(plan), lambda process: Child(process, plan.folder / f"{process.name}.log"), clock
-        )
+        self._nursery = Nursery(plan.folder / "nursery.log")
+        self._supervisor = Supervisor(processes_of(plan), self._launch, clock)
 
     def play(self) -> MatchResult:
         """Play it.
@@ -82,7 +82,10 @@ class MatchRun:
         """
         with StopSignals() as stop:
             try:
-                self._supervisor.start()
+                try:
+                    self._supervisor.start()
+                finally:
+                    self._nursery.close()  # who is started again begins from nothing
                 view = self._follow(stop)
             except BaseException:
                 self._supervisor.end(AT_ONCE)
@@ -93,6 +96,9 @@ class MatchRun:
         if stop.received is not None:
             raise InterruptedMatchError(stop.received)
         return self._judge(view)
+
+    def _launch(self, process: Process) -> Launched:
+        return self._nursery.launch(process, self._plan.folder / f"{process.name}.log")
 
     def _follow(self, stop: StopSignals) -> MatchView | None:
         """Watch until the host has ended or a signal came; nothing when the host was never met."""

@@ -1,0 +1,94 @@
+"""Robots launched as forks of one process that has imported what all of them need, which is most of a launch.
+
+Where the kernel is not Linux, or nothing can be forked any more, they are launched by their command lines.
+"""
+
+import ctypes
+import json
+import os
+import socket
+import sys
+from pathlib import Path
+
+from arena.child import Child, Launched
+from arena.processes import Kind, Process
+
+_PR_SET_CHILD_SUBREAPER = 36
+"""linux/prctl.h: who is left by its parent becomes a child of this process."""
+_COMMAND = (sys.executable, "-m", "robot_agent")
+"""How the command line of a robot begins that a nursery can raise."""
+_ROOM = "-" * 4000
+"""As long a command line can be shown of a robot."""
+_PATIENCE_S = 20.0
+"""Wall time in which a robot has to be there; the first of them waits for the imports."""
+_FAREWELL_S = 2.0
+"""Wall time in which a nursery that is not needed any more has to be gone."""
+
+
+class Robot(Launched):
+    """A robot from a nursery: a child of this process like any other."""
+
+    def __init__(self, process: Process, log: Path, pid: int) -> None:
+        super().__init__(process, log)
+        self._pid = pid
+
+    @property
+    def pid(self) -> int:
+        """Process id, which is also the id of its group."""
+        return self._pid
+
+    def _poll(self) -> int | None:
+        pid, status = os.waitpid(self._pid, os.WNOHANG)
+        return os.waitstatus_to_exitcode(status) if pid else None
+
+
+class Nursery:
+    """Launches robots; the process they are forked from is launched with the first of them."""
+
+    def __init__(self, log: Path) -> None:
+        """`log`: for what that process says, which is nothing unless it cannot begin."""
+        self._log = log
+        self._keeper: Child | None = None
+        self._door: socket.socket | None = None
+        self._open = sys.platform == "linux"
+
+    def launch(self, process: Process, log: Path) -> Launched:
+        """Launch a robot."""
+        if self._open and process.command[:3] == _COMMAND:
+            pid = self._raise(process, log)
+            if pid is not None:
+                return Robot(process, log, pid)
+            self.close()
+        return Child(process, log)
+
+    def close(self) -> None:
+        """Raise no more; the robots stay."""
+        self._open = False
+        if self._door is not None:
+            self._door.close()
+        if self._keeper is not None:
+            self._keeper.end(_FAREWELL_S)
+            self._keeper = None
+            if not self._log.stat().st_size:
+                self._log.unlink()
+
+    def _raise(self, process: Process, log: Path) -> int | None:
+        """The robot's process id, or nothing where there is none."""
+        door = self._door or self._begin(process)
+        log.touch()
+        wanted = {"arguments": process.command[3:], "environment": process.environment, "log": str(log)}
+        try:
+            door.send(json.dumps(wanted).encode())
+            return int(door.recv(64) or 0) or None
+        except OSError:
+            return None  # it has ended, or takes too long
+
+    def _begin(self, first: Process) -> socket.socket:
+        """Launch the process that robots are forked from, in the environment of the first of them."""
+        ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1)
+        self._door, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        self._door.settimeout(_PATIENCE_S)
+        command = (sys.executable, "-m", "robot_agent.nursery", str(os.getpid()), _ROOM)
+        with theirs:
+            self._keeper = Child(Process("nursery", Kind.AGENT, command, first.environment), self._log, theirs)
+        return self._door
