@@ -1,6 +1,6 @@
 """Robots launched as forks of one process that has imported what all of them need, which is most of a launch.
 
-Where the kernel is not Linux, or nothing can be forked any more, they are launched by their command lines.
+Where the kernel is not Linux, and when the nursery is closed or gone, they are launched by their command lines.
 """
 
 import ctypes
