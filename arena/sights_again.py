@@ -83,4 +83,6 @@ class SightsAgain:
     def _give_orders(self, simulation: Simulation, orders: list[tuple[float, str, CoachOrder]]) -> None:
         while orders and orders[0][0] <= simulation.now.time:
             _, key, order = orders.pop(0)
-            simulation.orders[Side(key.split("/")[1])] = order
+            side = Side(key.split("/")[1])
+            if not order.why_not_after(simulation.orders.get(side)):
+                simulation.orders[side] = order

@@ -92,12 +92,13 @@ class Gateway:
             TouchlineError: no host answers for this match, a robot named in the order is not in it, or a field may not
                 be what it is.
         """
-        robots = self.setup().teams[side].robots
+        setup = self.setup()
+        robots = setup.teams[side].robots
         for key in ("robot_a", "robot_b"):
             name = content.get(key)
             if name is not None and name not in robots:
                 raise TouchlineError(f'{key} is "{name}", no robot of {side.value}; {did_you_mean(name, robots)}')
-        self._sequence = self._next_number(side)
+        self._sequence = self._next_number(side, setup)
         try:
             order = CoachOrder.model_validate({**content, "sequence": self._sequence})
         except ValidationError as error:
@@ -119,14 +120,14 @@ class Gateway:
                 return receipt
             clock.sleep_until(clock.now() + _LOOK_S)
 
-    def _next_number(self, side: Side) -> int:
-        """Wall time in ms numbers the orders of successive processes; one whose clock is behind goes on from the last.
+    def _next_number(self, side: Side, setup: Setup) -> int:
+        """Wall time in ms numbers the orders of successive processes; where a larger number stands, from that one on.
 
-        Only then: a process that gives one order and leaves does not hear what stands before it has given it.
+        An older host's setup does not tell what stands; what was heard of it since counts there.
         """
         self.orders.update()
         standing = self.orders.book.standing(side)
-        after = standing.order.sequence if standing is not None else 0
+        after = max(standing.order.sequence if standing is not None else 0, setup.orders.get(side, 0))
         return max(self._sequence + 1, after + 1, self._bus.clock.unix_ns() // 1_000_000)
 
     def _ask(self, topic: Topic, question: Message) -> Any:

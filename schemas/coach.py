@@ -10,6 +10,11 @@ from schemas.command import KickMode
 from schemas.game import Point
 from schemas.message import Message, Name
 
+MAX_NUMBER = 2**53 - 1
+"""The largest whole number that every language reads exactly from JSON."""
+MAX_STEP = 2**51
+"""How far an order may be numbered beyond the one that stands: a clock in microseconds since 1970 fits in, a slip that
+would leave no number for anybody's next order does not."""
 MAX_AWAY = 100.0
 """m from the centre mark; a point farther away is a fault of the sender, perhaps of its units."""
 
@@ -68,8 +73,8 @@ class CoachOrder(Message):
     and every sight has it. The record's two static passes are tactics, its kick force is a speed.
     """
 
-    sequence: Annotated[int, Field(ge=1)]
-    """Larger than that of every order before it."""
+    sequence: Annotated[int, Field(ge=1, le=MAX_NUMBER)]
+    """Larger than that of every order before it, whoever gave that; the setup tells which stands."""
     mode: CoachMode = CoachMode.PLAY
     test: CoachTest | None = None
     """Which test; given in the mode `test`, and in no other."""
@@ -100,6 +105,15 @@ class CoachOrder(Message):
     """m/s; what no robot of the side exceeds, in any mode; a circle is driven at it."""
     max_turn_rate: Annotated[float, Field(gt=0, le=50)] | None = None
     """rad/s; likewise."""
+
+    def why_not_after(self, standing: "CoachOrder | None") -> str:
+        """Why it does not take the place of the one that stands, or nothing."""
+        before = standing.sequence if standing is not None else 0
+        if self.sequence <= before:
+            return f"sequence {self.sequence} is not after {before}, which stands; number orders from {before + 1} on"
+        if self.sequence - before > MAX_STEP:
+            return f"sequence {self.sequence} leaves no room for later orders; number them from {before + 1} on"
+        return ""
 
     @model_validator(mode="after")
     def _whole(self) -> Self:

@@ -75,6 +75,8 @@ class Setup(Message):
     """Fingerprint of what computes the world: engine version, the maths library's answers."""
     parameters: dict[ParameterName, Setting] = Field(default_factory=dict)
     """Live parameters that are not what the match began with, and their values; the numbers above have them already."""
+    orders: dict[Side, int] = Field(default_factory=dict)
+    """Side → number of the coach's order that stands; the next one's is larger."""
 
     @classmethod
     def of(

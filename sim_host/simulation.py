@@ -198,7 +198,9 @@ class Simulation:
         """What agents and viewers must know before the first tick."""
         p, changed = self.profile, self.tuning.since(self.tuning.at_start)
         setup = Setup.of(self.config, p, self.book, self._engine, changed)
-        return setup.model_copy(update={"teams": {side: self._team_setup(side) for side in Side}})
+        teams = {side: self._team_setup(side) for side in Side}
+        orders = {side: order.sequence for side, order in self.orders.items()}
+        return setup.model_copy(update={"teams": teams, "orders": orders})
 
     def _team_setup(self, side: Side) -> TeamSetup:
         robots = [entry for entry in self._stage.robots if entry.side is side]

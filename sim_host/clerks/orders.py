@@ -29,7 +29,12 @@ class OrderClerk:
                 self._complaints.note(received.key, str(error), received.payload)
                 continue
             standing = self._standing.get(side)
-            if standing is None or order.sequence > standing.sequence:
+            if order == standing:
+                continue  # said twice
+            reason = order.why_not_after(standing)
+            if reason:
+                self._complaints.note(received.key, reason, received.payload)
+            else:
                 self._standing[side] = order
 
 

@@ -17,6 +17,9 @@ from schemas.rule_book import load_rule_book
 from schemas.side import Side
 from schemas.topics import ACTION, ORDER, SETUP, STANDING_ORDER
 
+MICROSECONDS = 1_795_275_009_214_000
+"""Since 1970: far beyond what a clock in ms will say."""
+
 
 @pytest.fixture
 def medium() -> Medium:
@@ -34,14 +37,18 @@ def setup_of_a_match() -> Setup:
 
 @pytest.fixture
 def host(medium: Medium):
-    """Answers how the match is set up, and refuses every action but `stop`; gives the actions it was asked for."""
+    """Answers how the match is set up, and refuses every action but `stop`; gives the actions it was asked for.
+
+    Magenta has an order already, of a program whose clock counts in microseconds.
+    """
     bus = seat(medium)
     setups, actions = bus.serve(SETUP), bus.serve(ACTION)
+    setup = setup_of_a_match().model_copy(update={"orders": {Side.MAGENTA: MICROSECONDS}})
     asked: list[RefereeAction] = []
 
     def answer_setups() -> None:
         while (question := setups.receive(None)) is not None:
-            question.answer(setup_of_a_match())
+            question.answer(setup)
 
     def answer_actions() -> None:
         while (question := actions.receive(None)) is not None:
@@ -121,6 +128,14 @@ def test_an_order_is_numbered_after_the_one_that_stands_whatever_the_clock_says(
     standing = StandingOrder(tick=1, time=0.02, order=ahead, acknowledged={"cyan1": True})
     seat(medium).publisher(STANDING_ORDER, side="cyan").put(standing)
     assert gateway.order(Side.CYAN).sequence == ahead.sequence + 1
+
+
+def test_a_coach_who_has_just_come_goes_on_from_the_number_that_stands_however_large(
+    medium: Medium, host: list[RefereeAction]
+) -> None:
+    first = Gateway(seat(medium)).order(Side.MAGENTA)
+    assert first.sequence == MICROSECONDS + 1
+    assert first.why_not_after(CoachOrder(sequence=MICROSECONDS)) == ""
 
 
 class AnsweringClock(SteppedClock):
