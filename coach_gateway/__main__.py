@@ -15,7 +15,15 @@ from coach_gateway.refbox.framing import Protocol
 from coach_gateway.service import Service
 from coach_gateway.service import run as run_services
 from coach_gateway.watching import watch
-from coach_gateway.web.settings import DEFAULT_PAGES, DEFAULT_PORT, LOOPBACK, BeliefsFor, WebSettings, need_web
+from coach_gateway.web.settings import (
+    DEFAULT_PAGES,
+    DEFAULT_PAGES_EACH,
+    DEFAULT_PORT,
+    LOOPBACK,
+    BeliefsFor,
+    WebSettings,
+    need_web,
+)
 from coach_gateway.web.tokens import Tokens, tokens_of
 from schemas.bus.contract import Bus
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
@@ -86,6 +94,7 @@ def main(arguments: list[str] | None = None) -> int:
             origins=tuple(options.allow_origin),
             beliefs=options.beliefs,
             pages=options.pages,
+            pages_each=options.pages_per_address,
         )
     try:
         bridges = bridges_of(
@@ -132,6 +141,9 @@ def _parser() -> argparse.ArgumentParser:
         help="who is shown what robots believe: all, or teams",
     )
     page.add_argument("--pages", type=int, default=DEFAULT_PAGES, help="how many may be open at once")
+    page.add_argument(
+        "--pages-per-address", type=int, default=DEFAULT_PAGES_EACH, help="how many of them from one other address"
+    )
     _add_bridges(parser.add_argument_group("bridges"))
     return parser
 

@@ -8,7 +8,14 @@ import typer
 from arena import options
 from arena.bridge_words import BridgeWords
 from arena.bundle import unbundled
-from coach_gateway.web.settings import DEFAULT_PAGES, DEFAULT_PORT, LOOPBACK, BeliefsFor, WebSettings
+from coach_gateway.web.settings import (
+    DEFAULT_PAGES,
+    DEFAULT_PAGES_EACH,
+    DEFAULT_PORT,
+    LOOPBACK,
+    BeliefsFor,
+    WebSettings,
+)
 
 
 @unbundled
@@ -32,6 +39,9 @@ def serve(
         typer.Option(help="Who is shown what robots believe; by default all in a friendly, else each team its own."),
     ] = None,
     pages: Annotated[int, typer.Option(min=1, help="How many pages may be open at once.")] = DEFAULT_PAGES,
+    pages_per_address: Annotated[
+        int, typer.Option(min=1, help="How many of them from one other address; this machine's own are not counted.")
+    ] = DEFAULT_PAGES_EACH,
 ) -> None:
     """Serve the page of a running match, or of a replay, until Ctrl-C; hosts may come and go meanwhile.
 
@@ -42,5 +52,5 @@ def serve(
     """
     from coach_gateway.__main__ import serve as serve_page
 
-    web = WebSettings(port, listen_web, tokens, tuple(allow_origin or ()), beliefs, pages)
+    web = WebSettings(port, listen_web, tokens, tuple(allow_origin or ()), beliefs, pages, pages_per_address)
     serve_page(seat.connect, seat.match, web, bridges.bridges())

@@ -10,6 +10,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from coach_gateway.web import access
 from coach_gateway.web.desk import Desk, is_stop
 from coach_gateway.web.hands import Hands
+from coach_gateway.web.homes import home_of
 from coach_gateway.web.origins import Origins
 from coach_gateway.web.pages import Page, Pages
 from coach_gateway.web.protocol import ASK, MAX_BYTES, Ask, AskDrive, AskToken, Refusal, Reply, Role
@@ -41,13 +42,12 @@ class Door:
             await socket.close(_POLICY)  # before it is accepted: HTTP 403
             return
         await socket.accept()
-        if len(self._pages) >= self._pages.most:
+        home = home_of(socket.client.host if socket.client is not None else None)
+        if why := self._pages.why_no_room(home):
             self._pages.counts["full"] += 1
-            await _part(
-                socket, f"{len(self._pages)} pages are open, and no more are let in; try again later", _TRY_AGAIN
-            )
+            await _part(socket, why, _TRY_AGAIN)
             return
-        page = Page(origin, host, self._clock.now())
+        page = Page(origin, host, self._clock.now(), home)
         self._pages.enter(page)
         self._stage.welcome(page)
         try:

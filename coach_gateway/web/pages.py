@@ -32,8 +32,9 @@ _FAULTS = {
 class Page:
     """One open page."""
 
-    def __init__(self, origin: str | None, host: str | None, now: float) -> None:
-        self.origin, self.host = origin, host
+    def __init__(self, origin: str | None, host: str | None, now: float, home: str | None = None) -> None:
+        """`home` is whom its room is counted for, as `coach_gateway.web.homes.home_of` has it."""
+        self.origin, self.host, self.home = origin, host, home
         self.role = Role.SPECTATOR
         self.outlet = Outlet()
         self.allowance = Allowance(MESSAGES_PER_S, MESSAGES_AT_ONCE, now)
@@ -78,8 +79,9 @@ class Page:
 class Pages:
     """All of them."""
 
-    def __init__(self, most: int) -> None:
-        self.most = most
+    def __init__(self, most: int, each: int) -> None:
+        """So many at once, and so many of them from one home."""
+        self._most, self._each = most, each
         self._open: dict[Page, None] = {}
         self.counts: Counter[str] = Counter()
         """What went wrong, by kind."""
@@ -93,6 +95,14 @@ class Pages:
 
     def __iter__(self) -> Iterator[Page]:
         return iter(tuple(self._open))
+
+    def why_no_room(self, home: str | None) -> str:
+        """Why no further page of this home is let in, or nothing."""
+        if len(self) >= self._most:
+            return f"{len(self)} pages are open, and no more are let in; try again later"
+        if home is not None and sum(page.home == home for page in self._open) >= self._each:
+            return f"{self._each} pages of your address are open; close one, or have more let in: --pages-per-address"
+        return ""
 
     def enter(self, page: Page) -> None:
         """It is told everything from now on."""

@@ -19,7 +19,7 @@ class WebServer:
     def __init__(self, bus: Bus, entrance: Entrance, say: Callable[[str], None] = lambda _: None) -> None:
         self._bus, self._entrance, self._say = bus, entrance, say
         settings = entrance.settings
-        self.pages = Pages(settings.pages)
+        self.pages = Pages(settings.pages, settings.pages_each)
         desk = Desk(bus)
         self._stage = Stage(bus, self.pages, desk, settings.beliefs)
         self._door = Door(self._stage, self.pages, desk, entrance.tokens, entrance.origins, bus.clock)

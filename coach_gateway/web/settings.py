@@ -10,6 +10,8 @@ from schemas.errors import TouchlineError
 DEFAULT_PORT = 8080
 LOOPBACK = "127.0.0.1"
 DEFAULT_PAGES = 300
+DEFAULT_PAGES_EACH = 100
+"""Three classrooms behind one address; a third of the room."""
 
 
 class BeliefsFor(StrEnum):
@@ -35,6 +37,8 @@ class WebSettings:
     """Without a word: for all in a friendly and in a replay, otherwise for the teams."""
     pages: int = DEFAULT_PAGES
     """How many pages may be open at once."""
+    pages_each: int = DEFAULT_PAGES_EACH
+    """How many of them from one address; those of this machine are not counted."""
 
 
 def need_web() -> None:
