@@ -184,15 +184,14 @@ def _body_after(motion: Motion, age: float) -> Body:
 
 
 def _smooth_body(before: Body | None, seen: Motion, dt: float) -> Body:
-    now = _body(seen)
     if before is None:
-        return now
-    x, y = before.x + 0.5 * (before.vx + now.vx) * dt, before.y + 0.5 * (before.vy + now.vy) * dt
-    dx, dy, turned = now.x - x, now.y - y, wrap(now.heading - before.heading - now.omega * dt)
+        return _body(seen)
+    vx, vy, omega = seen.vx, seen.vy, seen.omega
+    x, y = before.x + 0.5 * (before.vx + vx) * dt, before.y + 0.5 * (before.vy + vy) * dt
+    dx, dy, turned = seen.x - x, seen.y - y, wrap(seen.heading - before.heading - omega * dt)
     if math.hypot(dx, dy) > _JUMP or abs(turned) > _JUMP:
-        return now
-    heading = wrap(now.heading - (1.0 - _TRUST) * turned)
-    return Body(x + _TRUST * dx, y + _TRUST * dy, heading, now.vx, now.vy, now.omega)
+        return _body(seen)
+    return Body(x + _TRUST * dx, y + _TRUST * dy, wrap(seen.heading - (1.0 - _TRUST) * turned), vx, vy, omega)
 
 
 def _opponents(sight: Sight, mates: dict[str, Mate]) -> list[tuple[float, float]]:

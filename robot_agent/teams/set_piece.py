@@ -26,6 +26,8 @@ PENALTIES = frozenset({TeamPhase.OUR_PENALTY, TeamPhase.THEIR_PENALTY})
 
 def asked_distance(phase: TeamPhase, restarts: Restarts) -> float:
     """How far the rules keep a robot that does not take the restart from the ball, hull to ball, in m; 0 in play."""
+    if phase is TeamPhase.PLAY:
+        return 0.0
     if phase is TeamPhase.DROP_BALL:
         return restarts.drop_ball_distance
     if phase in PENALTIES or phase.theirs:
