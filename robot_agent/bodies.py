@@ -18,14 +18,8 @@ class Body(NamedTuple):
 
     def after(self, time: float) -> "Body":
         """Where it is `time` s later if it goes on as it does."""
-        return Body(
-            self.x + self.vx * time,
-            self.y + self.vy * time,
-            self.heading + self.omega * time,
-            self.vx,
-            self.vy,
-            self.omega,
-        )
+        x, y, heading, vx, vy, omega = self
+        return Body(x + vx * time, y + vy * time, heading + omega * time, vx, vy, omega)
 
 
 class Ball(NamedTuple):
@@ -38,16 +32,17 @@ class Ball(NamedTuple):
 
     def after(self, time: float, deceleration: float) -> "Ball":
         """Where it is `time` s later if nobody touches it and it loses `deceleration` m/s of speed each second."""
-        speed = math.hypot(self.vx, self.vy)
+        x, y, vx, vy = self
+        speed = math.hypot(vx, vy)
         left = speed - deceleration * time
         if speed < 1e-6:
             return self
         if left <= 0.0:
             way = 0.5 * speed / deceleration
-            return Ball(self.x + self.vx * way, self.y + self.vy * way)
+            return Ball(x + vx * way, y + vy * way)
         way = time * (0.5 * (speed + left)) / speed
         kept = left / speed
-        return Ball(self.x + self.vx * way, self.y + self.vy * way, self.vx * kept, self.vy * kept)
+        return Ball(x + vx * way, y + vy * way, vx * kept, vy * kept)
 
 
 class Limits(NamedTuple):

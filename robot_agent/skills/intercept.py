@@ -33,12 +33,12 @@ def meet(me: Body, way: Sequence[Ball], reach: float, limits: Limits) -> Meeting
 
     `reach` is how close to the ball the robot's centre has to come, in m.
     """
-    return _meet(me, way, reach, limits, _last_too_early(me, way, reach, limits))
+    return _meet(me, way, reach, limits, _last_too_early(me, way, reach, limits, math.inf))
 
 
 def meeting_time(me: Body, way: Sequence[Ball], reach: float, limits: Limits, by: float) -> float:
     """When the robot meets the ball, s from now; of a meeting later than `by`, only some time after `by`."""
-    begin = _last_too_early(me, way, reach, limits)
+    begin = _last_too_early(me, way, reach, limits, by)
     return MOMENTS[begin] if MOMENTS[begin] > by else _meet(me, way, reach, limits, begin).time
 
 
@@ -59,16 +59,21 @@ def _meet(me: Body, way: Sequence[Ball], reach: float, limits: Limits, begin: in
     return Meeting(before.x, before.y, early + spare)
 
 
-def _last_too_early(me: Body, way: Sequence[Ball], reach: float, limits: Limits) -> int:
+def _last_too_early(me: Body, way: Sequence[Ball], reach: float, limits: Limits, by: float) -> int:
     """The last moment before the first at which the robot, at top speed all the way, could be at the ball.
 
-    What is too late for certain needs no exact time.
+    What is too early for certain needs no exact time. Beyond `by` s, the first moment that is too early.
     """
-    at_x, at_y = me.x, me.y
-    for index, (x, y, _, _) in enumerate(way):
-        if math.hypot(x - at_x, y - at_y) <= reach + limits.speed * MOMENTS[index] + _SURELY:
-            return max(0, index - 1)
-    return len(way) - 1
+    at_x, at_y, speed = me.x, me.y, limits.speed
+    last = 0
+    for index, moment in enumerate(MOMENTS):
+        x, y, _, _ = way[index]
+        if math.hypot(x - at_x, y - at_y) <= reach + speed * moment + _SURELY:
+            return last
+        last = index
+        if moment > by:
+            return last
+    return last
 
 
 def _time_to(me: Body, ball: Ball, reach: float, limits: Limits) -> float:

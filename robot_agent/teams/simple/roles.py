@@ -61,7 +61,7 @@ def striker_of(
 def share_places(
     candidates: Mapping[str, Candidate], places: Sequence[tuple[Role, tuple[float, float]]]
 ) -> dict[str, Role]:
-    """Who takes which place: the least sum of distances, as many places as robots, the first ones first."""
+    """Who takes which place: the least sum of distances, the first places first; no place for who is too many."""
     names = sorted(candidates)
     open_places = places[: len(names)]
     far = [[_far(candidates[name], role, place) for name in names] for role, place in open_places]
@@ -72,7 +72,7 @@ def share_places(
             total += far[place][robot]
         return total
 
-    best = min(permutations(range(len(names))), key=cost)
+    best = min(permutations(range(len(names)), len(open_places)), key=cost)
     return {names[robot]: role for robot, (role, _) in zip(best, open_places, strict=True)}
 
 

@@ -46,6 +46,13 @@ def test_a_small_team_fills_the_first_places():
     assert share_places({}, wanted) == {}
 
 
+def test_who_is_farthest_has_no_place_where_there_are_more_robots_than_places():
+    """Five robots of a scene without a goalkeeper: one plays the ball, four are left for three places."""
+    wanted = [(Role.DEFENDER, (-5.0, 0.0)), (Role.LEFT, (2.0, 3.0)), (Role.RIGHT, (2.0, -3.0))]
+    robots = {"a": at(2.0, -2.0), "b": at(-4.0, 0.0), "c": at(1.0, 3.0), "d": at(-9.0, -5.0)}
+    assert share_places(robots, wanted) == {"a": Role.RIGHT, "b": Role.DEFENDER, "c": Role.LEFT}
+
+
 @pytest.mark.parametrize("ball", [(0.0, 0.0), (10.0, 6.5), (-10.5, 0.5), (-3.0, -6.0)])
 def test_the_formation_leaves_the_ball_and_the_penalty_areas_alone(setup, ball):
     pitch = setup.pitch
