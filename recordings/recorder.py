@@ -126,7 +126,10 @@ class Recorder:
         return came
 
     def drain(self, patience: float) -> None:
-        """Take in all that is still on its way, until nothing has come for a moment, for `patience` s at most."""
+        """Take in all that is still on its way, until nothing has come for a moment, for `patience` s at most.
+
+        Without a link nothing is on its way but what has come already.
+        """
         if not self._begun:
             self._begin(None)
         limit = self._clock.now() + patience
@@ -134,6 +137,8 @@ class Recorder:
         while self._clock.now() < min(quiet, limit):
             if self.pump():
                 quiet = self._clock.now() + _QUIET_S
+            elif not self._bus.connected():
+                break
             else:
                 self._clock.sleep_until(self._clock.now() + _POLL_S)
         for subscription in self._subscriptions:

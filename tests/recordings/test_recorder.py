@@ -394,6 +394,23 @@ def test_the_recording_ends_when_it_is_told_to(stage):
     assert len(list(stage.read().messages("world"))) == 10
 
 
+def test_a_recorder_without_a_link_waits_for_nothing_more(stage):
+    """What had come before the link ended is taken in; with a link it waits a moment for what is on its way."""
+    clock, bus = stage.recorder_bus.clock, stage.recorder_bus
+    stage.play(range(20))
+    began = clock.now()
+    stage.recorder.drain(10.0)
+    assert clock.now() - began >= 0.25
+    for tick in range(20, 30):
+        stage.host.play(tick)
+    bus.connected = lambda: False
+    began = clock.now()
+    stage.recorder.drain(10.0)
+    assert clock.now() == began
+    stage.recorder.finish()
+    assert [World.decode(recorded.payload).tick for recorded in stage.read().messages(WORLD.key)] == list(range(30))
+
+
 def test_the_recorder_is_seen_to_be_alive(stage):
     watch = stage.host.bus.watch_alive()
     present = {(presence.kind, presence.name) for presence in iter(watch.receive, None)}
