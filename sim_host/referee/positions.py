@@ -18,6 +18,7 @@ from schemas.frames import Pose
 from schemas.game import Phase, Stage
 from sim_host.referee.areas import in_goal_area, in_penalty_area
 from sim_host.referee.call import Restart, Spot
+from sim_host.referee.clear_ground import clearance
 from sim_host.referee.match import Match
 from sim_host.referee.state import RefereeState
 from sim_host.snapshot import Snapshot
@@ -141,9 +142,11 @@ def _around(line_up: LineUp, index: int) -> Iterator[Spot]:
 
 def _has_room(line_up: LineUp, index: int) -> bool:
     robots, reaches = line_up.snapshot.robots, line_up.match.reaches
-    here = robots[index][:2]
+    here = robots[index].x, robots[index].y
+    if clearance(line_up.snapshot, here) <= reaches[index] + _ROOM:
+        return False
     return all(
-        math.dist(here, robots[other][:2]) > reaches[index] + reaches[other] + _ROOM
+        math.dist(here, (robots[other].x, robots[other].y)) > reaches[index] + reaches[other] + _ROOM
         for other in line_up.there
         if other != index
     )

@@ -3,7 +3,8 @@
 Robots take positions from the signal on. START comes after the rule book's pause, as soon as everybody stands legally
 and the ball lies on its spot, at the latest after the positions limit: who stands wrong then is named, and moved or
 shown a card as the rule book says. The ball is in play once it has rolled freely far enough, or when the taker's time
-is over, from when on anybody may take it; a dropped ball at once.
+is over, from when on anybody may take it; a dropped ball at once. Where an obstacle stands on the spot, the restart is
+taken from the nearest free place, a kick-off on the halfway line, a penalty as far from the goal.
 
 Section: restarts.
 Measures: the time since STOP, signal and START; the ball's way from its spot, and its longest way between two touches.
@@ -15,6 +16,7 @@ import math
 from schemas.game import Card, EventKind, Mode, Phase, Stage
 from sim_host.referee import discipline, set_piece
 from sim_host.referee.call import Restart
+from sim_host.referee.clear_ground import clear_restart
 from sim_host.referee.evidence import NOTHING
 from sim_host.referee.positions import Fault, covered, legal_spot, standing_wrong
 from sim_host.referee.timing import reached
@@ -46,9 +48,11 @@ def stop(turn: Turn, rule: str, restart: Restart | None) -> None:
 def signal(turn: Turn, restart: Restart) -> None:
     """Place the ball and signal the restart; robots take their positions.
 
-    Where a robot stands on the spot, the ball is placed as soon as it has gone.
+    Where a robot stands on the spot, the ball is placed as soon as it has gone; where an obstacle does, which nobody
+    moves, beside it.
     """
-    state = turn.state
+    state, meant = turn.state, restart
+    restart = clear_restart(turn.match, turn.snapshot, meant)
     if not covered(turn.match, state, restart.spot, turn.snapshot):
         turn.place_ball(restart.spot)
     turn.state = state._replace(
@@ -61,7 +65,9 @@ def signal(turn: Turn, restart: Restart) -> None:
         timing=state.timing.anew(turn.book.restarts.signal_to_start),
         evidence=NOTHING,
     )
-    turn.say(EventKind.RESTART, RULE, named(restart), side=restart.side, place=restart.spot)
+    moved = math.dist(meant.spot, restart.spot)
+    beside = f", {moved:.2f} m from its spot, where an obstacle stands" if moved > 0.0 else ""
+    turn.say(EventKind.RESTART, RULE, named(restart) + beside, side=restart.side, place=restart.spot)
 
 
 def start(turn: Turn, restart: Restart, remark: str = "") -> None:
@@ -113,6 +119,9 @@ def from_spot(turn: Turn, restart: Restart) -> float:
 def _awaited(turn: Turn, restart: Restart) -> None:
     """Between signal and START: the ball is kept on its spot, then START as soon as everybody stands legally."""
     numbers, timer = turn.book.restarts, turn.state.timing.timer
+    if clear_restart(turn.match, turn.snapshot, restart) != restart:
+        signal(turn, restart)  # anew, beside the obstacle that somebody has put there meanwhile
+        return
     on_spot = from_spot(turn, restart) <= numbers.drift
     has_room = on_spot or not covered(turn.match, turn.state, restart.spot, turn.snapshot)
     if not on_spot and timer > 0 and has_room:

@@ -13,7 +13,7 @@ from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
 from sim_host.referee.core import Referee, Ruling
-from sim_host.snapshot import BallState, RobotState, Roster, Snapshot
+from sim_host.snapshot import BallState, ObstacleState, RobotState, Roster, Snapshot
 
 
 class Bench:
@@ -51,6 +51,7 @@ class Bench:
         self.velocity = (1.0, 0.0, 0.0)
         self.robots = {name: (pose.x, pose.y) for name, pose in self.starts.items()}
         self.events: list[GameEvent] = []
+        self.obstacles: tuple[ObstacleState, ...] = ()
 
     def side(self, side: Side) -> Side:
         return side.opponent if self.mirrored else side
@@ -99,6 +100,7 @@ class Bench:
             silent=gone,
             contacts=tuple((first, second) for first, second in sorted(pairs)),
             ball_spin=self._turned(*turning),
+            obstacles=self.obstacles,
         )
 
     def _seen(self, name: str, heading: float, vx: float, vy: float) -> RobotState:
