@@ -17,11 +17,11 @@ _TAIL_BYTES = 8192
 class Launched(ABC):
     """A process of this one that runs, or has run; it leads a session and a group of its own."""
 
-    def __init__(self, process: Process, log: Path) -> None:
-        """What it writes goes to the end of `log`."""
+    def __init__(self, process: Process, log: Path, begin: int) -> None:
+        """What it writes goes to the end of `log`, which is `begin` bytes long before."""
         self.process = process
         self.log = log
-        self._begin = log.stat().st_size if log.exists() else 0
+        self._begin = begin
         self._status: int | None = None
 
     @property
@@ -65,9 +65,9 @@ class Child(Launched):
 
     def __init__(self, process: Process, log: Path, stdin: socket.socket | None = None) -> None:
         """It reads from `stdin`, or nothing."""
-        super().__init__(process, log)
         command = [sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), *process.command]
         with log.open("ab") as out:
+            super().__init__(process, log, out.tell())
             self._popen = subprocess.Popen(
                 command,
                 stdin=stdin.fileno() if stdin is not None else subprocess.DEVNULL,

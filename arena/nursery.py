@@ -28,8 +28,8 @@ _FAREWELL_S = 2.0
 class Robot(Launched):
     """A robot from a nursery: a child of this process like any other."""
 
-    def __init__(self, process: Process, log: Path, pid: int) -> None:
-        super().__init__(process, log)
+    def __init__(self, process: Process, log: Path, begin: int, pid: int) -> None:
+        super().__init__(process, log, begin)
         self._pid = pid
 
     @property
@@ -38,7 +38,10 @@ class Robot(Launched):
         return self._pid
 
     def _poll(self) -> int | None:
-        pid, status = os.waitpid(self._pid, os.WNOHANG)
+        try:
+            pid, status = os.waitpid(self._pid, os.WNOHANG)
+        except ChildProcessError:
+            return 0  # whoever launched us has the kernel forget how children end; `subprocess` says the same of it
         return os.waitstatus_to_exitcode(status) if pid else None
 
 
@@ -55,9 +58,11 @@ class Nursery:
     def launch(self, process: Process, log: Path) -> Launched:
         """Launch a robot."""
         if self._open and process.command[:3] == _COMMAND:
+            with log.open("ab") as out:
+                begin = out.tell()
             pid = self._raise(process, log)
             if pid is not None:
-                return Robot(process, log, pid)
+                return Robot(process, log, begin, pid)
             self.close()
         return Child(process, log)
 
@@ -75,7 +80,6 @@ class Nursery:
     def _raise(self, process: Process, log: Path) -> int | None:
         """The robot's process id, or nothing where there is none."""
         door = self._door or self._begin(process)
-        log.touch()
         wanted = {"arguments": process.command[3:], "environment": process.environment, "log": str(log)}
         try:
             door.send(json.dumps(wanted).encode())

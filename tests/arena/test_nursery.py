@@ -119,6 +119,13 @@ def test_sets_of_words_have_the_same_order_in_every_robot(nursery: Nursery, tmp_
     assert b"PYTHONHASHSEED=0" in environment
 
 
+def test_a_robot_whose_end_nobody_noted_has_ended(tmp_path: Path) -> None:
+    """As where SIGCHLD is ignored, which a process inherits."""
+    program = subprocess.Popen(["true"])
+    program.wait()
+    assert Robot(robot("cyan1"), tmp_path / "cyan1.log", 0, program.pid).status() == 0
+
+
 def test_other_programs_are_launched_by_their_command_lines(nursery: Nursery, tmp_path: Path) -> None:
     process = Process("cyan1", Kind.AGENT, (sys.executable, "-c", "print('plain')"), {})
     launched = nursery.launch(process, tmp_path / "cyan1.log")
