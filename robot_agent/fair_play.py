@@ -125,10 +125,9 @@ def _nearest_of_us(scene: Scene, ball: Point, name: str) -> str | None:
     """Who of us has the ball."""
     if scene.holding:
         return name
-    away = [(math.dist(ball, seen.body[:2]), mate) for mate, seen in scene.mates.items()]
-    away.append((math.dist(ball, scene.me[:2]), name))
-    least, nearest = min(away)
-    return nearest if least < HAS_IT else None
+    bodies = [(scene.me, name), *[(mate.body, other) for other, mate in scene.mates.items()]]
+    have_it = [(away, one) for body, one in bodies if (away := math.dist(ball, body[:2])) < HAS_IT]
+    return min(have_it)[1] if have_it else None
 
 
 def _along(me: Body) -> float:

@@ -1,7 +1,7 @@
 """Opponents as a robot follows them from picture to picture: moved on to now, and remembered while they are hidden."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 Point = tuple[float, float]
@@ -27,11 +27,10 @@ class _Track(NamedTuple):
     vy: float = 0.0
     unseen: float = 0.0
 
-    def after(self, time: float) -> Point:
-        """Where it is `time` s later."""
-        if math.hypot(self.vx, self.vy) < _STILL:
-            return self.x, self.y
-        return self.x + self.vx * time, self.y + self.vy * time
+
+def _after(tracks: Iterable[_Track], time: float) -> list[Point]:
+    """Where they are `time` s later."""
+    return [(x, y) if math.hypot(vx, vy) < _STILL else (x + vx * time, y + vy * time) for x, y, vx, vy, _ in tracks]
 
 
 class Opponents:
@@ -48,12 +47,12 @@ class Opponents:
         if pictured > self._pictured + 1e-6:
             self._take_in(seen, pictured - self._pictured)
             self._pictured = pictured
-        return [track.after(age) for track in self._tracks]
+        return _after(self._tracks, age)
 
     def _take_in(self, seen: Sequence[Point], dt: float) -> None:
         """The opponents of a new picture, in its order, then those that are remembered."""
         before = [track for track in self._tracks if track.unseen + dt <= REMEMBERED]
-        expected = [track.after(dt) for track in before]
+        expected = _after(before, dt)
         tracks = []
         for x, y in seen:
             away = [math.dist((x, y), place) for place in expected]

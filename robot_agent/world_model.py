@@ -110,7 +110,9 @@ class WorldModel:
             word = radio.get(name)
             if word is None or (age := word.age) > STALE or (motion := word.self) is None:
                 continue
-            mates[name] = Mate(_body_after(motion, age), word.role or "", word.intention or "", word.pass_to)
+            vx, vy, omega = motion.vx, motion.vy, motion.omega
+            body = Body(motion.x + vx * age, motion.y + vy * age, motion.heading + omega * age, vx, vy, omega)
+            mates[name] = Mate(body, word.role or "", word.intention or "", word.pass_to)
         return mates
 
     def _believed_ball(self, sight: Sight, me: Body, dt: float) -> SeenBall | None:
@@ -175,12 +177,6 @@ class WorldModel:
 
 def _body(motion: Motion) -> Body:
     return Body(motion.x, motion.y, motion.heading, motion.vx, motion.vy, motion.omega)
-
-
-def _body_after(motion: Motion, age: float) -> Body:
-    """Where a robot is that moved like this `age` s ago, and went on so."""
-    vx, vy, omega = motion.vx, motion.vy, motion.omega
-    return Body(motion.x + vx * age, motion.y + vy * age, motion.heading + omega * age, vx, vy, omega)
 
 
 def _smooth_body(before: Body | None, seen: Motion, dt: float) -> Body:
