@@ -1,7 +1,7 @@
 """A whole match: its processes launched, watched and ended, and what came of it."""
 
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from types import FrameType, TracebackType
 from typing import Self
 
@@ -14,11 +14,12 @@ from arena.status import status_line
 from arena.supervisor import AFTER_THE_MATCH, AT_ONCE, Supervisor
 from coach_gateway.lines import event_line
 from coach_gateway.view import MatchView
-from schemas.bus.contract import Bus, BusError
+from schemas.bus.contract import Bus, BusError, Received
 from schemas.bus.zenoh_bus import open_client
 from schemas.clock import Clock
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.game import GameEvent
+from schemas.game import GameEvent, GameState
+from schemas.host import Health
 from schemas.side import Side
 
 _POLL = 0.05
@@ -63,11 +64,20 @@ class StopSignals:
 class MatchRun:
     """One match from launch to result."""
 
-    def __init__(self, plan: Plan, screen: Screen, clock: Clock, losses: Callable[[Plan], dict[str, int]]) -> None:
+    def __init__(
+        self,
+        plan: Plan,
+        screen: Screen,
+        clock: Clock,
+        losses: Callable[[Plan], dict[str, int]],
+        recorded: Callable[[Plan], Iterable[Received]],
+    ) -> None:
+        """`losses` tells what a finished recording lacks, `recorded` what it has of the game's events and states."""
         self._plan = plan
         self._screen = screen
         self._clock = clock
         self._losses = losses
+        self._recorded = recorded
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
         self._nursery = Nursery(plan.folder / "nursery.log")
         self._supervisor = Supervisor(processes_of(plan), self._launch, clock)
@@ -133,7 +143,10 @@ class MatchRun:
         return self._supervisor.host_status is None and stop.received is None
 
     def _show(self, view: MatchView) -> None:
-        for message in view.update():
+        self._tell(view, view.update())
+
+    def _tell(self, view: MatchView, news: list[GameEvent | GameState | Health]) -> None:
+        for message in news:
             if isinstance(message, GameEvent):
                 self._screen.event(event_line(message), notable=message.kind in NOTABLE)
         self._screen.status(status_line(view, self._robots))
@@ -141,6 +154,9 @@ class MatchRun:
     def _judge(self, view: MatchView | None) -> MatchResult:
         """The result, or the reason why there is none."""
         status = self._supervisor.host_status
+        if status == 0 and view is not None and not view.finished:
+            # whoever stood still for the last second has not heard the end, and the recorder, who is waited for, has
+            self._tell(view, view.complete(self._recorded(self._plan)))
         if status == 0 and view is not None and view.finished:
             return self._result(view)
         log = self._supervisor.last_lines("host")

@@ -1,5 +1,6 @@
 """What can be seen of a match from outside: the newest state and health, all events, and how fast it is played."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from schemas.bus.contract import Bus, Received, Subscription
@@ -55,6 +56,18 @@ class MatchView:
             self._note_progress(received)
         return fresh
 
+    def complete(self, told: Iterable[Received]) -> list[GameEvent | GameState | Health]:
+        """Take in what was told and has not come, from whoever kept it; returns what of it is new, in its order."""
+        fresh = []
+        for received in told:
+            message = self._decoded(received)
+            is_known = message in self.events if isinstance(message, GameEvent) else self._is_past(message)
+            if message is not None and not is_known:
+                self._take(message, received)
+                fresh.append(message)
+        self.events.sort(key=lambda event: event.tick)
+        return fresh
+
     def wait_for_state(self, patience: float) -> GameState | None:
         """The newest state, waiting up to `patience` s of wall time for the first one."""
         deadline = self.bus.clock.now() + patience
@@ -86,12 +99,26 @@ class MatchView:
         except BadMessageError:
             self.unreadable += 1
 
+    def _is_past(self, message: GameState | Health | None) -> bool:
+        """Whether something as new has been seen."""
+        seen = self.state if isinstance(message, GameState) else self.health
+        return message is not None and seen is not None and message.tick <= seen.tick
+
     def _read(self, received: Received) -> GameEvent | GameState | Health | None:
+        message = self._decoded(received)
+        if message is not None:
+            self._take(message, received)
+        return message
+
+    def _decoded(self, received: Received) -> GameEvent | GameState | Health | None:
         try:
             message: GameEvent | GameState | Health = received.message()
         except BadMessageError:
             self.unreadable += 1
             return None
+        return message
+
+    def _take(self, message: GameEvent | GameState | Health, received: Received) -> None:
         match message:
             case GameEvent():
                 self.events.append(message)
@@ -101,7 +128,6 @@ class MatchView:
                 self.health = message
         if message.tick > 0 and received.stamp is not None:
             self._mark(Moment(message.tick, message.time, received.stamp.sent_ns))
-        return message
 
     def _mark(self, moment: Moment) -> None:
         if self.first is None or moment.tick < self.first.tick:

@@ -29,6 +29,8 @@ class Attendance:
         """Everyone who came to speak for a league's referee box: whether it is there."""
         self.recorders: dict[str, int] = {}
         """Recorder → the newest tick it has taken in; one whose link broke is in here until it is given up."""
+        self._watchers: dict[str, bool] = {}
+        """Everyone who came to watch, by page or terminal: whether it is there."""
         self._lost: dict[str, float] = {}
         """Recorder → when it is given up, wall time."""
 
@@ -47,6 +49,8 @@ class Attendance:
                 self._recorder(presence)
             elif presence.kind == REFBOX and (presence.name in self._refboxes or len(self._refboxes) < _KNOWN):
                 self._refboxes[presence.name] = presence.alive
+            elif presence.kind == "coach" and (presence.name in self._watchers or len(self._watchers) < _KNOWN):
+                self._watchers[presence.name] = presence.alive
             presence = self._watch.receive(0.0)
         self.hear_recorders(0.0)
         self._give_up()
@@ -94,6 +98,10 @@ class Attendance:
     def is_officiated(self) -> bool:
         """Whether a league's referee box is connected: nobody else officiates meanwhile."""
         return any(self._refboxes.values())
+
+    def is_watched(self) -> bool:
+        """Whether a page or a terminal shows the match."""
+        return any(self._watchers.values())
 
     def all_here(self, wait_for_recorder: bool) -> bool:
         """Every robot's agent is there, and a recorder where one is waited for."""

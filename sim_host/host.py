@@ -16,6 +16,9 @@ from sim_host.relay import Relay
 from sim_host.simulation import Simulation, Tick
 from sim_host.standing import StandingOrders
 
+_LAST_WORDS_S = 0.75
+"""Wall time that the host stays after full time for those who watch: what they missed of the end shows with the bus's
+next heartbeat, half a second after it, and can be fetched again as long as the host is there."""
 _PARTING_S = 5.0
 """Wall time that the host waits at the end for its recorders to take in the last tick."""
 
@@ -96,7 +99,7 @@ class Host:
         return tick
 
     def part(self) -> None:
-        """Give the recorders time to take in the last tick."""
+        """Give the recorders time to take in the last tick, and after full time those who watch to hear of it."""
         last = self.simulation.now.tick
         deadline = self._clock.now() + _PARTING_S
         while self._clock.now() < deadline:
@@ -105,7 +108,16 @@ class Host:
             self._desk.refuse("the match is over")
             self._relay.send(last)
             if not any(self.attendance.behind(last).values()):
-                return
+                break
+        if self.simulation.over and self.attendance.is_watched():
+            self._stay(self._clock.now() + _LAST_WORDS_S)
+
+    def _stay(self, until: float) -> None:
+        """Answer that the match is over until this wall time, or until somebody tells the host to leave."""
+        while self._clock.now() < until and not self.leaving:
+            self._clock.sleep_until(min(until, self._clock.now() + 0.05))
+            self._desk.attend()
+            self._desk.refuse("the match is over")
 
     def _attend(self) -> None:
         """Answer who asks, and follow an operator who lets other robots take part."""

@@ -2,6 +2,8 @@
 
 import sys
 from collections import Counter
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -17,6 +19,7 @@ from coach_gateway.web.settings import DEFAULT_PORT, LOOPBACK
 if TYPE_CHECKING:
     from arena.processes import Page, Plan
     from arena.result import MatchResult
+    from schemas.bus.contract import Received
     from schemas.clock import Clock
     from schemas.match_config import MatchConfig
 
@@ -128,13 +131,26 @@ def _play(plan: "Plan", clock: "Clock", *, quiet: bool) -> "MatchResult":
 
     try:
         with screen_on(sys.stderr if quiet else sys.stdout, clock) as screen:
-            return MatchRun(plan, screen, clock, _losses).play()
+            return MatchRun(plan, screen, clock, _losses, _recorded).play()
     except InterruptedMatchError as stopped:
         left = plan.recording is not None and plan.recording.exists()
         typer.echo(
             f"touchline: match ended by hand; {plan.recording if left else plan.folder} is what it left", err=True
         )
         raise typer.Exit(128 + stopped.number) from None
+
+
+def _recorded(plan: "Plan") -> "Iterator[Received]":
+    """Events and states of the game as the recording has them; nothing where it is of some seconds alone, or lost."""
+    if plan.config.record.snapshot is not None:
+        return
+    from recordings.reader import open_recording
+    from schemas.errors import TouchlineError
+    from schemas.topics import EVENT, STATE
+
+    for file in plan.recording_files:
+        with suppress(TouchlineError):  # a recording that cannot be read tells no more
+            yield from (recorded.received() for recorded in open_recording(file).messages(EVENT.key, STATE.key))
 
 
 def _losses(plan: "Plan") -> dict[str, int]:

@@ -3,6 +3,7 @@
 import io
 import signal
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -12,10 +13,13 @@ from arena.match_run import InterruptedMatchError, MatchRun
 from arena.processes import Kind, Plan, Process
 from arena.result import MatchResult
 from arena.screen import PlainScreen
+from schemas.bus.contract import Received, Stamp
 from schemas.bus.endpoint import with_port
 from schemas.clock import WallClock
 from schemas.errors import MatchFailedError, TouchlineError
+from schemas.game import EventKind, GameEvent, GameState, Phase, Score
 from schemas.match_config import load_match
+from schemas.topics import EVENT, STATE
 
 pytestmark = pytest.mark.processes
 
@@ -84,10 +88,10 @@ class Stage:
         ]
         monkeypatch.setattr(match_run, "processes_of", lambda plan: processes)
 
-    def play(self, awaited: str = "") -> MatchResult:
+    def play(self, awaited: str = "", recorded: Sequence[Received] = ()) -> MatchResult:
         clock = WallClock()
         screen = WatchedScreen(self.words, clock, self.plan.folder / "seen", awaited)
-        return MatchRun(self.plan, screen, clock, lambda plan: {"world": 2}).play()
+        return MatchRun(self.plan, screen, clock, lambda plan: {"world": 2}, lambda plan: recorded).play()
 
 
 def stage(
@@ -150,6 +154,24 @@ def test_a_host_that_was_ended_before_full_time_leaves_no_result(
 ) -> None:
     with pytest.raises(MatchFailedError, match="the host was ended before full time"):
         stage(tmp_path, monkeypatch, CUT_SHORT).play()
+
+
+def test_the_end_of_a_match_that_was_missed_in_a_stall_is_taken_from_its_recording(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    goal = GameEvent(tick=20, time=0.4, clock=0.4, kind=EventKind.GOAL, rule="goal", text="goal by cyan3")
+    end = GameEvent(tick=60, time=1.2, clock=1.2, kind=EventKind.FULL_TIME, rule="clock", text="full time")
+    over = GameState(tick=60, time=1.2, phase=Phase.FULL_TIME, clock=1.2, score=Score(cyan=1))
+    recorded = [
+        Received(topic, topic.key, message.encode(), Stamp(number, number, 0))
+        for number, (topic, message) in enumerate([(EVENT, goal), (EVENT, end), (STATE, over)])
+    ]
+    match = stage(tmp_path, monkeypatch, CUT_SHORT)
+    result = match.play(recorded=recorded)
+    assert (result.score.cyan, result.ticks, result.duration_s) == (1, 60, 1.2)
+    assert [event.text for event in result.events] == ["goal by cyan3", "full time"]
+    assert match.words.getvalue().count("goal by cyan3") == 1
+    assert "full time" in match.words.getvalue()
 
 
 def test_a_lost_recording_fails_the_match_that_was_to_be_recorded(

@@ -1,5 +1,5 @@
 from coach_gateway.view import MatchView
-from schemas.bus.contract import Bus
+from schemas.bus.contract import Bus, Received
 from schemas.bus.in_process import Medium
 from schemas.clock import SteppedClock
 from schemas.game import EventKind, GameEvent, GameState, Phase, Score
@@ -43,6 +43,19 @@ def test_a_match_is_finished_when_full_time_was_seen() -> None:
     states.put(state(2, Phase.FULL_TIME))
     view.update()
     assert view.finished
+
+
+def test_what_was_missed_is_completed_by_whoever_kept_it_and_nothing_is_there_twice() -> None:
+    host, view = seats()
+    for topic, message in ((EVENT, goal(1)), (STATE, state(2))):
+        host.publisher(topic).put(message)
+    view.update()
+    said = [(EVENT, goal(1)), (STATE, state(1)), (EVENT, goal(2)), (STATE, state(3, Phase.FULL_TIME))]
+    kept = [Received(topic, topic.key, message.encode(), None) for topic, message in said]
+    assert view.complete([*kept, Received(STATE, STATE.key, b"{", None)]) == [goal(2), state(3, Phase.FULL_TIME)]
+    assert view.events == [goal(1), goal(2)]
+    assert view.finished
+    assert view.unreadable == 1
 
 
 def test_the_real_time_factor_is_simulated_over_wall_time_of_what_was_played() -> None:

@@ -117,6 +117,34 @@ def test_an_action_after_the_match_is_refused(pitch_of):
     assert answer.result(0.0) == ActionReply(accepted=False, reason="the match is over")
 
 
+def played(pitch):
+    pitch.join_all()
+    pitch.begin()
+    while not pitch.host.simulation.over:
+        pitch.ticks(1)
+    return pitch
+
+
+def test_after_full_time_the_host_stays_until_those_who_watch_can_have_heard_of_it(pitch_of):
+    """A message that was lost shows half a second later, with the bus's heartbeat, and is fetched from the host."""
+    pitch = played(pitch_of(duration=1))
+    pitch.seat().declare_alive("coach", "page")
+    began = pitch.clock.now()
+    pitch.host.part()
+    assert pitch.clock.now() - began > 0.5
+
+
+@pytest.mark.parametrize("watched", [False, True])
+def test_a_host_that_nobody_watches_or_that_is_told_to_leave_does_not_stay(pitch_of, watched):
+    pitch = played(pitch_of(duration=1))
+    if watched:
+        pitch.seat().declare_alive("coach", "page")
+        pitch.host.leave()
+    began = pitch.clock.now()
+    pitch.host.part()
+    assert pitch.clock.now() == began
+
+
 def test_a_parameter_is_changed_between_two_ticks_recorded_and_told_to_late_comers(pitch):
     events, applied = pitch.hear(EVENT), pitch.hear(APPLIED)
     pitch.ticks(2)
