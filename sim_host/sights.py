@@ -33,6 +33,9 @@ def _numbers(*names: str) -> str:
 
 
 _BALL = f'{{{_numbers("x", "y", "z", "vx", "vy")},"age":%.4f,"visible":%b}}'.encode()
+_NOW = b'"tick":%d,"time":%b'
+_TOLD = b'"game":%b,"order":%b'
+"""What all robots of a side are told alike."""
 _OBSTACLE = f"{{{_numbers('x', 'y', 'radius')}}}".encode()
 
 
@@ -42,7 +45,7 @@ def _form(robot: str, side: Side) -> bytes:
     return (
         f'{{"version":"{VERSION}","robot":"{robot}","side":"{side.value}","self":{{{own}}},'
         '"ball":%b,"obstacles":[%b],"obstacles_age":%.4f,'
-        '"tick":%d,"time":%b,"holding":%b,"kicker_ready":%b,"stuck":%b,"game":%b,"order":%b,'
+        '%b,"holding":%b,"kicker_ready":%b,"stuck":%b,%b,'
         '"outcome":{"answers_tick":%b,"refused":%b},"radio":%b}'
     ).encode()
 
@@ -86,9 +89,10 @@ class Sights:
         """Robot → its `schemas.sight.Sight` as JSON; each is sent as soon as it is written."""
         percepts = self._perception.at(snapshot, state.cyan_attacks)
         heard = self._radio.listen(snapshot.tick)
-        games = {side: to_json(game_view(state, side, self._roster, episode)) for side in Side}
-        told = {side: to_json(orders.get(side)) for side in Side}
-        time = repr(snapshot.time).encode()
+        told = {
+            side: _TOLD % (game_view(state, side, self._roster, episode), _order(orders.get(side))) for side in Side
+        }
+        now = _NOW % (snapshot.tick, repr(snapshot.time).encode())
         sights = {}
         for place, (name, side) in enumerate(zip(self._roster.names, self._roster.sides, strict=True)):
             command, refused = commands.get(name), refusals.get(name)
@@ -98,12 +102,10 @@ class Sights:
                 _ball(percept),
                 self._obstacles[place].text(percept.obstacles),
                 percept.obstacles_age,
-                snapshot.tick,
-                time,
+                now,
                 _JSON[name == snapshot.possession],
                 _JSON[snapshot.kickers_ready[place]],
                 _JSON[stuck[place]],
-                games[side],
                 told[side],
                 b"null" if command is None else b"%d" % command.answers_tick,
                 _NOTHING_REFUSED if refused is None else to_json(refused),
@@ -113,6 +115,10 @@ class Sights:
             sights[name] = sight
         self._perception.develop()
         return sights
+
+
+def _order(order: CoachOrder | None) -> bytes:
+    return b"null" if order is None else to_json(order)
 
 
 def _ball(percept: Percept) -> bytes:

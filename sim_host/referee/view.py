@@ -1,45 +1,52 @@
-"""The game as one team sees it, laid out for fast encoding."""
+"""The game as one team sees it, written as JSON: both teams are told in every tick."""
 
-from typing import Any
+from pydantic_core import to_json
 
 from schemas.game import Phase, TeamPhase
 from schemas.side import Side
+from sim_host.referee.call import Spot
 from sim_host.referee.state import RefereeState
 from sim_host.snapshot import Roster
 
-TEAM_PHASES: dict[tuple[Phase, Side | None, Side], str] = {
-    (phase, taker, viewer): TeamPhase.of(phase, taker, viewer).value
+TEAM_PHASES: dict[tuple[Phase, Side | None, Side], bytes] = {
+    (phase, taker, viewer): TeamPhase.of(phase, taker, viewer).value.encode()
     for phase in Phase
     for taker in (None, *Side)
     for viewer in Side
 }
 """Phase, taker and viewer → the phase's name from the viewer's point of view."""
 
-
-NOBODY: dict[str, Any] = {}
-
-
-def game_view(state: RefereeState, side: Side, roster: Roster, episode: int = 1) -> dict[str, Any]:
-    """The fields of a `schemas.game.GameView`; `spot` in m, in the side's team frame."""
-    cyan = side is Side.CYAN
-    score, spot = state.score, state.spot
-    attack = state.attack(side)
-    return {
-        "phase": TEAM_PHASES[state.phase, state.side, side],
-        "running": state.running,
-        "half": state.half,
-        "clock": state.clock,
-        "our_score": score.cyan if cyan else score.magenta,
-        "their_score": score.magenta if cyan else score.cyan,
-        "stage": state.stage.value,
-        "left": state.timing.left,
-        "robots": _robots(state, side, roster) if state.people.records or state.people.away else NOBODY,
-        "spot": None if spot is None else {"x": attack * spot[0], "y": attack * spot[1]},
-        "episode": episode,
-    }
+_JSON = {True: b"true", False: b"false"}
+_FORM = (
+    b'{"phase":"%b","running":%b,"half":%d,"clock":%b,"our_score":%d,"their_score":%d,"stage":"%b","left":%b,'
+    b'"robots":%b,"spot":%b,"episode":%d}'
+)
 
 
-def _robots(state: RefereeState, side: Side, roster: Roster) -> dict[str, Any]:
+def game_view(state: RefereeState, side: Side, roster: Roster, episode: int = 1) -> bytes:
+    """A `schemas.game.GameView`; `spot` in m, in the side's team frame."""
+    score, left, people = state.score, state.timing.left, state.people
+    ours, theirs = (score.cyan, score.magenta) if side is Side.CYAN else (score.magenta, score.cyan)
+    return _FORM % (
+        TEAM_PHASES[state.phase, state.side, side],
+        _JSON[state.running],
+        state.half,
+        repr(state.timing.clock).encode(),
+        ours,
+        theirs,
+        state.stage.encode(),
+        b"null" if left is None else repr(left).encode(),
+        _robots(state, side, roster) if people.records or people.away else b"{}",
+        b"null" if state.spot is None else _spot(state.spot, state.attack(side)),
+        episode,
+    )
+
+
+def _spot(spot: Spot, attack: int) -> bytes:
+    return to_json({"x": attack * spot[0], "y": attack * spot[1]})
+
+
+def _robots(state: RefereeState, side: Side, roster: Roster) -> bytes:
     """Those of the side's robots that have a card or are off the field."""
     mine = [name for name, its in zip(roster.names, roster.sides, strict=True) if its is side]
-    return {name: standing.model_dump(mode="json") for name, standing in state.people.standings(mine).items()}
+    return to_json(state.people.standings(mine))

@@ -18,7 +18,7 @@ def test_both_teams_see_a_corner_at_the_end_its_taker_attacks(bench, halves_over
     bench.ask("corner", Side.CYAN)
     bench.until(lambda state: state.spot is not None)
     inset = bench.book.restarts.corner_inset
-    ours, theirs = (GameView(**game_view(bench.state, side, bench.roster)) for side in Side)
+    ours, theirs = (GameView.model_validate_json(game_view(bench.state, side, bench.roster)) for side in Side)
     assert (ours.phase, theirs.phase) == (TeamPhase.OUR_CORNER, TeamPhase.THEIR_CORNER)
     assert (ours.our_score, ours.their_score) == (theirs.their_score, theirs.our_score) == (0, 1)
     assert ours.spot.x == pytest.approx(bench.pitch.goal_line - inset)
@@ -29,4 +29,5 @@ def test_both_teams_see_a_corner_at_the_end_its_taker_attacks(bench, halves_over
 def test_in_play_both_see_the_same_and_no_spot(bench):
     bench.playing()
     cyan, magenta = (game_view(bench.state, side, bench.roster) for side in Side)
-    assert cyan == magenta and cyan["phase"] == "play" and cyan["running"] and cyan["spot"] is None
+    seen = GameView.model_validate_json(cyan)
+    assert cyan == magenta and seen.phase is TeamPhase.PLAY and seen.running and seen.spot is None
