@@ -1,9 +1,10 @@
 """The air between teammates: what a robot says reaches each teammate late, or not at all, within the byte budget."""
 
-import math
 from collections import deque
 from dataclasses import dataclass, field
-from heapq import heapify, heappop, heappush
+
+import numpy as np
+from numpy.typing import NDArray
 
 from schemas.command import Radio
 from schemas.sections import Radio as Air
@@ -17,16 +18,30 @@ _WINDOW_S = 1.0
 _EMPTY = b"{}"
 _WORD = Radio.__pydantic_serializer__
 
+_LOST = -1
+"""In place of a delay in ticks: the word never arrives."""
 _SAME = 1e-6
 """Ticks; a delay that exceeds whole ticks by no more is these ticks, for all that floats round."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True, eq=False)
 class _Word:
     said: int
     """Tick."""
     opened: bytes
     """The speaker's name and its word as JSON, left open for the age: written once, heard by all in every tick."""
+
+
+class _Written(dict[_Word, bytes]):
+    """What listeners have of each word in one tick: most hear the same, so it is written once."""
+
+    def __init__(self, tick: int, tick_s: float) -> None:
+        self._tick = tick
+        self._tick_s = tick_s
+
+    def __missing__(self, word: _Word) -> bytes:
+        self[word] = text = b'%s"age":%.4f}' % (word.opened, (self._tick - word.said) * self._tick_s)
+        return text
 
 
 @dataclass(slots=True)
@@ -48,12 +63,10 @@ class RadioAir:
         self._roster = roster
         self._tick_s = tick
         self._streams = streams
-        names = roster.names
-        self._luck = Block(lambda ticks: streams.between(What.AIR, names, names, ticks))
-        """Per tick: speaker × listener × (loss, jitter, nothing, nothing)."""
+        self._delays = Block(self._draw)
         self._teams = {side: _TeamAir() for side in Side}
-        self._under_way: list[tuple[int, int, int, int, _Word]] = []
-        """A heap of (tick of arrival, tick it was said, speaker, listener, word), each of them once."""
+        self._under_way: dict[int, list[tuple[int, int, _Word]]] = {}
+        """Tick of arrival → speaker, listener and word, in the order in which they were said."""
         self._heard: list[dict[int, _Word]] = [{} for _ in roster.names]
         """Listener → speaker → word, in the order of the roster."""
         self._mates = [
@@ -64,6 +77,7 @@ class RadioAir:
     def change(self, air: Air) -> None:
         """Another air for all words from now on; those under way arrive as they would have."""
         self._air = air
+        self._delays = Block(self._draw)
 
     def handed_on(self, roster: Roster) -> "RadioAir":
         """For other robots: what was said, is under way and was heard stays with those who stay on their side."""
@@ -74,12 +88,14 @@ class RadioAir:
             if name in roster.names and roster.side_of(name) is before.side_of(name)
         }
         heir._teams = self._teams
-        heir._under_way = [
-            (arrives, said, place[speaker], place[mate], word)
-            for arrives, said, speaker, mate, word in self._under_way
-            if speaker in place and mate in place
-        ]
-        heapify(heir._under_way)
+        heir._under_way = {
+            arrives: [
+                (place[speaker], place[mate], word)
+                for speaker, mate, word in words
+                if speaker in place and mate in place
+            ]
+            for arrives, words in self._under_way.items()
+        }
         for old, new in place.items():
             heir._heard[new] = {place[speaker]: word for speaker, word in self._heard[old].items() if speaker in place}
         return heir
@@ -101,26 +117,28 @@ class RadioAir:
 
     def _send(self, speaker: int, word: _Word) -> None:
         """On its way to everyone who will hear it."""
-        air, luck = self._air, self._luck.at(word.said)[speaker].tolist()
+        delays: list[int] = self._delays.at(word.said)[speaker].tolist()
         for mate in self._mates[speaker]:
-            lost, late, *_ = luck[mate]
-            if lost >= air.loss:
-                ticks = math.ceil((air.delay + late * air.jitter) / self._tick_s - _SAME)
-                heappush(self._under_way, (word.said + ticks, word.said, speaker, mate, word))
+            delay = delays[mate]
+            if delay != _LOST:
+                self._under_way.setdefault(word.said + delay, []).append((speaker, mate, word))
+
+    def _draw(self, ticks: range) -> NDArray[np.int64]:
+        """Per tick: for how many ticks a word of each speaker is under way to each listener."""
+        air, names = self._air, self._roster.names
+        lost, late, *_ = np.moveaxis(self._streams.between(What.AIR, names, names, ticks), -1, 0)
+        delays = np.ceil((air.delay + late * air.jitter) / self._tick_s - _SAME).astype(np.int64)
+        return np.where(lost < air.loss, _LOST, delays)
 
     def listen(self, tick: int) -> list[bytes]:
         """What everybody has heard by this tick, as JSON: teammate → `schemas.sight.Heard`, the newest of each."""
-        while self._under_way and self._under_way[0][0] <= tick:
-            _, said, speaker, mate, word = heappop(self._under_way)
-            before = self._heard[mate].get(speaker)
-            if before is None or said > before.said:
-                self._heard[mate][speaker] = word
-        tick_s = self._tick_s
-        return [
-            b"{%s}"
-            % b",".join([b'%s"age":%.4f}' % (word.opened, (tick - word.said) * tick_s) for word in heard.values()])
-            for heard in self._heard
-        ]
+        for arrives in sorted([one for one in self._under_way if one <= tick]):
+            for speaker, mate, word in self._under_way.pop(arrives):
+                before = self._heard[mate].get(speaker)
+                if before is None or word.said > before.said:
+                    self._heard[mate][speaker] = word
+        written = _Written(tick, self._tick_s)
+        return [b"{%s}" % b",".join([written[word] for word in heard.values()]) for heard in self._heard]
 
     def _forget(self, team: _TeamAir, tick: int) -> None:
         oldest = tick - _WINDOW_S / self._tick_s
