@@ -1,7 +1,9 @@
 """The air between teammates: what a robot says reaches each teammate late, or not at all, within the byte budget."""
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,21 +65,18 @@ class RadioAir:
         self._roster = roster
         self._tick_s = tick
         self._streams = streams
-        self._delays = Block(self._draw)
         self._teams = {side: _TeamAir() for side in Side}
         self._under_way: dict[int, list[tuple[int, int, _Word]]] = {}
         """Tick of arrival → speaker, listener and word, in the order in which they were said."""
         self._heard: list[dict[int, _Word]] = [{} for _ in roster.names]
         """Listener → speaker → word, in the order of the roster."""
-        self._mates = [
-            [other for other, side in enumerate(roster.sides) if side is mine and other != place]
-            for place, mine in enumerate(roster.sides)
-        ]
+        self._members = {side: [place for place, its in enumerate(roster.sides) if its is side] for side in Side}
+        self._delays = self._new_delays()
 
     def change(self, air: Air) -> None:
         """Another air for all words from now on; those under way arrive as they would have."""
         self._air = air
-        self._delays = Block(self._draw)
+        self._delays = self._new_delays()
 
     def handed_on(self, roster: Roster) -> "RadioAir":
         """For other robots: what was said, is under way and was heard stays with those who stay on their side."""
@@ -117,18 +116,26 @@ class RadioAir:
 
     def _send(self, speaker: int, word: _Word) -> None:
         """On its way to everyone who will hear it."""
-        delays: list[int] = self._delays.at(word.said)[speaker].tolist()
-        for mate in self._mates[speaker]:
-            delay = delays[mate]
-            if delay != _LOST:
+        side = self._roster.sides[speaker]
+        members = self._members[side]
+        delays: list[int] = self._delays[side].at(word.said)[members.index(speaker)].tolist()
+        for mate, delay in zip(members, delays, strict=True):
+            if mate != speaker and delay != _LOST:
                 self._under_way.setdefault(word.said + delay, []).append((speaker, mate, word))
 
-    def _draw(self, ticks: range) -> NDArray[np.int64]:
-        """Per tick: for how many ticks a word of each speaker is under way to each listener."""
-        air, names = self._air, self._roster.names
+    def _new_delays(self) -> dict[Side, Block[NDArray[np.int64]]]:
+        """Per side and tick: for how many ticks a word of each member is under way to each member."""
+        names = self._roster.names
+        return {
+            side: Block(partial(self._draw, [names[place] for place in members]))
+            for side, members in self._members.items()
+        }
+
+    def _draw(self, names: Sequence[str], ticks: range) -> list[NDArray[np.int64]]:
+        air = self._air
         lost, late, *_ = np.moveaxis(self._streams.between(What.AIR, names, names, ticks), -1, 0)
         delays = np.ceil((air.delay + late * air.jitter) / self._tick_s - _SAME).astype(np.int64)
-        return np.where(lost < air.loss, _LOST, delays)
+        return list(np.where(lost < air.loss, _LOST, delays))
 
     def listen(self, tick: int) -> list[bytes]:
         """What everybody has heard by this tick, as JSON: teammate → `schemas.sight.Heard`, the newest of each."""

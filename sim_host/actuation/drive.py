@@ -37,7 +37,7 @@ class Ramp:
         self._top = np.array(top)
         self._gain = np.array(gain) * elapsed
         self._loss = np.array(loss) * elapsed
-        self._kept = 1.0 - np.array(gain) / np.array(loss)
+        self._spent = np.array(gain) / np.array(loss) - 1.0
 
     @classmethod
     def of_moving(cls, drives: Sequence[Drive], step: float, steps: int) -> Self:
@@ -69,8 +69,8 @@ class Ramp:
         change = self.within_limits(demand) - now
         size = np.abs(change)
         direction = change / (size + _TINY)
-        to_lose = np.maximum(-(now * direction.conj()).real, 0.0)
-        done = np.minimum(self._loss, self._gain + self._kept * to_lose)
+        against = np.minimum((now * direction.conj()).real, 0.0)
+        done = np.minimum(self._loss, self._gain + self._spent * against)
         after: Motions = now + np.minimum(done, size) * direction
         return after
 

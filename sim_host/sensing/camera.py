@@ -152,15 +152,15 @@ class Camera:
     def _ticks(self, numbers: range) -> list[int]:
         return [self._shutter.tick_of(number) for number in numbers]
 
-    def _draw(self, numbers: range) -> Vectors:
+    def _draw(self, numbers: range) -> list[Vectors]:
         """Per picture: noise along + i·across the line of sight, and luck against dropouts; (2, robots, things)."""
         drawn = self._streams.between(What.SEEN, self._roster.names, self._names, self._ticks(numbers))
         noise = normal_pairs(drawn[..., :2]) * (drawn[..., 3:] < self._sensing.noise_rate)
-        return np.stack((noise[..., 0] + 1j * noise[..., 1], drawn[..., 2]), axis=1)
+        return list(np.stack((noise[..., 0] + 1j * noise[..., 1], drawn[..., 2]), axis=1))
 
-    def _draw_ball(self, numbers: range) -> Floats:
+    def _draw_ball(self, numbers: range) -> list[Floats]:
         """Per picture: noise of the ball's height, vx and vy, noisy when its place is; (3, robots)."""
         ticks, s = self._ticks(numbers), self._streams
         robots = self._roster.names
         is_noisy = s.between(What.SEEN, robots, (BALL,), ticks)[:, :, 0, 3:] < self._sensing.noise_rate
-        return np.ascontiguousarray(np.moveaxis(s.normals(What.BALL, robots, ticks, 3) * is_noisy, 2, 1))
+        return list(np.ascontiguousarray(np.moveaxis(s.normals(What.BALL, robots, ticks, 3) * is_noisy, 2, 1)))

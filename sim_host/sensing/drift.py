@@ -8,7 +8,8 @@ same standard deviation at all times.
 import numpy as np
 
 from schemas.sections import Sensing
-from sim_host.sensing.streams import Block, Streams, Vectors, What
+from sim_host.sensing.streams import Floats, Streams, Vectors, What
+from sim_host.sensing.team_frames import TeamFrames
 from sim_host.snapshot import Roster
 
 _PARTS = 3
@@ -22,13 +23,16 @@ class Drift:
         self._streams = streams
         self._sigma = np.array([sensing.drift_position] * 2 + [sensing.drift_heading])
         self._ticks = sensing.drift_time / tick
-        self._drifts = Block(self._make)
 
-    def at(self, tick: int) -> Vectors:
-        """In the team frame of each robot: x + iy in m, and the turn of heading θ as e^iθ; shape (2, robots)."""
-        return self._drifts.at(tick)
+    def frames(self, ticks: range, sign: Floats) -> list[TeamFrames]:
+        """Where each robot believes its team frame to lie at each of these ticks; `sign` is that of the frames."""
+        drift = self._drift(ticks)
+        shift, turn = drift[:, 0], sign * drift[:, 1]
+        angle = np.arctan2(turn.imag, turn.real)
+        return [TeamFrames(sign, *arrays) for arrays in zip(shift, turn, angle, strict=True)]
 
-    def _make(self, ticks: range) -> Vectors:
+    def _drift(self, ticks: range) -> Vectors:
+        """In the team frame of each robot: x + iy in m, and the turn of heading θ as e^iθ; shape (ticks, 2, robots)."""
         way = np.array(ticks) / self._ticks
         before = way.astype(int)
         first, last = int(before[0]), int(before[-1]) + 1

@@ -28,18 +28,18 @@ class OwnMotion:
         seen = self._noise.at(tick).copy()
         seen[0] += place.real
         seen[1] += place.imag
-        seen[2] = _wrapped(seen[2] + robots.heading + np.arctan2(frames.turn.imag, frames.turn.real))
+        seen[2] = _wrapped(seen[2] + robots.heading + frames.angle)
         seen[3] += velocity.real
         seen[4] += velocity.imag
         seen[5] += robots.omega
         return seen
 
-    def _draw(self, ticks: range) -> Floats:
-        """The noise of these ticks, shape (ticks, 6, robots); a reading that has none is 0 throughout."""
+    def _draw(self, ticks: range) -> list[Floats]:
+        """The noise of each of these ticks, shape (6, robots); a reading that has none is 0 throughout."""
         noise: Floats = self._streams.normals(What.OWN, self._names, ticks, _PARTS) * self._sigma
         if self._rate < 1.0:
             noise *= self._streams.uniforms(What.OWN_LUCK, self._names, ticks, 1) < self._rate
-        return np.ascontiguousarray(np.moveaxis(noise, 2, 1))
+        return list(np.ascontiguousarray(np.moveaxis(noise, 2, 1)))
 
 
 def _wrapped(angle: Floats) -> Floats:

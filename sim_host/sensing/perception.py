@@ -6,6 +6,7 @@ that a robot perceives about itself, so that what is near stays where it is from
 """
 
 from collections import deque
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from sim_host.sensing.camera import Camera, Picture, turned_ball
 from sim_host.sensing.drift import Drift
 from sim_host.sensing.own_motion import OwnMotion
 from sim_host.sensing.shutter import Shutter
-from sim_host.sensing.streams import Floats, Streams
+from sim_host.sensing.streams import Block, Streams
 from sim_host.sensing.team_frames import Motions, TeamFrames
 from sim_host.snapshot import Roster, Snapshot
 
@@ -51,9 +52,6 @@ class Perception:
         self._roster = roster
         self._streams = streams
         self._tick_s = tick
-        self._attack = {
-            attacks: np.array([float(side.attack(attacks)) for side in roster.sides]) for attacks in (1, -1)
-        }
         self._cyan_attacks: int | None = None
         self._under_way: deque[Picture] = deque()
         """Pictures that were taken and are not known yet."""
@@ -68,7 +66,12 @@ class Perception:
         self.develop()
         roster, streams = self._roster, self._streams
         self._shutter = Shutter.of(sensing, self._tick_s)
-        self._drift = Drift(sensing, roster, streams, self._tick_s)
+        drift = Drift(sensing, roster, streams, self._tick_s)
+        self._frames = {
+            attacks: Block(partial(drift.frames, sign=np.array([float(side.attack(attacks)) for side in roster.sides])))
+            for attacks in (1, -1)
+        }
+        """Sign of the x direction that cyan attacks → the team frames as the robots believe them to lie."""
         self._own = OwnMotion(sensing, roster, streams)
         self._camera = Camera(sensing, roster, streams, self._shutter)
 
@@ -93,7 +96,7 @@ class Perception:
             self._change_sides()
             self._cyan_attacks = cyan_attacks
         tick, robots = snapshot.tick, Motions.of(snapshot.robots)
-        frames = self._frames(tick, self._attack[cyan_attacks])
+        frames = self._frames[cyan_attacks].at(tick)
         if self._shutter.takes(tick):
             self._exposed = snapshot, robots, frames
             if self._shutter.latency == 0:
@@ -116,11 +119,6 @@ class Perception:
             snapshot, robots, frames = self._exposed
             self._exposed = None
             self._under_way.append(self._camera.take(snapshot, robots, frames))
-
-    def _frames(self, tick: int, sign: Floats) -> TeamFrames:
-        """Where each robot believes its team frame to lie; `sign` is 1 or −1 from field to team frame."""
-        shift, turn = self._drift.at(tick)
-        return TeamFrames(sign, shift, sign * turn)
 
     def _take_in(self, picture: Picture) -> None:
         """A picture becomes known."""

@@ -6,7 +6,7 @@ There is no state: a draw that is left out shifts no other, any tick can be draw
 
 from collections.abc import Callable, Sequence
 from enum import IntEnum
-from typing import Any, Generic, TypeVar
+from typing import Generic, TypeVar
 from zlib import crc32
 
 import numpy as np
@@ -16,7 +16,7 @@ Words = NDArray[np.uint64]
 Floats = NDArray[np.float64]
 Vectors = NDArray[np.complex128]
 """Planar vectors, x + iy: turning is multiplying."""
-Draws = TypeVar("Draws", bound=NDArray[Any])
+Draws = TypeVar("Draws")
 
 _M0, _M1 = np.uint64(0xD2511F53), np.uint64(0xCD9E8D57)
 _W0, _W1 = 0x9E3779B9, 0xBB67AE85
@@ -58,19 +58,18 @@ AT_ONCE = 64
 class Block(Generic[Draws]):
     """Draws of one kind for every tick or picture, made for many at once when the first of them is asked for."""
 
-    def __init__(self, draw: Callable[[range], Draws]) -> None:
+    def __init__(self, draw: Callable[[range], Sequence[Draws]]) -> None:
         self._draw = draw
         self._block = -1
-        self._rows: Draws
+        self._rows: Sequence[Draws] = ()
 
     def at(self, number: int) -> Draws:
-        """The draws of one, as `draw` shapes them."""
+        """The draws of one, of those that `draw` makes for each."""
         block, row = divmod(number, AT_ONCE)
         if block != self._block:
             self._rows = self._draw(range(block * AT_ONCE, (block + 1) * AT_ONCE))
             self._block = block
-        drawn: Draws = self._rows[row]
-        return drawn
+        return self._rows[row]
 
 
 class Streams:

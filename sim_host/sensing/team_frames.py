@@ -44,3 +44,5 @@ class TeamFrames(NamedTuple):
     """m."""
     turn: Vectors
     """Of unit length; turns what is seen of the field into the frame."""
+    angle: Floats
+    """rad; by which `turn` turns."""

@@ -7,6 +7,7 @@ import importlib.metadata
 import math
 import struct
 from collections.abc import Sequence
+from itertools import chain
 from typing import Any, NamedTuple
 
 import pybullet
@@ -25,7 +26,8 @@ _UPRIGHT = 1e-3
 """Half the sine of the tilt, and the m of lift, from which a robot is put upright again."""
 _TOUCHING = 0.001
 """m of air between two robots that count as touching: the solver leaves less than that."""
-_STATE = struct.Struct("<13d")
+_NUMBERS = 13
+"""In the state of a body."""
 _OBSTACLE = struct.Struct("<7d")
 
 _NOTHING: Vector = (0.0, 0.0, 0.0)
@@ -179,8 +181,9 @@ class Engine:
 
     def packed(self) -> bytes:
         """What was read, robots, ball and obstacles, as little-endian doubles: equal bytes, equal worlds."""
-        bodies = [_STATE.pack(*p, *o, *v, *s) for p, o, v, s in self._states]
-        return b"".join(bodies + [_pack(obstacle) for obstacle, _ in self._obstacles.values()])
+        numbers = chain.from_iterable(chain.from_iterable(self._states))
+        bodies = struct.pack(f"<{_NUMBERS * len(self._states)}d", *numbers)
+        return b"".join([bodies, *[_pack(obstacle) for obstacle, _ in self._obstacles.values()]])
 
     def robot_now(self, place: int) -> RobotState:
         """One robot between two steps."""
