@@ -33,6 +33,7 @@ def _numbers(*names: str) -> str:
 
 
 _BALL = f'{{{_numbers("x", "y", "z", "vx", "vy")},"age":%.4f,"visible":%b}}'.encode()
+_SIDES = tuple(Side)
 _NOW = b'"tick":%d,"time":%b'
 _TOLD = b'"game":%b,"order":%b'
 """What all robots of a side are told alike."""
@@ -90,7 +91,7 @@ class Sights:
         percepts = self._perception.at(snapshot, state.cyan_attacks)
         heard = self._radio.listen(snapshot.tick)
         told = {
-            side: _TOLD % (game_view(state, side, self._roster, episode), _order(orders.get(side))) for side in Side
+            side: _TOLD % (game_view(state, side, self._roster, episode), _order(orders.get(side))) for side in _SIDES
         }
         now = _NOW % (snapshot.tick, repr(snapshot.time).encode())
         sights = {}

@@ -94,13 +94,12 @@ class Camera:
         if snapshot.obstacles != self._obstacles:
             self._lay_out(snapshot.obstacles)
         number, ball = self._shutter.number(snapshot.tick), snapshot.ball
-        luck, dropped = self._luck.at(number)
+        luck, is_noticed = self._luck.at(number)
         things = np.concatenate(([complex(ball.x, ball.y)], self._hulls.places(robots.place)))
         places = things - robots.place[:, None]
         distance = np.abs(places)
         found: Flags = distance <= self._range
-        found &= self._is_other
-        found &= dropped.real >= self._dropout
+        found &= is_noticed
         if self._sensing.occlusion == "hulls":
             found &= ~self._hulls.hidden(places, distance, robots.heading, ball.z)
         blurred = places + places * self._blur(distance, luck)
@@ -114,13 +113,16 @@ class Camera:
             obstacles=self._nearest_first(away[:, 1:], seen[:, 1:], found[:, 1:]),
         )
 
-    def _blur(self, distance: Floats, luck: Vectors) -> Vectors:
+    def _blur(self, distance: Floats, luck: Floats) -> Vectors:
         """The noise along the line of sight and across it, as a share of the way from the eye: along + i·across."""
-        grown = self._growth * distance
-        grown *= distance
-        along, across = np.sqrt(grown + self._near) / (distance + _NO_DISTANCE)
-        blur = np.empty(luck.shape, dtype=complex)
-        blur.real, blur.imag = along * luck.real, across * luck.imag
+        share = self._growth * distance
+        share *= distance
+        share += self._near
+        np.sqrt(share, out=share)
+        share /= distance + _NO_DISTANCE
+        share *= luck
+        blur = np.empty(distance.shape, dtype=complex)
+        blur.real, blur.imag = share
         return blur
 
     def _ball(
@@ -152,11 +154,12 @@ class Camera:
     def _ticks(self, numbers: range) -> list[int]:
         return [self._shutter.tick_of(number) for number in numbers]
 
-    def _draw(self, numbers: range) -> list[Vectors]:
-        """Per picture: noise along + i·across the line of sight, and luck against dropouts; (2, robots, things)."""
+    def _draw(self, numbers: range) -> list[tuple[Floats, Flags]]:
+        """Per picture: noise along and across the line of sight, (2, robots, things), and what luck lets be noticed."""
         drawn = self._streams.between(What.SEEN, self._roster.names, self._names, self._ticks(numbers))
         noise = normal_pairs(drawn[..., :2]) * (drawn[..., 3:] < self._sensing.noise_rate)
-        return list(np.stack((noise[..., 0] + 1j * noise[..., 1], drawn[..., 2]), axis=1))
+        is_noticed = (drawn[..., 2] >= self._dropout) & self._is_other
+        return list(zip(np.ascontiguousarray(np.moveaxis(noise, -1, 1)), is_noticed, strict=True))
 
     def _draw_ball(self, numbers: range) -> list[Floats]:
         """Per picture: noise of the ball's height, vx and vy, noisy when its place is; (3, robots)."""

@@ -168,7 +168,7 @@ class Engine:
 
     def robot_states(self, holding: int | None) -> tuple[RobotState, ...]:
         """All robots, as they were read."""
-        return tuple(_robot_state(state, place == holding) for place, state in enumerate(self._states[:-1]))
+        return tuple([_robot_state(state, place == holding) for place, state in enumerate(self._states[:-1])])
 
     def ball_state(self) -> BallState:
         """The ball, as it was read."""
