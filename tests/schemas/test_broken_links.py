@@ -126,7 +126,7 @@ def test_nothing_is_lost_of_what_was_said_meanwhile_though_the_link_breaks_again
             time.sleep(0.05)
         say(2)
         heard += hear(reader, said - 1 - heard[0])
-    assert cable.links == 3
+    assert cable.links >= 3  # a machine with no time for a link breaks it once more
     assert heard == list(range(heard[0], said))
 
 
