@@ -20,11 +20,12 @@ from schemas.clock import WallClock
 from schemas.command import Command
 from schemas.errors import TouchlineError
 from schemas.host import Applied, Setup
-from schemas.match_config import MatchConfig
+from schemas.match_config import LOCKSTEP, MatchConfig
 from schemas.profile import load_profile
 from schemas.side import Side
 from schemas.sight import Sight
 from schemas.topics import APPLIED
+from schemas.turns import take_turns
 
 _PATIENCE_S = 10.0
 """Wall time to wait for a host that is not there."""
@@ -110,7 +111,7 @@ def main(arguments: list[str] | None = None) -> int:
         recording = open_recording(Path(file))
 
         def build(setup: Setup) -> Ghost:
-            del setup
+            take_turns(setup.pace == LOCKSTEP)
             return Ghost(robot, inputs_of(recording))
 
         with open_client(

@@ -12,11 +12,13 @@ from recordings.recorder import RecordingSummary
 from recordings.selection import Selection
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.errors import TouchlineError
+from schemas.turns import take_turns
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Record; the exit status is 0, or 2 when something has to be mended first."""
     options = _parser().parse_args(arguments)
+    take_turns()  # what has come waits for it; nobody else has to
     stop = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())

@@ -19,6 +19,8 @@ from schemas.bus.zenoh_bus import open_client
 from schemas.clock import WallClock
 from schemas.errors import TouchlineError
 from schemas.host import Setup
+from schemas.match_config import LOCKSTEP
+from schemas.turns import take_turns
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -29,6 +31,7 @@ def main(arguments: list[str] | None = None) -> int:
         with open_client(options.match, WallClock(), options.connect, options.patience) as bus:
 
             def build(setup: Setup) -> Brain:
+                take_turns(setup.pace == LOCKSTEP)
                 return load_brain(options.brain, Briefing.of(options.robot, setup))
 
             return serve(bus, build, options.robot, options.patience)

@@ -16,6 +16,8 @@ from schemas.toml_file import validated
 
 MAX_ROBOTS = 5
 """Robots of one side, rule book 10.2."""
+LOCKSTEP = "lockstep"
+"""The pace in which the host waits for the answers of all robots."""
 RESERVED = frozenset({"ball"})
 """Names that mean something else in a key."""
 
@@ -156,7 +158,7 @@ class MatchConfig(Part):
 
     name: Name = "friendly"
     seed: Annotated[int, Field(ge=0, lt=2**63)] = 1
-    pace: Annotated[str, Field(pattern=r"^(lockstep|realtime|x\d{1,6}(\.\d{1,6})?)$")] = "lockstep"
+    pace: Annotated[str, Field(pattern=r"^(lockstep|realtime|x\d{1,6}(\.\d{1,6})?)$")] = LOCKSTEP
     duration: Annotated[float, Field(gt=0, le=86_400)] | None = None
     """Playing time of all halves in s; by default the rule book's."""
     scene: str | None = None
@@ -226,7 +228,7 @@ class MatchConfig(Part):
     @property
     def speed(self) -> float | None:
         """Simulated seconds per wall second that the pace asks for; nothing in lockstep."""
-        if self.pace == "lockstep":
+        if self.pace == LOCKSTEP:
             return None
         return 1.0 if self.pace == "realtime" else float(self.pace[1:])
 

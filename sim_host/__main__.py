@@ -11,6 +11,7 @@ from schemas.bus.zenoh_bus import open_host
 from schemas.clock import WallClock
 from schemas.errors import TouchlineError
 from schemas.match_config import MatchConfig
+from schemas.turns import take_turns
 
 log = logging.getLogger("sim_host")
 
@@ -31,6 +32,7 @@ def serve(config: MatchConfig, listen: str, *, insecure: bool = False) -> None:
         ) from None
     if not insecure and not is_loopback(listen):
         raise TouchlineError(f"--listen {listen} can be reached by others; say --insecure if that is what you want")
+    take_turns(config.speed is None)
     with open_host(config.name, WallClock(), with_port(listen)) as bus:
         log.info("match %s on %s, pace %s, seed %d", config.name, listen, config.pace, config.seed)
         host = Host(config, bus)

@@ -110,6 +110,7 @@ class Story:
 
     def interrupted(self):
         self.children = list(self.program.children())
+        self.policies = {os.sched_getscheduler(pid) for pid in self.children}
         self.heard.update()
         self.last_tick = self.heard.tick
         began = time.monotonic()
@@ -154,6 +155,10 @@ def test_the_match_goes_on_with_every_tick_whatever_happens(worlds, story):
     ticks = [world.tick for world in worlds]
     assert ticks == list(range(len(ticks)))
     assert ticks[-1] >= story.last_tick
+
+
+def test_in_lockstep_everybody_takes_turns(story):
+    assert story.policies == {os.SCHED_BATCH}
 
 
 def test_ctrl_c_ends_everything_soon_with_status_130_and_leaves_nobody(story, is_running):

@@ -69,6 +69,7 @@ class Story:
 
     def stopped(self):
         pid = self.program.child("--robot", "cyan2")
+        self.policies = {os.sched_getscheduler(one) for one in (pid, self.program.child("sim_host"))}
         self.heard.until(lambda heard: turns(heard, "cyan2"), "cyan2 driving")
         self.before_stop = self.heard.tick
         os.kill(pid, signal.SIGSTOP)
@@ -154,6 +155,10 @@ def test_every_tick_is_played_whatever_happens(story):
     ticks = [world.tick for world in story.heard.worlds]
     assert ticks == list(range(ticks[0], ticks[-1] + 1))
     assert ticks[-1] > story.after_recorder
+
+
+def test_in_real_time_nobody_waits_for_a_core_that_others_have(story):
+    assert story.policies == {os.SCHED_OTHER}
 
 
 def test_the_watchdog_brakes_a_stopped_robot(inputs, story):
