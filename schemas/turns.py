@@ -2,7 +2,7 @@
 
 In lockstep everybody waits for somebody: a sight wakes a robot while another still thinks, a command wakes the host. By
 its ordinary policy the kernel runs the one that is woken at once; both then work with caches that the other has filled.
-Ten robots on two cores play a fifth to a quarter faster when each finishes its thought (Linux, SCHED_BATCH).
+Ten robots on two cores play about a sixth faster when each finishes its thought (Linux, SCHED_BATCH).
 """
 
 import os
