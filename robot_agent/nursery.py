@@ -26,7 +26,6 @@ from typing import Any
 from robot_agent import __main__ as agent
 
 _PR_SET_PDEATHSIG = 1
-_PR_SET_NAME = 15
 """linux/prctl.h"""
 _ADOPTION_S = 5.0
 """Wall time within which a robot is its keeper's child; it takes microseconds."""
@@ -92,7 +91,6 @@ def _be_called(command: list[str]) -> None:
     start, end = int(fields[45]), int(fields[46])  # arg_start and arg_end of proc(5)
     words = b"\0".join(word.encode() for word in command)[: end - start - 1]
     ctypes.memmove(start, words.ljust(end - start, b"\0"), end - start)
-    ctypes.CDLL(None).prctl(_PR_SET_NAME, b"python")
 
 
 if __name__ == "__main__":
