@@ -9,6 +9,9 @@ from schemas.host import Health, RecorderProgress
 from schemas.message import BadMessageError
 from schemas.topics import EVENT, HEALTH, PROGRESS, STATE
 
+_SETTLES_S = 0.2
+"""Wall time without another state after which the last one is the newest: a host's cache may tell the oldest first."""
+
 
 @dataclass(frozen=True, slots=True)
 class Moment:
@@ -69,11 +72,16 @@ class MatchView:
         return fresh
 
     def wait_for_state(self, patience: float) -> GameState | None:
-        """The newest state, waiting up to `patience` s of wall time for the first one."""
-        deadline = self.bus.clock.now() + patience
-        while self.state is None and self.bus.clock.now() < deadline:
+        """The newest state, waiting up to `patience` s of wall time for the first and those right behind it."""
+        clock = self.bus.clock
+        deadline = clock.now() + patience
+        settled = deadline if self.state is None else clock.now()
+        while clock.now() < min(deadline, settled):
+            before = self.state
             self.update()
-            self.bus.clock.sleep_until(self.bus.clock.now() + 0.02)
+            if self.state is not before:
+                settled = clock.now() + _SETTLES_S
+            clock.sleep_until(clock.now() + 0.02)
         return self.state
 
     @property

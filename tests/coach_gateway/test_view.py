@@ -87,3 +87,20 @@ def test_waiting_for_a_state_ends_after_its_patience() -> None:
     _, view = seats()
     assert view.wait_for_state(3.0) is None
     assert 3.0 <= view.bus.clock.now() < 3.1
+
+
+def test_the_first_state_of_many_that_come_is_not_taken_for_the_newest():
+    """The host's cache may tell a late reader all of them, the oldest first, and not at once."""
+    bus = Medium().seat("friendly", SteppedClock())
+    view = MatchView(bus)
+    states = [
+        GameState(tick=tick, time=tick * 0.02, phase=Phase.PLAY, clock=0.0, score=Score()) for tick in (1, 50, 600)
+    ]
+    coming = iter([None, states[0], None, states[1], None, None, states[2]])
+
+    def update():
+        view.state = next(coming, None) or view.state
+        return []
+
+    view.update = update
+    assert view.wait_for_state(3.0) is states[2]
