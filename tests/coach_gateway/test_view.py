@@ -89,7 +89,7 @@ def test_waiting_for_a_state_ends_after_its_patience() -> None:
     assert 3.0 <= view.bus.clock.now() < 3.1
 
 
-def test_the_first_state_of_many_that_come_is_not_taken_for_the_newest():
+def test_the_first_state_of_many_that_come_is_not_taken_for_the_newest() -> None:
     """The host's cache may tell a late reader all of them, the oldest first, and not at once."""
     bus = Medium().seat("friendly", SteppedClock())
     view = MatchView(bus)
@@ -98,7 +98,7 @@ def test_the_first_state_of_many_that_come_is_not_taken_for_the_newest():
     ]
     coming = iter([None, states[0], None, states[1], None, None, states[2]])
 
-    def update():
+    def update() -> list[object]:
         view.state = next(coming, None) or view.state
         return []
 
