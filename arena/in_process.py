@@ -7,12 +7,11 @@ lockstep from the same seed are the same, tick for tick.
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from robot_agent.contract import Brain, Briefing, load_brain
+from robot_agent.contract import Brain, Briefing, load_brain, read_sight
 from schemas.command import Command
 from schemas.game import GameEvent, RefereeAction, Score
 from schemas.match_config import MatchConfig
 from schemas.side import Side
-from schemas.sight import Sight
 from sim_host.simulation import Simulation, Tick
 
 
@@ -51,7 +50,7 @@ class Table:
         """Let every brain answer, then one tick."""
         sights = self.simulation.now.sights
         commands = {
-            name: Command.decode(brain.act(Sight.decode(sights[name])).encode()) for name, brain in self.brains.items()
+            name: Command.decode(brain.act(read_sight(sights[name])).encode()) for name, brain in self.brains.items()
         }
         return self.simulation.step(commands, actions)
 

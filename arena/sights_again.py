@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from recordings.reader import Recording
+from robot_agent.contract import read_sight
 from schemas.coach import CoachOrder
 from schemas.command import Command
 from schemas.errors import TouchlineError
@@ -63,7 +64,7 @@ class SightsAgain:
                 self.until = f"at tick {applied.tick} the world is not the recorded one any more"
                 return
             if self.robot in simulation.now.sights:
-                yield Sight.decode(simulation.now.sights[self.robot])
+                yield read_sight(simulation.now.sights[self.robot])
 
     def _step(self, simulation: Simulation, applied: Applied, lockstep: bool) -> None:
         values = {name: value for name, value in applied.parameters.items() if value is not None}

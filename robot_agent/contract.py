@@ -14,8 +14,15 @@ from typing import Any, Protocol
 from schemas.command import Command
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.host import Setup
+from schemas.light import light_reader
 from schemas.side import Side
 from schemas.sight import Sight
+
+read_sight = light_reader(Sight)
+"""A sight as brains get it, from its payload: plain structs with the fields of `Sight`.
+
+Raises `BadMessageError` for one that is none.
+"""
 
 
 class Brain(Protocol):

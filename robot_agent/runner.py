@@ -5,7 +5,7 @@ import sys
 import traceback
 from collections.abc import Callable
 
-from robot_agent.contract import Brain
+from robot_agent.contract import Brain, read_sight
 from schemas.bus.contract import Bus, NoAnswerError
 from schemas.command import Command
 from schemas.errors import TouchlineError
@@ -71,7 +71,7 @@ class Runner:
         if received is None:
             return None
         try:
-            return Sight.decode(received.payload)
+            return read_sight(received.payload)
         except BadMessageError as error:
             self._count_invalid(error)
             return None

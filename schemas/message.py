@@ -22,7 +22,9 @@ class BadMessageError(ValueError):
 class Part(BaseModel):
     """A part of a message: no extra fields, no NaN or infinity, never changed after it was made."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True)
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True, from_attributes=True
+    )
 
 
 class Message(Part):

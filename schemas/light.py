@@ -1,0 +1,121 @@
+"""Light readers: a message as plain structs, for whoever reads the same kind fifty times a second.
+
+A robot's process is woken for each sight, when nine others have been at the caches since: what it touches is what it
+costs. A model of pydantic keeps two dictionaries and a set for each of its parts; a struct of msgspec keeps its fields
+and nothing else. So the struct is derived from the model, with the same fields, limits and defaults, and the model
+remains what the message means: it reads whatever the struct refuses, and says why where it refuses it too.
+"""
+
+import types
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache
+from typing import Annotated, Any, TypeVar, Union, cast, get_args, get_origin, get_type_hints
+
+import msgspec
+from annotated_types import Ge, Gt, Le, Lt, MaxLen, MinLen
+from pydantic import StringConstraints
+from pydantic.fields import FieldInfo
+
+from schemas.message import VERSION, Message, Part
+
+M = TypeVar("M", bound=Message)
+
+_LIMITS: Mapping[type, Callable[[Any], dict[str, Any]]] = {
+    Ge: lambda limit: {"ge": limit.ge},
+    Gt: lambda limit: {"gt": limit.gt},
+    Le: lambda limit: {"le": limit.le},
+    Lt: lambda limit: {"lt": limit.lt},
+    MinLen: lambda limit: {"min_length": limit.min_length},
+    MaxLen: lambda limit: {"max_length": limit.max_length},
+    StringConstraints: lambda limit: _text(limit),
+}
+"""How a limit of a model is said to a struct."""
+
+
+def light_reader(model: type[M]) -> Callable[[bytes], M]:
+    """What reads payloads of one kind of message.
+
+    It answers with an object that has the fields of the model and never changes, but is no instance of it; it can stand
+    in a message wherever such a part may. The reader raises `BadMessageError` as `Message.decode` does, and for the
+    same payloads.
+
+    Raises:
+        TypeError: a field of the model has a limit that structs do not know.
+    """
+    decode = msgspec.json.Decoder(_struct(model), dec_hook=_as_itself).decode
+
+    def read(payload: bytes) -> M:
+        if len(payload) <= model.max_bytes:
+            try:
+                message = decode(payload)
+            except (ValueError, RecursionError):
+                return model.decode(payload)
+            if message.version == VERSION:
+                return cast(M, message)
+        return model.decode(payload)
+
+    return read
+
+
+@cache
+def _struct(model: type[Part]) -> Any:
+    """The struct of a model whose meaning is all in its fields; any other stays what it is."""
+    if not _is_plain(model):
+        return model
+    hints = get_type_hints(model, include_extras=True)
+    fields = [(name, _type(hints[name]), *_default(info)) for name, info in model.model_fields.items()]
+    return msgspec.defstruct(
+        model.__name__, fields, frozen=True, kw_only=True, forbid_unknown_fields=True, gc=False, module=__name__
+    )
+
+
+def _is_plain(model: type[Part]) -> bool:
+    """Whether a model has no rule and no method of its own."""
+    own = [getattr(model, name) for name in set(dir(model)) - set(dir(Message))]
+    return not any(callable(thing) or isinstance(thing, property) for thing in own)
+
+
+def _default(info: FieldInfo) -> tuple[Any, ...]:
+    if info.is_required():
+        return ()
+    if info.default_factory is not None:
+        return (msgspec.field(default_factory=cast(Callable[[], Any], info.default_factory)),)
+    default = info.default
+    return (msgspec.convert(default.model_dump(), _struct(type(default))) if isinstance(default, Part) else default,)
+
+
+def _type(hint: Any) -> Any:
+    """A type of a model's field as a struct has it."""
+    inner = get_args(hint)
+    match get_origin(hint):
+        case None:
+            return _struct(hint) if isinstance(hint, type) and issubclass(hint, Part) else hint
+        case origin if origin is Annotated:
+            return Annotated[_type(inner[0]), msgspec.Meta(**_limits(inner[1:]))]
+        case origin if origin in (Union, types.UnionType):
+            return Union[tuple(_type(choice) for choice in inner)]  # noqa: UP007
+        case origin:
+            return origin[tuple(_type(item) for item in inner)]
+
+
+def _limits(metadata: Iterable[Any]) -> dict[str, Any]:
+    """The limits that a field is declared with."""
+    said: dict[str, Any] = {}
+    for limit in (inner for one in metadata for inner in (one.metadata if isinstance(one, FieldInfo) else [one])):
+        if type(limit) not in _LIMITS:
+            raise TypeError(f"{limit!r} is no limit that a struct knows")
+        said |= _LIMITS[type(limit)](limit)
+    return said
+
+
+def _text(limit: StringConstraints) -> dict[str, Any]:
+    """Python's `$` also stands before a last line break, where pydantic's ends the text."""
+    known = {"pattern": limit.pattern, "min_length": limit.min_length, "max_length": limit.max_length}
+    if isinstance(limit.pattern, str) and limit.pattern.endswith("$"):
+        known["pattern"] = rf"{limit.pattern[:-1]}\Z"
+    return {key: value for key, value in known.items() if value is not None}
+
+
+def _as_itself(model: type, content: Any) -> Any:
+    """A part that stayed a model."""
+    return cast(type[Part], model).model_validate(content)
