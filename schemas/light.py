@@ -6,6 +6,7 @@ and nothing else. So the struct is derived from the model, with the same fields,
 remains what the message means: it reads whatever the struct refuses, and says why where it refuses it too.
 """
 
+import dataclasses
 import types
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache
@@ -40,7 +41,7 @@ def light_reader(model: type[M]) -> Callable[[bytes], M]:
     same payloads.
 
     Raises:
-        TypeError: a field of the model has a limit that structs do not know.
+        TypeError: a field of the model has a limit that structs do not know, or a type that they read otherwise.
     """
     decode = msgspec.json.Decoder(_struct(model), dec_hook=_as_itself).decode
 
@@ -81,7 +82,7 @@ def _default(info: FieldInfo) -> tuple[Any, ...]:
     if info.default_factory is not None:
         return (msgspec.field(default_factory=cast(Callable[[], Any], info.default_factory)),)
     default = info.default
-    return (msgspec.convert(default.model_dump(), _struct(type(default))) if isinstance(default, Part) else default,)
+    return (_as_light(default) if isinstance(default, Part) and _is_plain(type(default)) else default,)
 
 
 def _type(hint: Any) -> Any:
@@ -89,6 +90,8 @@ def _type(hint: Any) -> Any:
     inner = get_args(hint)
     match get_origin(hint):
         case None:
+            if dataclasses.is_dataclass(hint):
+                raise TypeError(f"{hint!r} would be read with fields that nobody knows")
             return _struct(hint) if isinstance(hint, type) and issubclass(hint, Part) else hint
         case origin if origin is Annotated:
             return Annotated[_type(inner[0]), msgspec.Meta(**_limits(inner[1:]))]
@@ -114,6 +117,10 @@ def _text(limit: StringConstraints) -> dict[str, Any]:
     if isinstance(limit.pattern, str) and limit.pattern.endswith("$"):
         known["pattern"] = rf"{limit.pattern[:-1]}\Z"
     return {key: value for key, value in known.items() if value is not None}
+
+
+def _as_light(part: Part) -> Any:
+    return msgspec.convert(part.model_dump(mode="json"), _struct(type(part)), dec_hook=_as_itself)
 
 
 def _as_itself(model: type, content: Any) -> Any:

@@ -1,0 +1,180 @@
+"""Light readers: structs with the fields of a model, which the model itself would have read from the same payload."""
+
+import json
+from collections.abc import Callable
+from enum import Enum
+from typing import Annotated, Any
+
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+from pydantic import Field, StringConstraints
+
+from schemas.coach import CoachMode, CoachOrder
+from schemas.command import Command, Motion, Radio
+from schemas.game import GameState, Standing
+from schemas.host import Applied
+from schemas.light import light_reader
+from schemas.message import BadMessageError, Message
+from schemas.protocol.examples import examples
+from schemas.sight import Sight
+from schemas.world import World
+
+SIGHT = examples()[Sight]
+PAYLOAD = SIGHT.encode()
+READ = light_reader(Sight)
+
+VALUES = st.sampled_from(
+    (
+        b"0",
+        b"-0.0",
+        b"1e999",
+        b"NaN",
+        b"true",
+        b"null",
+        b'""',
+        b'"x\\n"',
+        b'"\\ud800"',
+        b'"cyan1"',
+        b"[]",
+        b"{}",
+        b"3.0",
+        b"7",
+    )
+)
+
+
+def plain(thing: Any) -> Any:
+    """The fields of a message or a part, light or not, down to plain values."""
+    match thing:
+        case Enum():
+            return thing.value
+        case list() | tuple():
+            return [plain(item) for item in thing]
+        case dict():
+            return {key: plain(item) for key, item in thing.items()}
+        case None | bool() | int() | float() | str():
+            return (type(thing).__name__, thing)
+    names = getattr(type(thing), "model_fields", None) or thing.__struct_fields__
+    return {name: plain(getattr(thing, name)) for name in names}
+
+
+def said_of(read: Callable[[bytes], Any], payload: bytes) -> Any:
+    """What comes of a payload: its content, or why it is refused."""
+    try:
+        return plain(read(payload))
+    except BadMessageError as error:
+        return str(error)
+
+
+def test_a_light_sight_has_the_fields_of_a_sight_and_is_none() -> None:
+    sight = READ(PAYLOAD)
+    assert plain(sight) == plain(SIGHT)
+    assert not isinstance(sight, Sight)
+    assert str(sight.ball).startswith("BallSight(x=")
+
+
+@given(st.data())
+def test_what_a_light_reader_makes_of_any_payload_is_what_the_model_makes_of_it(data: st.DataObject) -> None:
+    payload = bytearray(PAYLOAD)
+    at = data.draw(st.integers(0, len(payload) - 1))
+    payload[at : at + data.draw(st.integers(0, 3))] = data.draw(st.binary(max_size=3))
+    assert said_of(READ, bytes(payload)) == said_of(Sight.decode, bytes(payload))
+
+
+@given(st.data(), VALUES)
+def test_a_field_that_holds_something_else_is_read_or_refused_as_the_model_does(
+    data: st.DataObject, value: bytes
+) -> None:
+    def places(content: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
+        below = (
+            content.items() if isinstance(content, dict) else enumerate(content) if isinstance(content, list) else ()
+        )
+        return [path, *[place for key, item in below for place in places(item, (*path, key))]]
+
+    content: Any = {"sight": json.loads(PAYLOAD)}
+    *way, last = data.draw(st.sampled_from(places(content)[2:]))
+    inner = content
+    for step in way:
+        inner = inner[step]
+    if data.draw(st.booleans()) or not isinstance(inner, dict):
+        inner[last] = "HERE"
+    else:
+        inner["HERE" if data.draw(st.booleans()) else "cyan4\n"] = inner.pop(last)
+    payload = json.dumps(content["sight"]).encode().replace(b'"HERE":', b'"here":').replace(b'"HERE"', value)
+    assert said_of(READ, payload) == said_of(Sight.decode, payload)
+
+
+@pytest.mark.parametrize(
+    "payload",
+    [b"", b"[]", b"\x00\xff", b" " * 70_000, b"[" * 60_000, PAYLOAD[:-1], PAYLOAD + b"x", b'{"version":"2.3"}'],
+    ids=repr,
+)
+def test_what_is_no_sight_is_refused_with_the_models_reason(payload: bytes) -> None:
+    with pytest.raises(BadMessageError) as light:
+        READ(payload)
+    with pytest.raises(BadMessageError) as whole:
+        Sight.decode(payload)
+    assert str(light.value) == str(whole.value)
+
+
+def test_a_newer_minor_version_is_read() -> None:
+    newer = PAYLOAD.replace(b'"version":"1.0"', b'"version":"1.7"')
+    assert newer != PAYLOAD
+    assert plain(READ(newer)) == plain(Sight.decode(newer))
+
+
+def test_what_was_read_is_never_changed() -> None:
+    with pytest.raises(AttributeError):
+        READ(PAYLOAD).tick = 3  # type: ignore[misc]
+
+
+def test_a_light_part_can_stand_in_a_message() -> None:
+    sight = READ(PAYLOAD)
+    said = Command.decode(Command(answers_tick=sight.tick, radio=Radio(self=sight.self)).encode()).radio
+    assert said is not None and said.self == SIGHT.self
+    assert isinstance(said.self, Motion)
+
+
+def test_a_part_with_rules_of_its_own_stays_what_it_is() -> None:
+    order = CoachOrder(sequence=3, mode=CoachMode.HOLD)
+    sight = READ(SIGHT.model_copy(update={"order": order}).encode())
+    assert sight.order == order
+    broken = SIGHT.model_copy(update={"order": order.model_copy(update={"mode": CoachMode.TEST})}).encode()
+    with pytest.raises(BadMessageError, match="needs a test"):
+        READ(broken)
+
+
+@pytest.mark.parametrize("kind", [Sight, Command, World, GameState], ids=lambda kind: kind.__name__)
+def test_every_message_that_comes_once_a_tick_can_be_read_light(kind: type[Message]) -> None:
+    message = examples()[kind]
+    assert plain(light_reader(kind)(message.encode())) == plain(kind.decode(message.encode()))
+
+
+class Limited(Message):
+    """Every limit that a model may have."""
+
+    low: Annotated[int, Field(ge=1, lt=4)] = 1
+    high: Annotated[float, Field(gt=0, le=2)] | None = None
+    word: Annotated[str, StringConstraints(pattern="^a+$", min_length=2, max_length=3)] = "aa"
+    few: Annotated[list[int], Field(max_length=2)] = Field(default_factory=list)
+    standing: Standing = Standing(red=1)
+
+
+@given(
+    st.integers(-1, 5), st.none() | st.floats(-1, 3), st.text("ab\n", max_size=4), st.lists(st.integers(), max_size=3)
+)
+@example(3, 2.0, "aa\n", [])
+def test_limits_are_those_of_the_model(low: int, high: float | None, word: str, few: list[int]) -> None:
+    payload = json.dumps({"low": low, "high": high, "word": word, "few": few}).encode()
+    assert said_of(light_reader(Limited), payload) == said_of(Limited.decode, payload)
+
+
+def test_what_a_struct_would_read_otherwise_is_refused_when_the_reader_is_made() -> None:
+    class Odd(Message):
+        even: Annotated[int, Field(multiple_of=2)] = 2
+
+    with pytest.raises(TypeError, match="no limit that a struct knows"):
+        light_reader(Odd)
+    with pytest.raises(TypeError, match="AppliedInput"):
+        light_reader(Applied)
