@@ -8,7 +8,7 @@ remains what the message means: it reads whatever the struct refuses, and says w
 
 import dataclasses
 import types
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache
 from typing import Annotated, Any, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
@@ -36,8 +36,8 @@ _LIMITS: Mapping[type, Callable[[Any], dict[str, Any]]] = {
 def light_reader(model: type[M]) -> Callable[[bytes], M]:
     """What reads payloads of one kind of message.
 
-    It answers with an object that has the fields of the model and never changes, but is no instance of it; it can stand
-    in a message wherever such a part may. The reader raises `BadMessageError` as `Message.decode` does, and for the
+    It answers with an object that has the fields of the model and never changes, but is no instance of it. `dict` of it
+    is what it is of the model, and it can stand in a message wherever such a part may. The reader raises `BadMessageError` as `Message.decode` does, and for the
     same payloads.
 
     Raises:
@@ -58,6 +58,14 @@ def light_reader(model: type[M]) -> Callable[[bytes], M]:
     return read
 
 
+class _Light(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, gc=False):
+    """What was read."""
+
+    def __iter__(self) -> Iterator[tuple[str, Any]]:
+        """Field and value, as models have it: `dict(part)` are the fields."""
+        return ((name, getattr(self, name)) for name in self.__struct_fields__)
+
+
 @cache
 def _struct(model: type[Part]) -> Any:
     """The struct of a model whose meaning is all in its fields; any other stays what it is."""
@@ -65,9 +73,7 @@ def _struct(model: type[Part]) -> Any:
         return model
     hints = get_type_hints(model, include_extras=True)
     fields = [(name, _type(hints[name]), *_default(info)) for name, info in model.model_fields.items()]
-    return msgspec.defstruct(
-        model.__name__, fields, frozen=True, kw_only=True, forbid_unknown_fields=True, gc=False, module=__name__
-    )
+    return msgspec.defstruct(model.__name__, fields, bases=(_Light,), module=__name__, kw_only=True)
 
 
 def _is_plain(model: type[Part]) -> bool:

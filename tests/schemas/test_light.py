@@ -129,6 +129,10 @@ def test_what_was_read_is_never_changed() -> None:
         READ(PAYLOAD).tick = 3  # type: ignore[misc]
 
 
+def test_the_fields_of_a_light_part_make_a_dict_as_those_of_a_model_do() -> None:
+    assert dict(READ(PAYLOAD).self) == dict(SIGHT.self)
+
+
 def test_a_light_part_can_stand_in_a_message() -> None:
     sight = READ(PAYLOAD)
     said = Command.decode(Command(answers_tick=sight.tick, radio=Radio(self=sight.self)).encode()).radio
