@@ -37,8 +37,8 @@ def light_reader(model: type[M]) -> Callable[[bytes], M]:
     """What reads payloads of one kind of message.
 
     It answers with an object that has the fields of the model and never changes, but is no instance of it. `dict` of it
-    is what it is of the model, and it can stand in a message wherever such a part may. The reader raises `BadMessageError` as `Message.decode` does, and for the
-    same payloads.
+    is what it is of the model, and it can stand in a message wherever such a part may. The reader raises
+    `BadMessageError` as `Message.decode` does, and for the same payloads.
 
     Raises:
         TypeError: a field of the model has a limit that structs do not know, or a type that they read otherwise.
