@@ -67,11 +67,11 @@ class Runner:
 
     def next_sight(self, timeout: float | None) -> Sight | None:
         """The newest sight, waiting up to `timeout` s for one (None: for ever)."""
-        received = self._sights.receive(timeout)
-        if received is None:
+        payload = self._sights.receive_payload(timeout)
+        if payload is None:
             return None
         try:
-            return read_sight(received.payload)
+            return read_sight(payload)
         except BadMessageError as error:
             self._count_invalid(error)
             return None
@@ -175,10 +175,13 @@ class _HostWatch:
     def __init__(self, bus: Bus) -> None:
         self._bus = bus
         self._watch = bus.watch_alive()
+        self._is_quiet = self._watch.is_quiet
         self._hosts: dict[str, bool] = {}
 
     def left(self) -> bool:
         """Whether the host went away since this was last asked, be it back by now or not."""
+        if self._is_quiet():
+            return False
         left = False
         while (presence := self._watch.receive()) is not None:
             if presence.kind == HOST_KIND:

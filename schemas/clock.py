@@ -32,16 +32,13 @@ class WallClock:
 
     __slots__ = ("sim_ns",)
 
+    now = staticmethod(time.perf_counter)
+    """Monotonic wall time in s."""
+    unix_ns = staticmethod(time.time_ns)
+    """Wall time in ns since 1970, UTC."""
+
     def __init__(self) -> None:
         self.sim_ns = UNKNOWN
-
-    def now(self) -> float:
-        """Monotonic wall time in s."""
-        return time.perf_counter()
-
-    def unix_ns(self) -> int:
-        """Wall time in ns since 1970, UTC."""
-        return time.time_ns()
 
     def sleep_until(self, moment: float) -> None:
         """Sleep until `now()` has reached `moment`."""

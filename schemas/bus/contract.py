@@ -5,6 +5,7 @@ conformance suite runs over both.
 """
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Any, NamedTuple, Self
@@ -107,6 +108,11 @@ class Subscription(ABC):
     def receive(self, timeout: float | None = 0.0) -> Received | None:
         """The next message, waiting up to `timeout` s for it (None: for ever); nothing when there is none."""
 
+    def receive_payload(self, timeout: float | None = 0.0) -> bytes | None:
+        """The payload of the next message alone, for who asks for nothing else of it; as `receive`."""
+        received = self.receive(timeout)
+        return received.payload if received is not None else None
+
     @abstractmethod
     def forgo(self) -> None:
         """Wait no more for what is missing of a `recovered` topic: what came after it is given out, behind a gap."""
@@ -164,6 +170,9 @@ class Answer(ABC):
 
 class PresenceWatch(ABC):
     """Sees processes come and go; begins with those that are there."""
+
+    is_quiet: Callable[[], bool]
+    """Whether nothing waits to be received: for who asks often, and mostly in vain."""
 
     @abstractmethod
     def receive(self, timeout: float | None = 0.0) -> Presence | None:

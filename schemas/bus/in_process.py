@@ -154,6 +154,7 @@ class _Watch(PresenceWatch):
     def __init__(self, match: str) -> None:
         self.match = match
         self.mailbox: EveryMailbox[Presence] = EveryMailbox()
+        self.is_quiet = self.mailbox.is_empty
 
     def receive(self, timeout: float | None = 0.0) -> Presence | None:
         return self.mailbox.take(timeout)

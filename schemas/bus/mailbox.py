@@ -35,6 +35,8 @@ class EveryMailbox(Generic[T]):
 
     def __init__(self) -> None:
         self._queue: SimpleQueue[T | _End] = SimpleQueue()
+        self.is_empty = self._queue.empty
+        """Whether nothing waits, neither an item nor the end."""
 
     def put(self, key: str, item: T) -> None:
         """Bring an item; the key does not matter here."""

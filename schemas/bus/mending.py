@@ -5,6 +5,7 @@ the link broke in the middle of the answer, or when more was dropped while it ca
 here again. Knows no network: `zenoh_mending` asks the questions.
 """
 
+import math
 from collections import deque
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -42,6 +43,11 @@ class _Line:
         self.held: dict[int, Received] = {}
         self.asking = False
         self.ask_at = self.give_up_at = 0.0
+
+    @property
+    def due_at(self) -> float:
+        """When it is asked for, or given up."""
+        return self.give_up_at if self.asking else min(self.ask_at, self.give_up_at)
 
 
 class Mender:
@@ -90,10 +96,9 @@ class Mender:
         """Whether something is missing."""
         return bool(self._broken)
 
-    def is_due(self, now: float) -> bool:
-        """Whether there is something to ask for, or to give up."""
-        lines = tuple(self._broken.values())  # another thread than the reader's may ask
-        return any(now >= line.give_up_at or (not line.asking and now >= line.ask_at) for line in lines)
+    def due_at(self) -> float:
+        """When there is something to ask for, or to give up; infinite while nothing is missing."""
+        return min((line.due_at for line in self._broken.values()), default=math.inf)
 
     def questions(self, now: float) -> list[Gap]:
         """What is to be asked for now; each is answered by `answered`."""

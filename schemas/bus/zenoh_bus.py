@@ -1,7 +1,7 @@
 """The bus over Zenoh: the host is the router, everyone else a client with one explicit endpoint.
 
-With `session`, which opens what this is built on, and its ends, `zenoh_stream` with `zenoh_mending` and `zenoh_query`,
-the only module that knows Zenoh.
+With `session`, which opens what this is built on, and its ends, the modules beside it that are called `zenoh_…`, the
+only one that knows Zenoh.
 """
 
 import threading
@@ -25,11 +25,13 @@ from schemas.bus.contract import (
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.mailbox import EveryMailbox
 from schemas.bus.session import Seat, open_connection, open_router
+from schemas.bus.zenoh_newest import ZenohNewest
 from schemas.bus.zenoh_query import ZenohAnswer, ZenohServer, ZenohWatch
+from schemas.bus.zenoh_reader import ZenohReader
 from schemas.bus.zenoh_stream import ZenohPublisher, ZenohSubscription
 from schemas.clock import Clock
 from schemas.message import Message
-from schemas.topic import Topic
+from schemas.topic import Delivery, Topic
 from schemas.topics import TOPICS, root
 
 
@@ -59,7 +61,7 @@ class ZenohBus(Bus):
         self.session = session
         self._seat = Seat(session, root(match), clock, is_client, Alarm(clock), self)
         self._mailboxes: list[EveryMailbox[Any]] = []
-        self._subscriptions: list[ZenohSubscription] = []
+        self._subscriptions: list[ZenohReader] = []
         self._tokens: dict[str, zenoh.LivelinessToken] = {}
         _close_at_exit(self)
 
@@ -69,9 +71,15 @@ class ZenohBus(Bus):
 
     def subscribe(self, topic: Topic, *, newest: bool = False, past: bool = False, **chunks: str) -> Subscription:
         check_publishable(topic)
-        subscription = ZenohSubscription(topic, topic.fill(**chunks), self._open(), newest, past)
+        seat, key = self._open(), topic.fill(**chunks)
+        newest = newest or topic.delivery is Delivery.NEWEST
+        subscription: ZenohReader
+        if newest and "*" not in key:
+            subscription = ZenohNewest(topic, key, seat)
+        else:
+            subscription = ZenohSubscription(topic, key, seat, newest, past)
         self._subscriptions.append(subscription)
-        self._seat.alarm.watch(subscription)
+        seat.alarm.watch(subscription)
         return subscription
 
     def serve(self, topic: Topic, **chunks: str) -> Server:

@@ -25,7 +25,7 @@ class ZenohMending:
         self._seat, self._mender, self._read, self._wake = seat, mender, read, wake
         self._answers: SimpleQueue[tuple[Gap, list[zenoh.Sample]]] = SimpleQueue()
         self.passes = self._mender.passes
-        self.is_due = self._mender.is_due
+        self.due_at = self._mender.due_at
         self.forgo = self._mender.forgo
 
     def take(self, received: Received, sample: zenoh.Sample) -> None:

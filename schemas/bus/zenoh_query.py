@@ -76,6 +76,7 @@ class ZenohAnswer(Answer):
 class ZenohWatch(PresenceWatch):
     def __init__(self, seat: Seat) -> None:
         self.mailbox: EveryMailbox[Presence] = EveryMailbox()
+        self.is_quiet = self.mailbox.is_empty
         start = len(seat.prefix)
         row = TOPICS["alive"]
 

@@ -9,7 +9,7 @@ import pytest
 
 from arena.processes import PROCESSES, Kind
 from arena.supervisor import AFTER_THE_MATCH
-from schemas.bus import session, zenoh_stream
+from schemas.bus import session, zenoh_sample
 from schemas.command import Command
 from schemas.message import BadMessageError, Message
 from schemas.profile import load_profile
@@ -75,7 +75,7 @@ def test_the_environment_is_the_one_that_a_robot_is_launched_with(text: str) -> 
 
 
 def test_the_attachment_is_the_one_that_is_sent(text: str) -> None:
-    assert (zenoh_stream.STAMP.format, zenoh_stream.STAMP.size) == ("<QQq", 24)
+    assert (zenoh_sample.STAMP.format, zenoh_sample.STAMP.size) == ("<QQq", 24)
     assert "carries 24 bytes" in text and "| 16–23 | signed |" in text
 
 

@@ -17,6 +17,7 @@ from schemas.coach import CoachOrder
 from schemas.command import Command
 from schemas.game import ActionName, ActionReply, GameState, Phase, RefereeAction
 from schemas.message import BadMessageError
+from schemas.topic import Topic
 from schemas.topics import ACTION, COMMAND, ORDER, SETUP, SIGHT, STATE, WORLD_BALL, WORLD_ROBOT
 
 SOON = 30.0
@@ -203,15 +204,52 @@ def test_matches_on_one_medium_do_not_hear_each_other(seats: Seats) -> None:
     assert reader.receive(SOON).message().answers_tick == 3  # type: ignore[union-attr]
 
 
-def test_a_wait_ends_when_its_time_is_up(seats: Seats) -> None:
-    began = time.monotonic()
-    assert seats.host.subscribe(COMMAND).receive(MOMENT) is None
-    assert time.monotonic() - began >= MOMENT * 0.9
-
-
-def test_a_waiting_reader_is_woken_when_its_bus_is_closed(seats: Seats) -> None:
+def test_who_asks_for_payloads_alone_gets_those_of_the_same_messages(seats: Seats) -> None:
     bus = seats.join()
-    reader = bus.subscribe(STATE)
+    sights, states = bus.subscribe(SIGHT, robot="cyan1"), bus.subscribe(STATE)
+    writers = seats.host.publisher(SIGHT, robot="cyan1"), seats.host.publisher(STATE)
+    for reader, writer in zip((sights, states), writers, strict=True):
+        put_until_heard(lambda writer=writer: writer.put_payload(b"0"), reader)  # type: ignore[misc]
+        writer.put_payload(b"1")
+        assert reader.receive_payload(SOON) == b"1"
+        assert reader.receive_payload() is None
+
+
+def test_an_empty_payload_is_a_message_like_others(seats: Seats) -> None:
+    bus = seats.join()
+    for topic in (SIGHT, COMMAND):
+        reader, writer = bus.subscribe(topic, robot="cyan1"), seats.host.publisher(topic, robot="cyan1")
+        put_until_heard(lambda writer=writer: writer.put_payload(b"0"), reader)  # type: ignore[misc]
+        writer.put_payload(b"")
+        received = reader.receive(SOON)
+        assert received is not None and received.payload == b"" and received.stamp is not None
+
+
+@pytest.mark.parametrize("topic", [COMMAND, SIGHT], ids=["every", "newest"])
+def test_a_wait_ends_when_its_time_is_up(seats: Seats, topic: Topic) -> None:
+    reader = seats.host.subscribe(topic, robot="cyan1")
+    for timeout in (MOMENT, MOMENT / 10):
+        began = time.monotonic()
+        assert reader.receive(timeout) is None
+        assert time.monotonic() - began >= timeout * 0.9
+
+
+def test_a_wait_that_ends_soon_begins_while_another_lasts(seats: Seats) -> None:
+    bus = seats.join()
+    long, short = bus.subscribe(STATE), bus.subscribe(SIGHT, robot="cyan1")
+    waiter = threading.Thread(target=lambda: long.receive(10 * SOON))
+    waiter.start()
+    assert short.receive(MOMENT) is None
+    assert waiter.is_alive()
+    bus.close()
+    waiter.join(SOON)
+    assert not waiter.is_alive()
+
+
+@pytest.mark.parametrize("topic", [STATE, SIGHT], ids=["every", "newest"])
+def test_a_waiting_reader_is_woken_when_its_bus_is_closed(seats: Seats, topic: Topic) -> None:
+    bus = seats.join()
+    reader = bus.subscribe(topic, **dict.fromkeys(topic.chunks, "cyan1"))
     done = threading.Event()
     waiter = threading.Thread(target=lambda: (reader.receive(None), done.set()))
     waiter.start()
@@ -247,10 +285,12 @@ def test_a_question_that_nobody_answers_is_no_silence(seats: Seats) -> None:
 
 def test_a_process_is_seen_to_come_and_go(seats: Seats) -> None:
     watch = seats.host.watch_alive()
+    assert watch.is_quiet()
     bus = seats.join()
     bus.declare_alive("agent", "cyan1")
     came = watch.receive(SOON)
     assert came is not None and (came.kind, came.name, came.alive) == ("agent", "cyan1", True)
+    assert watch.is_quiet()
     bus.close()
     went = watch.receive(SOON)
     assert went is not None and (went.name, went.alive) == ("cyan1", False)

@@ -101,8 +101,7 @@ def test_an_answer_that_was_cut_off_is_asked_for_again_from_where_it_ended(reade
     assert reader.mender.questions(1.0) == []  # it is on its way
     assert reader.answer(gap, 8, 9, 10, now=2.0) == [8, 9, 10]
     assert reader.mender.questions(2.0) == []
-    assert not reader.mender.is_due(2.0)
-    assert reader.mender.is_due(2.0 + ASK_AGAIN_S)
+    assert reader.mender.due_at() == 2.0 + ASK_AGAIN_S
     assert reader.mender.questions(2.0 + ASK_AGAIN_S) == [Gap("world", "a", 11, 20)]
 
 
@@ -134,8 +133,7 @@ def test_a_second_gap_is_asked_for_when_the_first_is_mended(reader):
 def test_what_never_comes_is_waited_for_for_a_while_and_given_up(reader):
     assert reader.hear(10, 11, now=3.0) == []
     assert reader.mender.questions(3.0)
-    assert not reader.mender.is_due(3.0 + GIVE_UP_S - 1.0)
-    assert reader.mender.is_due(3.0 + GIVE_UP_S)
+    assert reader.mender.due_at() == 3.0 + GIVE_UP_S
     assert reader.mender.questions(3.0 + GIVE_UP_S) == []
     assert reader.ready() == [10, 11]
     assert reader.mender.passes(message(12))

@@ -12,9 +12,11 @@ import pytest
 from schemas.bus.contract import BusError
 from schemas.bus.endpoint import is_loopback, parse_endpoint, with_port
 from schemas.bus.zenoh_bus import open_client, open_host
+from schemas.bus.zenoh_reader import ZenohReader
 from schemas.clock import WallClock
 from schemas.command import Command
-from schemas.topics import COMMAND
+from schemas.topic import Topic
+from schemas.topics import COMMAND, SIGHT
 
 
 def test_a_port_in_use_is_one_line_with_the_remedy() -> None:
@@ -50,6 +52,7 @@ def test_a_client_goes_on_after_its_host_was_killed_and_came_back() -> None:
 SAYS_MUCH = """
 import sys
 from schemas.bus.zenoh_bus import open_host
+from schemas.bus.zenoh_reader import ZenohReader
 from schemas.clock import WallClock
 from schemas.host import Invalid
 from schemas.topics import INVALID
@@ -64,6 +67,7 @@ with open_host("test", WallClock(), sys.argv[1]) as bus:
 LATE = """
 import sys
 from schemas.bus.zenoh_bus import open_client
+from schemas.bus.zenoh_reader import ZenohReader
 from schemas.clock import WallClock
 from schemas.topics import INVALID
 with open_client("test", WallClock(), sys.argv[1], patience=30.0) as bus:
@@ -143,3 +147,25 @@ def test_a_port_that_was_chosen_stays_free_for_the_host_however_long_that_takes_
         other.bind((host, port))
     with open_host("test", WallClock(), endpoint), open_client("test", WallClock(), endpoint) as client:
         assert client.connected()
+
+
+@pytest.mark.parametrize("topic", [COMMAND, SIGHT], ids=["every", "newest"])
+def test_a_poke_that_comes_too_late_does_not_end_the_next_wait(topic: Topic) -> None:
+    with open_host("test", WallClock(), with_port("tcp/127.0.0.1:0")) as host:
+        reader = host.subscribe(topic, robot="cyan1")
+        assert isinstance(reader, ZenohReader)
+        reader.poke()
+        began = time.monotonic()
+        assert reader.receive(0.2) is None
+        assert time.monotonic() - began >= 0.18
+
+
+def test_a_poke_pushes_no_message_out() -> None:
+    with open_host("test", WallClock(), with_port("tcp/127.0.0.1:0")) as host:
+        reader, writer = host.subscribe(SIGHT, robot="cyan1"), host.publisher(SIGHT, robot="cyan1")
+        assert isinstance(reader, ZenohReader)
+        for number in (b"1", b"2", b"3"):
+            writer.put_payload(number)
+        reader.poke()
+        assert reader.receive_payload() == b"3"
+        assert reader.receive_payload() is None
