@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from recordings.reader import Recording
-from robot_agent.contract import Brain, Briefing, load_brain
+from robot_agent.contract import COMMANDS, Brain, Briefing, load_brain
 from schemas.command import Command
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.sight import Sight
@@ -127,7 +127,7 @@ def _answer(brain: Brain, spec: str, sight: Sight) -> Command:
     except Exception as error:
         what = f"{type(error).__name__}: {' '.join(str(error).split())}"
         raise MatchFailedError(f"{spec} raised at tick {sight.tick}: {what}") from error
-    if not isinstance(command, Command):
+    if not isinstance(command, COMMANDS):
         raise MatchFailedError(f"{spec} returned {command!r} at tick {sight.tick}; return a Command")
     return Command.decode(command.encode())
 

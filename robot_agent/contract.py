@@ -14,7 +14,7 @@ from typing import Any, Protocol
 from schemas.command import Command
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.host import Setup
-from schemas.light import light_reader
+from schemas.light import light_form, light_reader
 from schemas.side import Side
 from schemas.sight import Sight
 
@@ -23,6 +23,12 @@ read_sight = light_reader(Sight)
 
 Raises `BadMessageError` for one that is none.
 """
+
+LightCommand = light_form(Command)
+"""A command of parts that were validated when they were made: with the fields of `Command`, encoded as one, and no
+instance of it. `Command.model_validate` makes a model of it."""
+COMMANDS = (Command, LightCommand)
+"""What a brain may answer with."""
 
 
 class Brain(Protocol):

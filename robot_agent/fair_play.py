@@ -42,6 +42,11 @@ class Asked(NamedTuple):
     roll: float
     """m of free roll that make a pass."""
 
+    @property
+    def counts_ways(self) -> bool:
+        """Whether any way with the ball is too long."""
+        return math.isfinite(self.circle) or math.isfinite(self.backward)
+
     @classmethod
     def of(cls, setup: Setup) -> "Asked":
         """Those of the match."""

@@ -41,16 +41,18 @@ class Opponents:
         self._pictured = -math.inf
         """s; when the newest picture was taken."""
 
-    def now(self, seen: Sequence[Point], time: float, age: float) -> list[Point]:
-        """Where they are at `time`, s; `seen` is of the picture that is `age` s old, and may be given repeatedly."""
-        pictured = time - age
-        if pictured > self._pictured + 1e-6:
-            self._take_in(seen, pictured - self._pictured)
-            self._pictured = pictured
+    def awaits(self, pictured: float) -> bool:
+        """Whether a picture that was taken at that time, s, is newer than what was taken in."""
+        return pictured > self._pictured + 1e-6
+
+    def now(self, age: float) -> list[Point]:
+        """Where they are `age` s after the newest picture."""
         return _after(self._tracks, age)
 
-    def _take_in(self, seen: Sequence[Point], dt: float) -> None:
-        """The opponents of a new picture, in its order, then those that are remembered."""
+    def take_in(self, seen: Sequence[Point], pictured: float) -> None:
+        """The opponents of a new picture, taken at that time, in its order; then those that are remembered."""
+        dt = pictured - self._pictured
+        self._pictured = pictured
         before = [track for track in self._tracks if track.unseen + dt <= REMEMBERED]
         expected = _after(before, dt)
         tracks = []

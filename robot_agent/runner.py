@@ -5,9 +5,8 @@ import sys
 import traceback
 from collections.abc import Callable
 
-from robot_agent.contract import Brain, read_sight
+from robot_agent.contract import COMMANDS, Brain, read_sight
 from schemas.bus.contract import Bus, NoAnswerError
-from schemas.command import Command
 from schemas.errors import TouchlineError
 from schemas.host import Setup, SetupRequest
 from schemas.message import BadMessageError
@@ -101,7 +100,7 @@ class Runner:
             command = self.brain.act(sight)
         except Exception as error:
             raise BrainError(f"act raised at tick {sight.tick}") from error
-        if not isinstance(command, Command):
+        if not isinstance(command, COMMANDS):
             raise BrainError(f"act returned {command!r} at tick {sight.tick}; return a Command")
         return command.encode()
 

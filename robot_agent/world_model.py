@@ -97,8 +97,10 @@ class WorldModel:
         self._me = me = _smooth_body(self._me, sight.self, dt)
         mates = self._mates(sight.radio, sight.game)
         ball = self._believed_ball(sight, me, dt)
-        opponents = self._opponents.now(_opponents(sight, mates), sight.time, sight.obstacles_age)
-        return Scene(sight.tick, dt, me, sight.holding, ball, mates, opponents, sight.game, sight.kicker_ready)
+        age, opponents = sight.obstacles_age, self._opponents
+        if opponents.awaits(sight.time - age):
+            opponents.take_in(_opponents(sight, mates), sight.time - age)
+        return Scene(sight.tick, dt, me, sight.holding, ball, mates, opponents.now(age), sight.game, sight.kicker_ready)
 
     def _mates(self, radio: dict[str, Heard], game: GameView) -> dict[str, Mate]:
         """Those who were heard lately and are on the field."""

@@ -5,7 +5,7 @@ from abc import ABC, abstractmethod
 from typing import ClassVar
 
 from robot_agent.bodies import Ball, Limits
-from robot_agent.contract import Briefing
+from robot_agent.contract import Briefing, LightCommand
 from robot_agent.fair_play import Asked, Carry, Control, carried, control_after
 from robot_agent.skills.avoid import circles, go_around
 from robot_agent.skills.keep_goal import keep_goal
@@ -69,11 +69,12 @@ class Player(ABC):
         self._full_limits = self.limits
         self._world = WorldModel(briefing)
         self._asked = Asked.of(briefing.setup)
+        self._counts_ways = self._asked.counts_ways
         self._goal_area = Area.goal(self.setup.pitch)
         self._penalty_area = Area.penalty(self.setup.pitch)
         self._carry: Carry | None = None
         self.control = Control()
-        """Which side has the ball, and whether a goal would count."""
+        """Which side has the ball, and whether a goal would count; followed where the rules ask for a pass."""
         self._lets_go = 0.0
         """s for which the dribbler stays off after a kick."""
         self._penalty_kicked = False
@@ -89,7 +90,7 @@ class Player(ABC):
         return self.keeper == self.briefing.robot
 
     def act(self, sight: Sight) -> Command:
-        """The answer to one sight."""
+        """The answer to one sight, a `LightCommand`."""
         if self._game is not None and sight.game.episode != self._game.episode:
             self.begin_anew()
         if self._last is not None and self._may_go_on(sight, self._last):
@@ -129,13 +130,15 @@ class Player(ABC):
         self._penalty_kicked = self._penalty_kicked and scene.game.phase is TeamPhase.OUR_PENALTY
         order = sight.order
         self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits
-        self._carry = carried(self._carry, scene)
-        self.control = control_after(self.control, scene, self.briefing.robot, self._asked.roll)
+        if self._counts_ways:
+            self._carry = carried(self._carry, scene)
+        if self._asked.passes_first:
+            self.control = control_after(self.control, scene, self.briefing.robot, self._asked.roll)
         action = self._obey(scene, order) or self._by_the_rules(scene, self._act(scene, order))
         if not scene.kicker_ready:
             action = action._replace(kick=None, pass_to=None)  # it would be refused: keep the ball, and aim
         self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - scene.dt)
-        return Command(
+        return LightCommand(
             answers_tick=sight.tick,
             drive=action.drive,
             dribble=action.dribble and (action.kick is not None or self._lets_go == 0.0),
@@ -145,9 +148,15 @@ class Player(ABC):
         )
 
     def _act(self, scene: Scene, order: CoachOrder | None) -> Action:
+        """What the coach's test asks for, or the game; what every shipped team does alike stands before its play."""
+        game = scene.game
         if order is not None and order.mode is CoachMode.TEST:
             return self.show(scene, order)
-        return self._special(scene) or self.play(scene, order)
+        if game.stage is Stage.SHOOT_OUT and game.phase in PENALTIES:
+            return self._shoot_out(scene)
+        if scene.ball is None and game.phase is TeamPhase.PLAY:
+            return self._search(scene)
+        return self.play(scene, order)
 
     @abstractmethod
     def play(self, scene: Scene, order: CoachOrder | None) -> Action:
@@ -230,15 +239,9 @@ class Player(ABC):
         action, self._progress = test_mode.show(moment, self._progress)
         return action
 
-    def _special(self, scene: Scene) -> Action | None:
-        """What every shipped team does alike: penalties of a shoot-out, and looking for the ball."""
-        return self._shoot_out(scene) or self._search(scene)
-
-    def _shoot_out(self, scene: Scene) -> Action | None:
-        """Take the penalty, keep the goal, or wait."""
+    def _shoot_out(self, scene: Scene) -> Action:
+        """In a penalty of the shoot-out: take it, keep the goal, or wait."""
         game, limits = scene.game, self.limits
-        if game.stage is not Stage.SHOOT_OUT or game.phase not in PENALTIES:
-            return None
         kicker = shoot_out.kicker_of(self.setup.teams[self.briefing.side].robots, self.keeper, game)
         if game.phase is TeamPhase.OUR_PENALTY and kicker == self.briefing.robot:
             if self._penalty_kicked:
@@ -253,10 +256,8 @@ class Player(ABC):
             return Action("keeper", "keep", keep_goal(scene.me, scene.ball.now, pitch, reach, limits), dribble=True)
         return Action("", "wait", shoot_out.wait(scene, self.briefing.number, self.setup, limits))
 
-    def _search(self, scene: Scene) -> Action | None:
+    def _search(self, scene: Scene) -> Action:
         """In play, when nobody has seen the ball for long: the keeper guards the goal, the others drive around."""
-        if scene.ball is not None or scene.game.phase is not TeamPhase.PLAY:
-            return None
         pitch, reach, me = self.setup.pitch, self.setup.robot.reach, scene.me
         if self.is_keeper:
             return Action("", "look for the ball", keep_goal(me, _AT_THE_CENTRE, pitch, reach, self.limits))
@@ -292,6 +293,6 @@ def _away(game: GameView) -> list[str]:
 
 def _again(last: Command, tick: int) -> Command:
     """The last command as the answer to one more sight, with nothing kicked and nothing said."""
-    return Command(
+    return LightCommand(
         answers_tick=tick, drive=last.drive, dribble=last.dribble, acknowledges_order=last.acknowledges_order
     )

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from pydantic import Field, StringConstraints
 
 from schemas.coach import CoachMode, CoachOrder
-from schemas.command import Command, Motion, Radio
+from schemas.command import Command, Drive, Kick, KickMode, Motion, Radio
 from schemas.game import GameState, Standing
 from schemas.host import Applied
-from schemas.light import light_reader
+from schemas.light import light_form, light_reader
 from schemas.message import BadMessageError, Message
 from schemas.protocol.examples import examples
 from schemas.sight import Sight
@@ -182,3 +182,37 @@ def test_what_a_struct_would_read_otherwise_is_refused_when_the_reader_is_made()
         light_reader(Odd)
     with pytest.raises(TypeError, match="AppliedInput"):
         light_reader(Applied)
+
+
+DRIVES = st.builds(Drive, vx=st.floats(-20.0, 20.0), vy=st.floats(-20.0, 20.0), omega=st.floats(-50.0, 50.0))
+KICKS = st.builds(Kick, mode=st.sampled_from(KickMode), speed=st.floats(1e-9, 40.0))
+PLACES = st.floats(-1e15, 1e15)
+WORDS = st.builds(
+    Radio,
+    self=st.none() | st.builds(Motion, x=PLACES, y=PLACES, heading=PLACES),
+    role=st.none() | st.text(max_size=20),
+    extra=st.dictionaries(st.text(max_size=5), st.booleans() | st.integers(-9, 9) | PLACES, max_size=3),
+)
+
+
+@given(
+    st.integers(0, 10**6), DRIVES, st.booleans(), st.none() | KICKS, st.none() | WORDS, st.none() | st.integers(0, 9)
+)
+def test_a_light_command_is_encoded_as_the_command_with_the_same_fields(tick, drive, dribble, kick, radio, order):
+    fields = {
+        "answers_tick": tick,
+        "drive": drive,
+        "dribble": dribble,
+        "kick": kick,
+        "radio": radio,
+        "acknowledges_order": order,
+    }
+    light, heavy = light_form(Command)(**fields), Command(**fields)
+    assert light.encode() == heavy.encode()
+    assert dict(light) == dict(heavy)
+    assert Command.model_validate(light) == heavy
+
+
+def test_a_light_message_never_changes():
+    with pytest.raises(AttributeError):
+        light_form(Command)(answers_tick=1).dribble = True
