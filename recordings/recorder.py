@@ -5,6 +5,7 @@ Knows a bus and a file, no process: `recordings.record` gives it both.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
 
 from recordings.account import Account
@@ -86,7 +87,7 @@ class Recorder:
         """`account` is the one that `output` keeps; keys that `selection` leaves out are heard and not written."""
         self._bus, self._clock, self._output, self._account = bus, bus.clock, output, account
         self._name, self._sights, self._selection, self._config = name, sights, selection, config
-        self._subscriptions = [bus.subscribe(topic) for topic in heard_topics(sights)]
+        self._subscriptions = [(topic, bus.subscribe(topic)) for topic in heard_topics(sights)]
         self._order = SimOrder()
         self._wanted: dict[str, bool] = {}
         self._cast = Cast()
@@ -141,7 +142,7 @@ class Recorder:
                 break
             else:
                 self._clock.sleep_until(self._clock.now() + _POLL_S)
-        for subscription in self._subscriptions:
+        for _, subscription in self._subscriptions:
             subscription.forgo()
         self.pump()
 
@@ -184,39 +185,44 @@ class Recorder:
 
     def _take_in(self) -> int:
         came = 0
-        for row, subscription in enumerate(self._subscriptions):
-            for _ in range(_AT_ONCE):
-                received = subscription.receive()
-                if received is None:
-                    break
-                came += self._enter(row, received)
+        for row, (topic, subscription) in enumerate(self._subscriptions):
+            waiting = list(islice(iter(subscription.receive, None), _AT_ONCE))
+            came += self._enter(row, topic, waiting) if waiting else 0
         self._messages += came
         self._notes.catch_up()
         return came
 
-    def _enter(self, row: int, received: Received) -> int:
-        """Take a message in, or all that one of the host's intake holds; returns how many that were."""
-        if received.topic.key == INTAKE.key:
-            return self._unpack(row, received)
-        self._notes.take(received)
+    def _enter(self, row: int, topic: Topic, messages: list[Received]) -> int:
+        """Take messages of a topic in, or all that those of the host's intake hold; returns how many that were."""
+        if topic is INTAKE:
+            messages = [entry for received in messages for entry in self._unpacked(received)]
+        else:
+            self._notes.take(messages)
+        if not self._selection:
+            self._order.add(row, messages)
+            return len(messages)
+        wanted = [received for received in messages if self._wants(received)]
+        self._order.add(row, wanted)
+        return len(wanted)
+
+    def _wants(self, received: Received) -> bool:
+        """Whether a message is to be written; one that is not says how far the host is, and no more."""
         key = received.key
         wanted = self._wanted.get(key)
         if wanted is None:
             wanted = self._wanted[key] = self._selection.wants(key)
-        if wanted:
-            self._order.add(row, received)
-        else:
+        if not wanted:
             self._order.reach(received)
         return wanted
 
-    def _unpack(self, row: int, received: Received) -> int:
+    def _unpacked(self, intake: Received) -> list[Received]:
         try:
-            entries = received_of(received)
+            entries = received_of(intake)
         except BadMessageError:
             self._notes.unreadable[INTAKE.key] += 1
-            return 0
-        self._order.reach(received)
-        return sum(self._enter(row, entry) for entry in entries)
+            return []
+        self._order.reach(intake)
+        return entries
 
     def _report(self, idle: bool) -> None:
         """Tell progress: after a number of ticks, after a while, and when the host seems to wait for it."""

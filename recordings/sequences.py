@@ -32,7 +32,7 @@ class KeyLedger:
         self._sent_ns = 0
         self._missing: set[int] = set()
 
-    def enter(self, stamp: Stamp | None, size: int, *, left_out: bool = False) -> None:
+    def enter(self, stamp: Stamp | None, size: int, left_out: bool = False) -> None:
         """Account for a message of `size` bytes that came with this stamp; `left_out`, it is not in the file."""
         if left_out:
             self.left_out += 1
@@ -42,7 +42,8 @@ class KeyLedger:
         if stamp is None:
             self.unstamped += 1
         elif stamp.sequence == self._expected:
-            self._expect_after(stamp)
+            self._expected += 1
+            self._sent_ns = stamp.sent_ns
         elif self._expected < 0:
             self.missed_before_start += stamp.sequence
             self._expect_after(stamp)

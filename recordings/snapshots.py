@@ -54,9 +54,8 @@ class Snapshots:
 
     def write(self, batch: list[Logged]) -> None:
         """Hold messages, forget those that are too old, and write all when there was a goal."""
-        for logged in batch:
-            self._account.enter(logged[1])
-            self._held.append(logged)
+        self._account.enter(batch)
+        self._held.extend(batch)
         if batch:
             self._forget(batch[-1][0] - self._horizon_ns)
         if any(_is_goal(logged) for logged in batch):
@@ -64,11 +63,9 @@ class Snapshots:
 
     def pass_over(self, batch: list[Logged]) -> None:
         """Follow what stands: a pause is a hole in what is held, and what was before it is forgotten."""
-        for logged in batch:
-            self._account.enter(logged[1], left_out=True)
+        self._account.enter(batch, left_out=True)
         self._forget(None)
-        for logged in batch:
-            self._before.take(logged)
+        self._before.take(batch)
 
     def sync(self) -> None:
         """Snapshots are on the disk when they are written."""
@@ -114,13 +111,12 @@ class Snapshots:
 
     def _forget(self, before_ns: int | None) -> None:
         while self._held and (before_ns is None or self._held[0][0] < before_ns):
-            self._before.take(self._held.popleft())
+            self._before.take([self._held.popleft()])
 
     def _result(self) -> Result:
         """The result of these seconds alone."""
         account = Account()
-        for _, received in self._held:
-            account.enter(received)
+        account.enter(self._held)
         counts = {
             key: count.model_copy(update={"missed_before_start": 0}) for key, count in account.of_this_file().items()
         }

@@ -3,6 +3,8 @@
 A file that begins in the middle of a match begins with it, so that it can be read without the files before it.
 """
 
+from collections.abc import Iterable
+
 from schemas.bus.contract import Received
 from schemas.topics import APPLIED, ORDER, STANDING_ORDER, STATE, WORLD
 
@@ -22,16 +24,19 @@ class Standing:
         self._newest: dict[str, Logged] = {}
         self._changes: list[Logged] = []
 
-    def take(self, logged: Logged) -> None:
-        """A message has gone by."""
-        received = logged[1]
-        row = received.topic.key
-        if row not in _NEWEST:
-            return
-        before = self._newest.get(received.key)
-        if before is not None and row == APPLIED.key and any(mark in before[1].payload for mark in _CHANGES):
-            self._changes.append(before)
-        self._newest[received.key] = logged
+    def take(self, batch: Iterable[Logged]) -> None:
+        """Messages have gone by."""
+        newest = self._newest
+        for logged in batch:
+            received = logged[1]
+            row = received.topic.key
+            if row not in _NEWEST:
+                continue
+            if row == APPLIED.key:
+                before = newest.get(received.key)
+                if before is not None and any(mark in before[1].payload for mark in _CHANGES):
+                    self._changes.append(before)
+            newest[received.key] = logged
 
     def messages(self, since_ns: int = 0) -> list[Logged]:
         """What stands, oldest first, with the log times it had; what is older than `since_ns` is left out."""
