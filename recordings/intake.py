@@ -14,6 +14,7 @@ from schemas.topics import TOPICS
 _OTHERS = tuple(topic for topic in TOPICS.values() if topic.recorded and topic.writer is not Party.HOST)
 """The rows that are recorded and that others than the host write."""
 
+
 class _PlainEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):
     """An `IntakeEntry` whose payload is text and whose sender numbers what it sends."""
 

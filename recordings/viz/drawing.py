@@ -3,11 +3,10 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from pydantic_core import from_json
-
 from recordings.viz.field import field_entities, obstacle_entity
 from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE
 from recordings.viz.game import board, log_entry
+from recordings.viz.look import Look, look_at
 from recordings.viz.primitives import Values, body, scene
 from recordings.viz.robots import Player, ball_entities, robot_entity
 from recordings.viz.transforms import Transforms
@@ -91,7 +90,7 @@ class Drawing:
             return []
 
     def _world(self, received: Received, log_ns: int) -> list[Drawn]:
-        world = from_json(received.payload)
+        world = look_at(received.payload)
         out = []
         if self._tf_ns is None or log_ns - self._tf_ns >= TF_STEP_NS:
             out.append(Drawn(TF, self._transforms.encode(world, log_ns)))
@@ -101,7 +100,7 @@ class Drawing:
             self._drawn_ns = log_ns
         return out + self._still(world, log_ns, again=again)
 
-    def _still(self, world: dict[str, Any], log_ns: int, *, again: bool) -> list[Drawn]:
+    def _still(self, world: Look, log_ns: int, *, again: bool) -> list[Drawn]:
         """What moves with its frame alone, where it looks otherwise than before, or is to be said again.
 
         A scene needs none before it: what was there once and is gone is taken away each time.
@@ -153,12 +152,12 @@ class Drawing:
         return []
 
 
-_STILL: dict[str, tuple[Callable[[dict[str, Any]], Any], Callable[[Drawing, Any], list[Values]]]] = {
-    FIELD: (lambda world: world.get("obstacles") or {}, Drawing._field),
+_STILL: dict[str, tuple[Callable[[Look], Any], Callable[[Drawing, Any], list[Values]]]] = {
+    FIELD: (lambda world: world.obstacles, Drawing._field),
     ROBOTS: (
-        lambda world: [(name, robot.get("off_field")) for name, robot in world["robots"].items()],
+        lambda world: [(name, robot.off_field) for name, robot in world.robots.items()],
         Drawing._robots,
     ),
-    BALL: (lambda world: world.get("possession"), Drawing._ball),
+    BALL: (lambda world: world.possession, Drawing._ball),
 }
 """Topic → what of a world decides how it looks, and what it then looks like."""

@@ -3,13 +3,12 @@
 Written some fifty times a second of simulated time, so the bytes are put together by hand.
 """
 
-import math
 import struct
-from collections.abc import Mapping
-from typing import Any
+from math import cos, sin
 
 from recordings.exchange.protobuf.wire import BYTES, content, tag, varint
 from recordings.viz.foxglove import stamp
+from recordings.viz.look import Look
 
 MAP = "map"
 """The field frame."""
@@ -17,6 +16,8 @@ BALL = "ball"
 BALL_SHADOW = "ball/ground"
 """On the ground below the ball."""
 _PER_M = 2.0**14
+_TO_WHOLE = 1.5 * 2.0**52
+"""Added and taken away, rounds a number below 2^51 as `round` does: beside it a double has no places for a fraction."""
 STEP_M = 1 / _PER_M
 """Places are written in steps of 0.06 mm, and turns as finely: numbers of a few digits pack well."""
 
@@ -36,21 +37,17 @@ class Transforms:
         self._begins: dict[tuple[str, int], tuple[bytes, bytes]] = {}
         """Frame and length of the stamp → what stands before the stamp of a transform, and behind it."""
 
-    def encode(self, world: Mapping[str, Any], log_ns: int) -> bytes:
-        """The transforms of a `World` in plain values.
-
-        Raises:
-            KeyError, TypeError, ValueError, OverflowError: it is none.
-        """
+    def encode(self, world: Look, log_ns: int) -> bytes:
+        """The transforms of a world."""
         now = content(1, stamp(log_ns))
-        robots, ball = world["robots"], world["ball"]
+        robots, ball = world.robots, world.ball
         numbers: list[float] = []
         for robot in robots.values():
-            half = robot["heading"] / 2
-            numbers += (robot["x"], robot["y"], robot["z"], math.sin(half), math.cos(half))
-        numbers += (ball["x"], ball["y"], ball["z"], 0.0, 1.0)
-        numbers += (ball["x"], ball["y"], 0.0, 0.0, 1.0)
-        rounded = iter([round(number * _PER_M) * STEP_M for number in numbers])
+            half = robot.heading / 2
+            numbers += (robot.x, robot.y, robot.z, sin(half), cos(half))
+        numbers += (ball.x, ball.y, ball.z, 0.0, 1.0)
+        numbers += (ball.x, ball.y, 0.0, 0.0, 1.0)
+        rounded = iter([(number * _PER_M + _TO_WHOLE - _TO_WHOLE) * STEP_M for number in numbers])
         begins, length = self._begins, len(now)
         out: list[bytes] = []
         places = zip(rounded, rounded, rounded, rounded, rounded, strict=True)

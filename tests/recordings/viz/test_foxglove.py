@@ -3,8 +3,10 @@
 import pytest
 from foxglove_schemas_protobuf import FrameTransforms_pb2, Log_pb2, SceneUpdate_pb2
 from google.protobuf import descriptor_pb2, descriptor_pool
+from pydantic_core import to_json
 
 from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE, descriptors, encode, stamp
+from recordings.viz.look import look_at
 from recordings.viz.transforms import STEP_M, Transforms
 
 THEIRS = {
@@ -91,7 +93,7 @@ def test_transforms_put_together_by_hand_are_those_of_the_table():
         },
         "ball": {"x": 1.2, "y": -0.3, "z": 0.11},
     }
-    written = Transforms().encode(world, 8_240_000_000)
+    written = Transforms().encode(look_at(to_json(world)), 8_240_000_000)
     read = FrameTransforms_pb2.FrameTransforms.FromString(written)
     assert read.SerializeToString() != b""
     plain = [
