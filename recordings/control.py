@@ -1,5 +1,6 @@
 """The recorder's ear for its operator: pause, resume, split, snapshot, status."""
 
+from collections import deque
 from collections.abc import Callable
 
 from recordings.account import Account
@@ -15,6 +16,7 @@ class Controls:
 
     def __init__(self, bus: Bus, name: str, output: Output) -> None:
         self._server = bus.serve(CONTROL, name=name)
+        self._asked: deque[Question] = deque()
         self._name, self._output = name, output
         self.paused = False
         self._deeds: dict[RecorderDeed, Callable[[], str]] = {
@@ -25,9 +27,15 @@ class Controls:
             RecorderDeed.SNAPSHOT: lambda: output.snapshot("request"),
         }
 
+    def asked(self) -> bool:
+        """Whether a question waits."""
+        self._asked.extend(iter(self._server.receive, None))
+        return bool(self._asked)
+
     def attend(self, messages: int, account: Account, tick: int) -> None:
         """Do what was asked for, and answer with how the recorder is doing."""
-        while (question := self._server.receive()) is not None:
+        while self.asked():
+            question = self._asked.popleft()
             try:
                 request: RecorderRequest = question.message()
             except BadMessageError as error:

@@ -19,6 +19,7 @@ from recordings.match_notes import MatchNotes
 from recordings.order import SimOrder
 from recordings.output import Output
 from recordings.presence import HostWatch
+from recordings.rest import Rest
 from recordings.selection import EVERYTHING, Selection
 from recordings.standing import Logged
 from schemas.bus.contract import Answer, Bus, NoAnswerError, Received
@@ -26,14 +27,14 @@ from schemas.host import RecorderProgress, Setup, SetupRequest
 from schemas.match_config import MatchConfig
 from schemas.message import BadMessageError
 from schemas.topic import Delivery, Party, Topic
-from schemas.topics import EVENT, INTAKE, PROGRESS, SETUP, SIGHT, TOPICS
+from schemas.topics import EVENT, INTAKE, PROGRESS, SETUP, SIGHT, STATE, TOPICS
 
 REPORT_TICKS = 25
 """Ticks after which a lockstep host is told at once that they were taken in."""
 REPORT_S = 0.05
 """Wall time after which progress is told in any case."""
-_POLL_S = 0.05
-"""Pause between two looks: many messages at a time cost less than each as it comes, half at 50 ms of that at 20."""
+_GLANCE_S = 0.05
+"""Wall time after which a recorder that rests hears that somebody asks something of it, or that the match is over."""
 _AT_ONCE = 10_000
 """Messages of one topic taken in before the next one's turn."""
 _ASK_AGAIN_S = (0.1, 1.6)
@@ -87,7 +88,8 @@ class Recorder:
         """`account` is the one that `output` keeps; keys that `selection` leaves out are heard and not written."""
         self._bus, self._clock, self._output, self._account = bus, bus.clock, output, account
         self._name, self._sights, self._selection, self._config = name, sights, selection, config
-        self._subscriptions = [(topic, bus.subscribe(topic)) for topic in heard_topics(sights)]
+        self._topics = list(heard_topics(sights))
+        self._subscriptions = [bus.subscribe(topic) for topic in self._topics]
         self._order = SimOrder()
         self._wanted: dict[str, bool] = {}
         self._cast = Cast()
@@ -102,6 +104,7 @@ class Recorder:
         self._progress = bus.publisher(PROGRESS, name=name)
         self._reported, self._reported_at = -2, self._clock.now()
         self._holding = Holding(self._clock.now())
+        self._rest = Rest(self._clock.now())
         self._host = HostWatch(bus)
         self._controls = Controls(bus, name, output)
 
@@ -110,8 +113,7 @@ class Recorder:
         stopped = False
         while not stopped and not self._host.gone(finished=self._is_whole()):
             self.pump()
-            self._clock.sleep_until(self._clock.now() + _POLL_S)
-            stopped = told_to_stop()
+            stopped = self._sleep(told_to_stop)
         self.drain(_QUIET_S if stopped else _DRAIN_S)
         return self.finish(stopped)
 
@@ -141,10 +143,27 @@ class Recorder:
             elif not self._bus.connected():
                 break
             else:
-                self._clock.sleep_until(self._clock.now() + _POLL_S)
-        for _, subscription in self._subscriptions:
+                self._clock.sleep_until(self._clock.now() + _GLANCE_S)
+        for subscription in self._subscriptions:
             subscription.forgo()
         self.pump()
+
+    def _sleep(self, told_to_stop: Callable[[], bool]) -> bool:
+        """Sleep until it is time to look again, or there is a reason to; returns whether the recorder is to stop."""
+        now = self._clock.now()
+        until = self._rest.until(now, self._notes.tick)
+        while True:
+            self._clock.sleep_until(min(until, now + _GLANCE_S))
+            now = self._clock.now()
+            stopped = told_to_stop()
+            if stopped or now >= until or not self._begun or self._controls.asked() or self._is_over():
+                return stopped
+
+    def _is_over(self) -> bool:
+        """Whether the match is over: a host that ends waits until its recorders have everything."""
+        if not self._notes.finished:
+            self._take_in_row(self._topics.index(STATE))
+        return self._notes.finished
 
     def finish(self, stopped: bool = False) -> RecordingSummary:
         """Write what is held, and the result; close the file."""
@@ -184,26 +203,24 @@ class Recorder:
             self._output.write(batch)
 
     def _take_in(self) -> int:
-        came = 0
-        for row, (topic, subscription) in enumerate(self._subscriptions):
-            waiting = list(islice(iter(subscription.receive, None), _AT_ONCE))
-            came += self._enter(row, topic, waiting) if waiting else 0
-        self._messages += came
+        came = sum(map(self._take_in_row, range(len(self._topics))))
         self._notes.catch_up()
         return came
 
-    def _enter(self, row: int, topic: Topic, messages: list[Received]) -> int:
-        """Take messages of a topic in, or all that those of the host's intake hold; returns how many that were."""
-        if topic is INTAKE:
+    def _take_in_row(self, row: int) -> int:
+        """Take in what waits of a topic, or all that the host's intake holds; returns how many messages that were."""
+        messages = list(islice(iter(self._subscriptions[row].receive, None), _AT_ONCE))
+        if not messages:
+            return 0
+        if self._topics[row] is INTAKE:
             messages = [entry for received in messages for entry in self._unpacked(received)]
         else:
             self._notes.take(messages)
-        if not self._selection:
-            self._order.add(row, messages)
-            return len(messages)
-        wanted = [received for received in messages if self._wants(received)]
-        self._order.add(row, wanted)
-        return len(wanted)
+        if self._selection:
+            messages = [received for received in messages if self._wants(received)]
+        self._order.add(row, messages)
+        self._messages += len(messages)
+        return len(messages)
 
     def _wants(self, received: Received) -> bool:
         """Whether a message is to be written; one that is not says how far the host is, and no more."""

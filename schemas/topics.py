@@ -222,7 +222,7 @@ PROGRESS = Topic(
     RecorderProgress,
     Party.RECORDER,
     (Party.HOST, Party.VIEWER),
-    "20 Hz of wall time",
+    "5 to 20 Hz of wall time",
     Delivery.EVERY,
     False,
     "how far a recorder has come",
