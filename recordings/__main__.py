@@ -1,6 +1,7 @@
 """`python -m recordings`: records a match until its host leaves, or until it is told to stop."""
 
 import argparse
+import gc
 import signal
 import sys
 import threading
@@ -14,11 +15,16 @@ from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.errors import TouchlineError
 from schemas.turns import take_turns
 
+_SELDOM = 100_000
+"""Objects made until Python looks for garbage in cycles: messages come by the thousand, and are in none."""
+
 
 def main(arguments: list[str] | None = None) -> int:
     """Record; the exit status is 0, or 2 when something has to be mended first."""
     options = _parser().parse_args(arguments)
     take_turns()  # what has come waits for it; nobody else has to
+    gc.freeze()
+    gc.set_threshold(_SELDOM)
     stop = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())

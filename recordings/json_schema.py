@@ -5,6 +5,7 @@ Lichtblick and its relatives read a small part of JSON Schema: every field has o
 channel is written in their words; the whole one, with limits and defaults, is attached to the file.
 """
 
+from functools import cache
 from typing import Any
 
 from schemas.message import Message
@@ -13,8 +14,12 @@ _KEPT = ("title", "description", "enum", "contentEncoding")
 """What a viewer may show of a field besides its type."""
 
 
+@cache
 def whole_schema(model: type[Message]) -> dict[str, Any]:
-    """The full JSON Schema of a message as it is written on the wire."""
+    """The full JSON Schema of a message as it is written on the wire; not to be changed.
+
+    Making those of all messages takes as long as a dozen ticks, so a recorder does it before the first, and once.
+    """
     return model.model_json_schema(by_alias=True, mode="serialization")
 
 
