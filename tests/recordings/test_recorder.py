@@ -6,9 +6,10 @@ from recordings.manifest import Ended
 from recordings.reader import open_recording
 from recordings.writer import RecordingWriter
 from schemas.bus.contract import Bus, Received, Stamp
+from schemas.control import RecorderDeed, RecorderRequest
 from schemas.game import Phase, Score
 from schemas.host import Health
-from schemas.topics import COMMAND, EVENT, HEALTH, INTAKE, ORDER, PROGRESS, SIGHT, WORLD
+from schemas.topics import COMMAND, CONTROL, EVENT, HEALTH, INTAKE, ORDER, PROGRESS, SIGHT, WORLD
 from schemas.world import World
 
 
@@ -385,6 +386,28 @@ def test_the_result_of_a_match_that_was_played_to_its_end(recorded):
 def test_the_recording_ends_when_the_host_leaves_early(stage):
     stage.play(range(10))
     assert stage.leave().result.ended is Ended.HOST_GONE
+
+
+def test_a_recorder_that_rests_looks_at_once_when_it_is_asked_something_and_when_the_match_is_over(stage):
+    """Otherwise five times a second: a look costs more than what it finds."""
+    clock, recorder, looks = stage.recorder_bus.clock, stage.recorder, []
+    pump = recorder.pump
+
+    def look() -> int:
+        looks.append(round(clock.now(), 3))
+        return pump()
+
+    def stop() -> bool:
+        now = round(clock.now(), 3)
+        if now == 0.3:
+            stage.host.bus.ask(CONTROL, RecorderRequest(deed=RecorderDeed.STATUS), name="recorder")
+        elif now == 0.65:
+            stage.host.referee(0, Phase.FULL_TIME, Score())
+        return now >= 0.8
+
+    recorder.pump = look
+    recorder.run(stop)
+    assert looks[:7] == [0.0, 0.2, 0.3, 0.5, 0.65, 0.7, 0.75]
 
 
 def test_the_recording_ends_when_it_is_told_to(stage):
