@@ -8,11 +8,13 @@ are the chunks of that match, one after the other as often as it takes, without 
 import contextlib
 import json
 import os
+import signal
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
+from itertools import pairwise
 from pathlib import Path
 
 from processes import HERE, field, launch
@@ -20,15 +22,21 @@ from processes import HERE, field, launch
 from arena.verification import verify
 from recordings.reader import open_recording
 from recordings.recovery import recover
+from schemas.bus.contract import Subscription
+from schemas.bus.endpoint import with_port
 from schemas.bus.zenoh_bus import open_client
 from schemas.clock import WallClock
+from schemas.match_config import MatchConfig
 from schemas.topics import HEALTH, WORLD
 
 MATCH_S = 20
-PAIRS = 9
-PAIR_S = 6
-"""Simulated s of the matches that are compared with and without recording; many short ones, because what else the
+STRETCHES = 9
+STRETCH_S = 4.0
+"""Wall time in which a match is recorded, and in which it is not, in turn; many short stretches, because what else the
 machine does changes from one to the next by more than recording costs."""
+SETTLE_S = 0.5
+"""Wall time in which a recorder's coming or going is forgotten."""
+WARM_TICKS = 200
 REALTIME_S = 10.0
 PATIENCE_S = 120.0
 """Wall time that a dozen processes may take to start on a busy machine."""
@@ -61,23 +69,62 @@ def recorder_share(folder: Path) -> float:
             recorder.wait()
 
 
-def play(folder: Path, duration: int, *words: str) -> float:
-    """Simulated seconds per wall second of a lockstep match, launch and farewell left out."""
-    command = [sys.executable, "-m", "arena", "match", "--duration", str(duration), "--seed", "7", "--json"]
-    command += ["--listen", "tcp/127.0.0.1:0", *words]
-    ended = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True)
-    return float(json.loads(ended.stdout)["real_time_factor"])
+def play(path: Path) -> None:
+    """Record a lockstep match."""
+    command = [sys.executable, "-m", "arena", "match", "--duration", str(MATCH_S), "--seed", "7"]
+    command += ["--listen", "tcp/127.0.0.1:0", "--record", str(path)]
+    subprocess.run(command, cwd=path.parent, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+
+
+def speed(healths: Subscription) -> float:
+    """Ticks per wall second that a host plays just now."""
+    marks = []
+    while not marks or marks[-1][0] - marks[0][0] < STRETCH_S:
+        while healths.receive() is not None:
+            pass
+        received = healths.receive(PATIENCE_S)
+        assert received is not None
+        marks.append((time.perf_counter(), received.message().tick))
+    (began, first), (ended, last) = marks[0], marks[-1]
+    return float((last - first) / (ended - began))
 
 
 def compare(folder: Path) -> list[float]:
-    """How fast a match is with recording, of as fast as without: pair by pair, the first of each pair in turn."""
-    words = {True: ("--record", str(folder / "pair.mcap")), False: ("--no-record",)}
-    ratios = []
-    for pair in range(PAIRS):
-        order = (True, False) if pair % 2 else (False, True)
-        factors = {recorded: play(folder, PAIR_S, *words[recorded]) for recorded in order}
-        ratios.append(factors[True] / factors[False])
-    return sorted(ratios)
+    """How fast a lockstep match is with recording, of as fast as without: recorders come to one match, and leave again.
+
+    Each stretch with one is compared with the two stretches without around it.
+    """
+    endpoint = with_port("tcp/127.0.0.1:0")
+    command = [sys.executable, "-m", "arena", "match", "--no-record", "--duration", "3600", "--listen", endpoint]
+    match = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        with open_client(MatchConfig().name, WallClock(), endpoint, PATIENCE_S) as bus:
+            healths, watch = bus.subscribe(HEALTH), bus.watch_alive()
+            while (received := healths.receive(PATIENCE_S)) is not None and received.message().tick < WARM_TICKS:
+                pass
+            without, with_recorder = [speed(healths)], []
+            for _ in range(STRETCHES):
+                recorder = launch(
+                    "recordings", "--connect", endpoint, "--match", bus.match, "--out", str(folder / "m.mcap")
+                )
+                try:
+                    while (came := watch.receive(PATIENCE_S)) is not None and (came.kind, came.alive) != (
+                        "recorder",
+                        True,
+                    ):
+                        pass
+                    time.sleep(SETTLE_S)
+                    with_recorder.append(speed(healths))
+                finally:
+                    recorder.terminate()
+                    recorder.wait()
+                time.sleep(SETTLE_S)
+                without.append(speed(healths))
+    finally:
+        match.send_signal(signal.SIGINT)
+        match.wait()
+    around = [(before + after) / 2 for before, after in pairwise(without)]
+    return sorted(ours / others for ours, others in zip(with_recorder, around, strict=True))
 
 
 def replay(path: Path) -> float:
@@ -118,11 +165,11 @@ def main() -> None:
         folder = Path(name)
         print(f"recorder: {recorder_share(folder):.1%} of a core in real time, five a side (below 6 %)")
         path = folder / "match.mcap"
-        play(folder, MATCH_S, "--record", str(path))
+        play(path)
         ratios = compare(folder)
         print(
             f"lockstep with recording: {statistics.median(ratios):.2f} x as fast as without (at least 0.95), median of "
-            f"{PAIRS} pairs from {ratios[0]:.2f} to {ratios[-1]:.2f}"
+            f"{STRETCHES} stretches from {ratios[0]:.2f} to {ratios[-1]:.2f}"
         )
         busy = time.process_time()
         verdict = verify(path)
