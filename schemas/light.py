@@ -20,6 +20,7 @@ from pydantic.fields import FieldInfo
 from schemas.message import VERSION, Message, Part
 
 M = TypeVar("M", bound=Message)
+P = TypeVar("P", bound=Part)
 
 _encode = msgspec.json.Encoder(enc_hook=vars).encode
 """Structs as JSON; parts that are models by their fields."""
@@ -61,12 +62,12 @@ def light_reader(model: type[M]) -> Callable[[bytes], M]:
     return read
 
 
-def light_form(model: type[M]) -> type[M]:
-    """What makes messages of one kind as structs, of parts that are models or were read as structs.
+def light_form(model: type[P]) -> type[P]:
+    """What makes messages or parts of one kind as structs, of parts that are models or structs themselves.
 
-    It looks at none of its values: it is for who makes a message of parts that were validated when they were made.
+    It looks at none of its values: it is for who has looked at them, or made them of such as were looked at.
     """
-    return cast(type[M], _struct(model))
+    return cast(type[P], _struct(model))
 
 
 class _Light(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, gc=False):

@@ -5,7 +5,8 @@ import math
 from robot_agent.bodies import Body, Limits
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.turn_to import turn_rate
-from schemas.command import Drive
+from schemas.command import MAX_DRIVE, MAX_TURN, Drive
+from schemas.light import light_form
 
 LAG = 0.12
 """s; how late the velocity follows, with margin against the noise of the position."""
@@ -13,6 +14,7 @@ TOLERANCE = 0.03
 """m; closer than this the robot only brakes."""
 _SHARE = 0.8
 """Part of the deceleration that braking counts on."""
+_LightDrive = light_form(Drive)
 
 
 def go_to(me: Body, x: float, y: float, heading: float, limits: Limits) -> Drive:
@@ -34,11 +36,18 @@ def velocity_to(me: Body, x: float, y: float, limits: Limits) -> tuple[float, fl
 def drive(me: Body, vx: float, vy: float, omega: float, limits: Limits) -> Drive:
     """A team-frame velocity as a demand in the body frame, for the heading at which it will act.
 
-    Keeps the direction and scales the length when (vx, vy) is faster than the robot.
+    Keeps the direction and scales the length when (vx, vy) is faster than the robot. The demand is a light `Drive`: it
+    can stand in a command as any other.
+
+    Raises:
+        ValidationError: a number that no drive may have, as of `Drive`.
     """
     speed = math.hypot(vx, vy)
     scale = limits.speed / speed if speed > limits.speed else 1.0
     heading = me.heading + me.omega * limits.tick
     c, s = math.cos(heading) * scale, math.sin(heading) * scale
     turn = max(-limits.turn_rate, min(limits.turn_rate, omega))
-    return Drive(vx=c * vx + s * vy, vy=c * vy - s * vx, omega=turn)
+    ahead, left = c * vx + s * vy, c * vy - s * vx
+    is_sound = abs(ahead) <= MAX_DRIVE and abs(left) <= MAX_DRIVE and abs(turn) <= MAX_TURN
+    form = _LightDrive if is_sound else Drive  # which raises, and says why
+    return form(vx=ahead, vy=left, omega=turn)

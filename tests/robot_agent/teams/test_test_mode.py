@@ -28,7 +28,7 @@ def test_whom_the_order_does_not_name_stands_still_and_acknowledges(squad, team,
         commands = made.act(ball=(4.0, 2.0), order=given)
         assert [commands[name].drive for name in ("cyan1", "cyan3")] == [Drive(), Drive()]
         assert all(command.acknowledges_order == 7 for command in commands.values())
-    assert commands["cyan2"].drive != Drive()
+    assert dict(commands["cyan2"].drive) != dict(Drive())
 
 
 @pytest.mark.parametrize("team", TEAMS)
@@ -73,7 +73,7 @@ def test_a_ball_that_is_not_seen_is_looked_for(squad, team):
     made = squad(team, STARTS)
     for _ in range(200):
         commands = made.act(ball=None, order=SHOOT)
-    assert commands["cyan2"].drive != Drive() and commands["cyan3"].drive == Drive()
+    assert dict(commands["cyan2"].drive) != dict(Drive()) and commands["cyan3"].drive == Drive()
 
 
 @pytest.mark.parametrize("team", TEAMS)
