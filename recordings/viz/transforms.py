@@ -34,8 +34,9 @@ class Transforms:
     """Writes the transforms of one match."""
 
     def __init__(self) -> None:
-        self._begins: dict[tuple[str, int], tuple[bytes, bytes]] = {}
-        """Frame and length of the stamp → what stands before the stamp of a transform, and behind it."""
+        self._robots: list[str] = []
+        self._begins: dict[int, list[tuple[bytes, bytes]]] = {}
+        """Length of the stamp → frame by frame, what stands before the stamp of a transform, and behind it."""
 
     def encode(self, world: Look, log_ns: int) -> bytes:
         """The transforms of a world."""
@@ -48,17 +49,24 @@ class Transforms:
         numbers += (ball.x, ball.y, ball.z, 0.0, 1.0)
         numbers += (ball.x, ball.y, 0.0, 0.0, 1.0)
         rounded = iter([(number * _PER_M + _TO_WHOLE - _TO_WHOLE) * STEP_M for number in numbers])
-        begins, length = self._begins, len(now)
         out: list[bytes] = []
-        places = zip(rounded, rounded, rounded, rounded, rounded, strict=True)
-        for frame, (x, y, z, sine, cosine) in zip([*map(base, robots), BALL, BALL_SHADOW], places, strict=True):
-            begin = begins.get((frame, length)) or self._begin(frame, length)
+        begins = self._begins_of(list(robots), len(now))
+        for (begin, names), x, y, z, sine, cosine in zip(begins, *[rounded] * 5, strict=True):
             turn = _PLACE_AND_TURN.pack(0x22, 27, 0x09, x, 0x11, y, 0x19, z, 0x2A, 18, 0x19, sine, 0x21, cosine)
-            out += (begin[0], now, begin[1], turn)
+            out += (begin, now, names, turn)
         return b"".join(out)
 
-    def _begin(self, frame: str, length: int) -> tuple[bytes, bytes]:
-        names = content(2, MAP) + content(3, frame)
-        whole = length + len(names) + _PLACE_AND_TURN.size
-        begin = self._begins[frame, length] = tag(1, BYTES) + varint(whole), names
-        return begin
+    def _begins_of(self, robots: list[str], length: int) -> list[tuple[bytes, bytes]]:
+        if robots != self._robots:
+            self._robots, self._begins = robots, {}
+        begins = self._begins.get(length)
+        if begins is None:
+            frames = [*map(base, robots), BALL, BALL_SHADOW]
+            begins = self._begins[length] = [_begin(frame, length) for frame in frames]
+        return begins
+
+
+def _begin(frame: str, length: int) -> tuple[bytes, bytes]:
+    names = content(2, MAP) + content(3, frame)
+    whole = length + len(names) + _PLACE_AND_TURN.size
+    return tag(1, BYTES) + varint(whole), names
