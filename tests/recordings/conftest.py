@@ -249,7 +249,9 @@ def record_match(
         between(simulation)
         outbox.follow(simulation.roster)
         playing = {name: brain for name, brain in table.brains.items() if name in tick.sights}
-        said = {name: brain.act(Sight.decode(tick.sights[name])) for name, brain in playing.items()}
+        said = {
+            name: Command.decode(brain.act(Sight.decode(tick.sights[name])).encode()) for name, brain in playing.items()
+        }
         for name, command in said.items():
             commands[name].put(command)
         tick = simulation.step(said)
