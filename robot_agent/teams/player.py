@@ -66,6 +66,8 @@ class Player(ABC):
         """Who keeps the goal: the first of them that is on the field."""
         self.keeper = self._first_keeper = keeper_of(self._keepers, ())
         """Who keeps it now, or nothing."""
+        self.is_keeper = self.keeper == briefing.robot
+        """Whether this robot does."""
         self._full_limits = self.limits
         self._world = WorldModel(briefing)
         self._asked = Asked.of(briefing.setup)
@@ -83,11 +85,6 @@ class Player(ABC):
         """How far this robot is with the coach's test."""
         self._last: Command | None = None
         self._game: GameView | None = None
-
-    @property
-    def is_keeper(self) -> bool:
-        """Whether this robot keeps the goal now."""
-        return self.keeper == self.briefing.robot
 
     def act(self, sight: Sight) -> Command:
         """The answer to one sight, a `LightCommand`."""
@@ -127,6 +124,7 @@ class Player(ABC):
         """A new decision."""
         scene = self._world.take_in(sight)
         self.keeper = keeper_of(self._keepers, _away(scene.game)) if scene.game.robots else self._first_keeper
+        self.is_keeper = self.keeper == self.briefing.robot
         self._penalty_kicked = self._penalty_kicked and scene.game.phase is TeamPhase.OUR_PENALTY
         order = sight.order
         self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits
@@ -138,12 +136,13 @@ class Player(ABC):
         if not scene.kicker_ready:
             action = action._replace(kick=None, pass_to=None)  # it would be refused: keep the ball, and aim
         self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - scene.dt)
+        speaks = (sight.tick + self.briefing.number) % SPEAKS_EVERY == 0
         return LightCommand(
             answers_tick=sight.tick,
             drive=action.drive,
             dribble=action.dribble and (action.kick is not None or self._lets_go == 0.0),
             kick=action.kick,
-            radio=self._word(scene, action),
+            radio=self._word(scene, action) if speaks or action.pass_to is not None else None,
             acknowledges_order=order.sequence if order else None,
         )
 
@@ -273,9 +272,8 @@ class Player(ABC):
         blocked = circles(scene.others, 2.0 * self.setup.robot.reach + _AIR)
         return go_around(scene.me, x, y, 0.0, blocked, self.limits.capped(_PARKING_SPEED))
 
-    def _word(self, scene: Scene, action: Action) -> Radio | None:
-        if (scene.tick + self.briefing.number) % SPEAKS_EVERY and action.pass_to is None:
-            return None
+    def _word(self, scene: Scene, action: Action) -> Radio:
+        """What the teammates are told."""
         me, ball = scene.me, scene.ball
         return Radio(
             self=Motion(x=me.x, y=me.y, heading=me.heading, vx=me.vx, vy=me.vy, omega=me.omega),

@@ -114,15 +114,12 @@ class NuBot(Player):
         promised = self._promised.receiver if self._promised is not None else None
         robots = [(self.briefing.robot, scene.me, self._role)]
         robots += [(name, mate.body, mate.role) for name, mate in scene.mates.items() if name != self.keeper]
-        _, nearest = min(
-            (
-                math.dist(spot, body[:2])
-                - (LOYALTY if role == PLAYS else 0.0)
-                - (PROMISED if name == promised else 0.0),
-                name,
-            )
-            for name, body, role in robots
-        )
+        nearest, least = "", math.inf
+        for name, body, role in robots:
+            away = math.dist(spot, body[:2]) - (LOYALTY if role == PLAYS else 0.0)
+            away -= PROMISED if name == promised else 0.0
+            if away < least or (away == least and name < nearest):
+                nearest, least = name, away
         return nearest
 
     def _run_machine(self, scene: Scene, ball: SeenBall) -> Action:

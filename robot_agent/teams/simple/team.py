@@ -43,7 +43,8 @@ class Simple(Player):
         self._promised: Promise | None = None
         self._receiver: str | None = None
         """Who is meant to get the ball that this robot holds or is about to play."""
-        self._clearance = 2.0 * self.setup.robot.reach + 0.05
+        self._gap, self._reach = self.setup.dribble.gap, self.setup.robot.reach
+        self._clearance = 2.0 * self._reach + 0.05
 
     def play(self, scene: Scene, order: CoachOrder | None) -> Action:
         """Find the role, then do what it asks for."""
@@ -86,16 +87,12 @@ class Simple(Player):
         if striker == me:
             return Role.STRIKER, self._before_own_goal(spot)
         del candidates[striker]
-        formation = places(spot, self.setup.pitch, self.setup.robot.reach)
+        formation = places(spot, self.setup.pitch, self._reach)
         role = share_places(candidates, formation).get(me, Role.DEFENDER)
         return role, dict(formation)[role]
 
     def _field_mates(self, scene: Scene) -> dict[str, Mate]:
         return {name: mate for name, mate in scene.mates.items() if name != self.keeper}
-
-    @property
-    def _gap(self) -> float:
-        return self.setup.dribble.gap
 
     def _strike(self, scene: Scene, ball: Ball) -> Action:
         """Get the ball, then play it."""
@@ -190,9 +187,9 @@ class Simple(Player):
         if in_play and self._is_mine(scene, ball):
             return Action(Role.KEEPER, CLEAR, self._get(scene, ball), dribble=True)
         if scene.game.phase is TeamPhase.DROP_BALL:
-            place = (-self.setup.pitch.goal_line + self.setup.robot.reach + 0.1, 0.0)
+            place = (-self.setup.pitch.goal_line + self._reach + 0.1, 0.0)
             return Action(Role.KEEPER, "guard", self._stand(scene, place, spot))
-        motion = keep_goal(scene.me, ball, self.setup.pitch, self.setup.robot.reach, self.limits)
+        motion = keep_goal(scene.me, ball, self.setup.pitch, self._reach, self.limits)
         return Action(Role.KEEPER, "guard", motion, dribble=in_play)
 
     def _is_mine(self, scene: Scene, ball: Ball) -> bool:
