@@ -28,9 +28,8 @@ def timed(body: Callable[[], None]) -> float:
     return time.perf_counter() - began
 
 
-def commands(simulation: Simulation) -> dict[str, Command]:
-    """What ten lively robots say: each drives its own way, and speaks every fifth tick."""
-    tick = simulation.now.tick
+def commands(simulation: Simulation, tick: int) -> dict[str, Command]:
+    """What ten lively robots answer to a tick: each drives its own way, and speaks every fifth tick."""
     word = Radio(self=Motion(x=1, y=2, heading=0.1), ball=BallBelief(x=1, y=2), role="striker", intention="shoot")
     return {
         name: Command.model_construct(
@@ -47,11 +46,11 @@ def main() -> None:
     """Print the median cost of both, and their ratio."""
     simulation = Simulation(load_match(None, {"duration": 86_400}))
     steps = simulation.profile.time.steps_per_tick
-    told = [commands(simulation)]
+    told: list[dict[str, Command]] = []
 
     def host() -> None:
-        for _ in range(TICKS):
-            tick = simulation.step(told[0])  # sights and inputs leave it encoded
+        for commanded in told:
+            tick = simulation.step(commanded)  # sights and inputs leave it encoded
             to_json(tick.world)
             for _, _, word in tick.beliefs:
                 to_json(word)
@@ -70,7 +69,8 @@ def main() -> None:
             raw.step()
 
     def ready() -> None:
-        told[0] = commands(simulation)
+        now = simulation.now.tick
+        told[:] = [commands(simulation, tick) for tick in range(now, now + TICKS)]
         raw.rebuild(simulation.world.snapshot().robots, simulation.world.snapshot().ball)
 
     rows = []

@@ -57,7 +57,7 @@ def main() -> None:
         write, advance = Timed(simulation._crew.sights.at), Timed(simulation.world.advance)
         simulation._crew.sights.at, simulation.world.advance = write, advance  # type: ignore[method-assign, assignment]
         for _ in range(TICKS):
-            simulation.step(commands(simulation))
+            simulation.step(commands(simulation, simulation.now.tick))
             sense(simulation.world.snapshot(), simulation.state.cyan_attacks)
             bare()
         del simulation._crew.sights.at, simulation.world.advance
