@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from schemas.sections import Dribble
 from sim_host.actuation.air import Vector
+from sim_host.actuation.drive import FieldDrive
 from sim_host.snapshot import BallState, RobotState
 
 PULL = 2.0
@@ -34,7 +35,7 @@ class Hold(NamedTuple):
     """A ball and the robot that holds it, before a step."""
 
     robot: RobotState
-    drive: tuple[float, float, float]
+    drive: FieldDrive
     """vx, vy in m/s and omega in rad/s of the robot in this step, field frame."""
     ball: BallState
     dribble: Dribble

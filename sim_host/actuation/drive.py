@@ -19,7 +19,7 @@ Flags = NDArray[np.bool_]
 Motions = TypeVar("Motions", bound=NDArray[Any])
 """m/s or rad/s, one of each robot."""
 
-FieldDrive = tuple[float, float, float]
+FieldDrive = Sequence[float]
 """vx, vy in m/s and omega in rad/s, field frame."""
 
 _TINY = 1e-12
@@ -51,8 +51,9 @@ class Ramp:
 
     @classmethod
     def of_both(cls, drives: Sequence[Drive], step: float, steps: int) -> Self:
-        """First the limits of all velocities, then those of all turn rates."""
-        top, gain, loss = (a + b for a, b in zip(_moving(drives), _turning(drives), strict=True))
+        """The limits of each drive's velocity, and then of its turn rate."""
+        pairs = zip(_moving(drives), _turning(drives), strict=True)
+        top, gain, loss = ([limit for both in zip(*pair, strict=True) for limit in both] for pair in pairs)
         return cls(top, gain, loss, step, steps)
 
     def within_limits(self, demand: Motions) -> Motions:

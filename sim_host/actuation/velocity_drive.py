@@ -1,6 +1,7 @@
 """The drive `velocity`: the velocity that the limits allow is the velocity of the robot."""
 
 from collections.abc import Sequence
+from itertools import chain
 
 import numpy as np
 
@@ -11,6 +12,8 @@ from sim_host.actuation.drive import FieldDrive, Flags, Floats, Ramp, Vectors
 from sim_host.actuation.stuck import MOVING, SHARE, TURNING
 from sim_host.snapshot import RobotState
 
+_NUMBERS = 4
+"""Of a robot's motion: vx, vy, omega, and the imaginary part of the turn rate, which is 0."""
 _AS_SET = 1e-3
 """m/s and rad/s; a robot that moves this exactly as it was set to was touched by nobody."""
 
@@ -18,14 +21,14 @@ _AS_SET = 1e-3
 class VelocityDrive:
     """Some robots of this drive, each with its own memory.
 
-    Their motions stand in one array: the velocities of all, x + iy, and then the turn rates of all.
+    Their motions stand in one array: of each robot its velocity, x + iy, and then its turn rate.
     """
 
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:
         drives = [model.drive for model in models]
         self._count = len(models)
         self._step = time.physics_step
-        self._top = np.array([drive.max_speed for drive in drives] + [drive.max_turn_rate for drive in drives])
+        self._top = np.array([top for drive in drives for top in (drive.max_speed, drive.max_turn_rate)])
         self._ramp = Ramp.of_both(drives, time.physics_step, time.steps_per_tick)
         self._set_in_body: Vectors = np.zeros(2 * self._count, dtype=complex)
         self._set_in_field: Vectors = np.zeros(2 * self._count, dtype=complex)
@@ -40,33 +43,40 @@ class VelocityDrive:
 
     def plan(self, robots: Sequence[RobotState], told: Sequence[Drive]) -> list[list[FieldDrive]]:
         """The drives of one tick: per physics step, per robot. What they are told is in their body frames."""
-        count = self._count
-        demand = np.array([complex(one.vx, one.vy) for one in told] + [one.omega for one in told], dtype=complex)
-        measured = np.array([complex(one.vx, one.vy) for one in robots] + [one.omega for one in robots], dtype=complex)
+        demand, measured = _motions(told), _motions(robots)
         heading = np.array([one.heading for one in robots])
-        after = self._ramp.toward(self._motions(measured, heading, demand), demand)
-        velocities, turn_rates = after[:, :count], after[:, count:].real
-        headings = heading + self._step * (np.add.accumulate(turn_rates, axis=0) - turn_rates)
-        in_field = velocities * np.exp(1j * headings)
-        self._set_in_body = after[-1]
-        self._set_in_field = np.concatenate((in_field[-1], turn_rates[-1]))
-        rows = zip(in_field.real.tolist(), in_field.imag.tolist(), turn_rates.tolist(), strict=True)
-        return [list(zip(vx, vy, omega, strict=True)) for vx, vy, omega in rows]
+        after = self._ramp.toward(self._now(measured, heading, demand), demand)
+        turn_rates = after[:, 1::2].real
+        headings = np.add.accumulate(turn_rates, axis=0)
+        headings -= turn_rates
+        headings *= self._step
+        headings += heading
+        in_field = after.copy()
+        in_field[:, ::2] *= np.exp(1j * headings)
+        self._set_in_body, self._set_in_field = after[-1], in_field[-1]
+        numbers = in_field.view(float).reshape(len(after), self._count, _NUMBERS)
+        planned: list[list[FieldDrive]] = numbers[..., :3].tolist()
+        return planned
 
-    def _motions(self, measured: Vectors, heading: Floats, demand: Vectors) -> Vectors:
+    def _now(self, measured: Vectors, heading: Floats, demand: Vectors) -> Vectors:
         """Motions as they were set, or as measured where something stood in the way; notes who is held.
 
         A set velocity stays what it is in the turning body frame, as with wheels that keep their speeds.
         """
-        count = self._count
         disturbed = np.abs(measured - self._set_in_field) > _AS_SET
         if True not in disturbed.tolist():
             self.held = self._undisturbed
             return self._set_in_body
-        in_body = np.concatenate((measured[:count] * np.exp(-1j * heading), measured[count:]))
-        motions: Vectors = np.where(disturbed, in_body, self._set_in_body)
+        measured[::2] *= np.exp(-1j * heading)
+        motions: Vectors = np.where(disturbed, measured, self._set_in_body)
         wanted = np.minimum(np.abs(demand), self._top)
         slow = disturbed & (np.abs(motions) < SHARE * wanted)
-        moves, turns = wanted[:count] > MOVING, wanted[count:] > TURNING
-        self.held = np.where(moves, slow[:count], turns & slow[count:])
+        moves, turns = wanted[::2] > MOVING, wanted[1::2] > TURNING
+        self.held = np.where(moves, slow[::2], turns & slow[1::2])
         return motions
+
+
+def _motions(twists: Sequence[RobotState] | Sequence[Drive]) -> Vectors:
+    """Their velocities and turn rates."""
+    rows = [(one.vx, one.vy, one.omega, 0.0) for one in twists]
+    return np.fromiter(chain.from_iterable(rows), float, _NUMBERS * len(rows)).view(complex)

@@ -16,6 +16,7 @@ from schemas.frames import wrap
 from schemas.host import Placement
 from schemas.profile import Profile
 from sim_host.actuation.bounce import NO_BOUNCE
+from sim_host.actuation.drive import FieldDrive
 from sim_host.snapshot import BallState, ObstacleState, RobotState, Roster
 from sim_host.world.bodies import NO_TURN, BodyMaker, Quaternion, Vector, upright
 from sim_host.world.gravity import GRAVITY
@@ -53,6 +54,8 @@ class Engine:
         self.client = pybullet.connect(pybullet.DIRECT)
         self._make = BodyMaker(self.client, profile)
         self._lift = GRAVITY * profile.time.physics_step
+        self._ball_now: BodyState | None = None
+        """The ball, as far as it was read since something moved it."""
         self._obstacles: dict[str, tuple[ObstacleState, int]] = {}
         """Name → the obstacle and its body, in the order in which they were put down."""
         self._build()
@@ -125,6 +128,7 @@ class Engine:
 
     def put(self, body: int, state: BodyState) -> None:
         """Set a body's state; what was read of it stays as it is."""
+        self._ball_now = None
         pybullet.resetBasePositionAndOrientation(body, state.position, state.orientation, physicsClientId=self.client)
         pybullet.resetBaseVelocity(body, state.velocity, state.spin, physicsClientId=self.client)
 
@@ -145,6 +149,7 @@ class Engine:
     def read(self) -> None:
         """Take in the state of all bodies; a robot that was lifted or tipped is put upright first."""
         self._states = [self.state(body) for body in (*self.robots, self.ball)]
+        self._ball_now = self._states[-1]
         self.robot_contacts = self._robot_contacts()
         for place, (body, height) in enumerate(zip(self.robots, self._heights, strict=True)):
             position, (qx, qy, qz, qw), velocity, spin = self._states[place]
@@ -191,9 +196,11 @@ class Engine:
 
     def ball_now(self) -> BodyState:
         """The ball between two steps."""
-        return self.state(self.ball)
+        if self._ball_now is None:
+            self._ball_now = self.state(self.ball)
+        return self._ball_now
 
-    def drive(self, velocities: Sequence[tuple[float, float, float]]) -> None:
+    def drive(self, velocities: Sequence[FieldDrive]) -> None:
         """Set every robot's velocity in the field frame, (vx, vy, omega), for the next step."""
         lift, client, reset = self._lift, self.client, pybullet.resetBaseVelocity
         for body, (vx, vy, omega) in zip(self.robots, velocities, strict=True):
@@ -219,6 +226,7 @@ class Engine:
 
     def move_ball(self, velocity: Vector, spin: Vector) -> None:
         """Set the ball's velocity and spin."""
+        self._ball_now = None
         pybullet.resetBaseVelocity(self.ball, velocity, spin, physicsClientId=self.client)
 
     def set_ball(self, position: Vector, velocity: Vector, spin: Vector) -> None:
@@ -242,6 +250,7 @@ class Engine:
 
     def step(self) -> None:
         """One physics step."""
+        self._ball_now = None
         pybullet.stepSimulation(physicsClientId=self.client)
 
     def ball_contacts(self, holder: int | None) -> "BallContacts":

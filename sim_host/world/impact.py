@@ -12,6 +12,8 @@ DEEP = 0.01
 """m that a body may sink into another in one step: what the engine's contacts take away again in a few."""
 
 Pairs = list[tuple[int, int]]
+Moving = tuple[float, float, float, float, float, float, int]
+"""x, y, vx, vy of a robot; what the tick may add to its speed, m/s; how far it may get, m; its place in the roster."""
 
 
 class Impacts:
@@ -38,33 +40,36 @@ class Impacts:
 
         Fixed bodies are counted through: the boxes of the pitch, then the obstacles.
         """
-        gains, strikes = self._gains, self._strikes
-        extra = [gains[i] + abs(robot.omega) * strikes[i] for i, robot in enumerate(robots)]
-        speeds = [math.hypot(robot.vx, robot.vy) + extra[i] for i, robot in enumerate(robots)]
-        ways = [self._reaches[i] + speed * self._tick for i, speed in enumerate(speeds)]
-        quick = [i for i, speed in enumerate(speeds) if speed > self._fast]
-        return self._robots(robots, extra, ways), [pair for i in quick for pair in self._fixed(i, robots[i], ways[i])]
+        fast, tick = self._fast, self._tick
+        moving, fixed = [], []
+        for place, (x, y, _, _, vx, vy, omega, _) in enumerate(robots):
+            extra = self._gains[place] + abs(omega) * self._strikes[place]
+            speed = math.hypot(vx, vy) + extra
+            way = self._reaches[place] + speed * tick
+            moving.append((x, y, vx, vy, extra, way, place))
+            if speed > fast:
+                fixed += self._fixed(place, x, y, way)
+        return self._robots(moving), fixed
 
-    def _robots(self, robots: Sequence[RobotState], extra: list[float], ways: list[float]) -> Pairs:
-        order = sorted(range(len(robots)), key=[robot.x for robot in robots].__getitem__)
-        widest, pairs = max(ways), []
-        for number, one in enumerate(order, 1):
-            a, way = robots[one], ways[one]
-            for other in order[number:]:
-                b = robots[other]
-                dx, dy = b.x - a.x, b.y - a.y
+    def _robots(self, moving: list[Moving]) -> Pairs:
+        widest, pairs = max([way for *_, way, _ in moving]), []
+        moving.sort()
+        for number, (x, y, vx, vy, extra, way, one) in enumerate(moving, 1):
+            for other_x, other_y, other_vx, other_vy, others, other_way, other in moving[number:]:
+                dx = other_x - x
                 if dx > way + widest:
                     break
+                dy = other_y - y
                 apart = math.hypot(dx, dy)
-                if apart > way + ways[other]:
+                if apart > way + other_way:
                     continue
-                approach = ((a.vx - b.vx) * dx + (a.vy - b.vy) * dy) / max(apart, 1e-9)
-                if approach + extra[one] + extra[other] > self._fast:
+                approach = ((vx - other_vx) * dx + (vy - other_vy) * dy) / max(apart, 1e-9)
+                if approach + extra + others > self._fast:
                     pairs.append((min(one, other), max(one, other)))
         return sorted(pairs)
 
-    def _fixed(self, place: int, robot: RobotState, way: float) -> Pairs:
-        x, y, found = robot.x, robot.y, []
+    def _fixed(self, place: int, x: float, y: float, way: float) -> Pairs:
+        found = []
         if abs(x) + way > self._free_x or abs(y) + way > self._free_y:
             for number, (at_x, at_y, half_x, half_y) in enumerate(self._boxes):
                 if math.hypot(max(abs(x - at_x) - half_x, 0.0), max(abs(y - at_y) - half_y, 0.0)) < way:
