@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from schemas.command import Radio
 from schemas.sections import Radio as Air
@@ -34,15 +33,15 @@ class _Word:
     """The speaker's name and its word as JSON, left open for the age: written once, heard by all in every tick."""
 
 
-class _Written(dict[_Word, bytes]):
-    """What listeners have of each word in one tick: most hear the same, so it is written once."""
+class _Ages(dict[int, bytes]):
+    """Tick → how long ago that is in one tick, as the end of a word: many words are of the same age."""
 
     def __init__(self, tick: int, tick_s: float) -> None:
         self._tick = tick
         self._tick_s = tick_s
 
-    def __missing__(self, word: _Word) -> bytes:
-        self[word] = text = b'%s"age":%.4f}' % (word.opened, (self._tick - word.said) * self._tick_s)
+    def __missing__(self, said: int) -> bytes:
+        self[said] = text = b'"age":%.4f}' % ((self._tick - said) * self._tick_s)
         return text
 
 
@@ -118,12 +117,12 @@ class RadioAir:
         """On its way to everyone who will hear it."""
         side = self._roster.sides[speaker]
         members = self._members[side]
-        delays: list[int] = self._delays[side].at(word.said)[members.index(speaker)].tolist()
+        delays = self._delays[side].at(word.said)[members.index(speaker)]
         for mate, delay in zip(members, delays, strict=True):
             if mate != speaker and delay != _LOST:
                 self._under_way.setdefault(word.said + delay, []).append((speaker, mate, word))
 
-    def _new_delays(self) -> dict[Side, Block[NDArray[np.int64]]]:
+    def _new_delays(self) -> dict[Side, Block[list[list[int]]]]:
         """Per side and tick: for how many ticks a word of each member is under way to each member."""
         names = self._roster.names
         return {
@@ -131,11 +130,12 @@ class RadioAir:
             for side, members in self._members.items()
         }
 
-    def _draw(self, names: Sequence[str], ticks: range) -> list[NDArray[np.int64]]:
+    def _draw(self, names: Sequence[str], ticks: range) -> list[list[list[int]]]:
         air = self._air
         lost, late, *_ = np.moveaxis(self._streams.between(What.AIR, names, names, ticks), -1, 0)
-        delays = np.ceil((air.delay + late * air.jitter) / self._tick_s - _SAME).astype(np.int64)
-        return list(np.where(lost < air.loss, _LOST, delays))
+        whole = np.ceil((air.delay + late * air.jitter) / self._tick_s - _SAME).astype(np.int64)
+        delays: list[list[list[int]]] = np.where(lost < air.loss, _LOST, whole).tolist()
+        return delays
 
     def listen(self, tick: int) -> list[bytes]:
         """What everybody has heard by this tick, as JSON: teammate → `schemas.sight.Heard`, the newest of each."""
@@ -144,8 +144,10 @@ class RadioAir:
                 before = self._heard[mate].get(speaker)
                 if before is None or word.said > before.said:
                     self._heard[mate][speaker] = word
-        written = _Written(tick, self._tick_s)
-        return [b"{%s}" % b",".join([written[word] for word in heard.values()]) for heard in self._heard]
+        ages = _Ages(tick, self._tick_s)
+        return [
+            b"{%b}" % b",".join([word.opened + ages[word.said] for word in heard.values()]) for heard in self._heard
+        ]
 
     def _forget(self, team: _TeamAir, tick: int) -> None:
         oldest = tick - _WINDOW_S / self._tick_s

@@ -18,6 +18,7 @@ class Kickers:
         self._kickers = kickers
         self._tick = tick
         self._kicked_at: list[int | None] = [None] * len(kickers)
+        self._all_ready = (True,) * len(kickers)
 
     def charge(self) -> None:
         """Every kicker is charged."""
@@ -41,4 +42,6 @@ class Kickers:
 
     def ready(self, tick: int) -> tuple[bool, ...]:
         """Per robot: its kicker can kick in this tick."""
+        if self._kicked_at.count(None) == len(self._kicked_at):
+            return self._all_ready
         return tuple([at is None or self.why_not(place, tick) is None for place, at in enumerate(self._kicked_at)])

@@ -130,13 +130,15 @@ class Camera:
     ) -> list[list[float]]:
         """The ball of each robot that sees it at this place: with its height and velocity, and their noise."""
         s = self._sensing
-        sigma = np.sqrt(s.ball_velocity**2 + (s.ball_velocity_growth * distance) ** 2)
+        sigma = s.ball_velocity_growth * distance
+        sigma *= sigma
+        sigma += s.ball_velocity**2
+        np.sqrt(sigma, out=sigma)
         velocity = turn * complex(ball.vx, ball.vy)
         seen = np.empty((5, len(place)))
         seen[0], seen[1] = place.real, place.imag
-        seen[2] = luck[0] * s.ball_position
-        seen[2] += ball.z
-        seen[3:] = luck[1:] * sigma
+        np.add(luck[0], ball.z, out=seen[2])
+        np.multiply(luck[1:], sigma, out=seen[3:])
         seen[3] += velocity.real
         seen[4] += velocity.imag
         numbers: list[list[float]] = seen.T.tolist()
@@ -162,8 +164,10 @@ class Camera:
         return list(zip(np.ascontiguousarray(np.moveaxis(noise, -1, 1)), is_noticed, strict=True))
 
     def _draw_ball(self, numbers: range) -> list[Floats]:
-        """Per picture: noise of the ball's height, vx and vy, noisy when its place is; (3, robots)."""
+        """Per picture: noise of the ball's height, in m, and of vx and vy, as drawn; noisy when its place is; (3, robots)."""
         ticks, s = self._ticks(numbers), self._streams
         robots = self._roster.names
         is_noisy = s.between(What.SEEN, robots, (BALL,), ticks)[:, :, 0, 3:] < self._sensing.noise_rate
-        return list(np.ascontiguousarray(np.moveaxis(s.normals(What.BALL, robots, ticks, 3) * is_noisy, 2, 1)))
+        noise = np.ascontiguousarray(np.moveaxis(s.normals(What.BALL, robots, ticks, 3) * is_noisy, 2, 1))
+        noise[:, 0] *= self._sensing.ball_position
+        return list(noise)

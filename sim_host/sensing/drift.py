@@ -8,7 +8,7 @@ same standard deviation at all times.
 import numpy as np
 
 from schemas.sections import Sensing
-from sim_host.sensing.streams import Floats, Streams, Vectors, What
+from sim_host.sensing.streams import Streams, Vectors, What
 from sim_host.sensing.team_frames import TeamFrames
 from sim_host.snapshot import Roster
 
@@ -24,7 +24,7 @@ class Drift:
         self._sigma = np.array([sensing.drift_position] * 2 + [sensing.drift_heading])
         self._ticks = sensing.drift_time / tick
 
-    def frames(self, ticks: range, sign: Floats) -> list[TeamFrames]:
+    def frames(self, ticks: range, sign: Vectors) -> list[TeamFrames]:
         """Where each robot believes its team frame to lie at each of these ticks; `sign` is that of the frames."""
         drift = self._drift(ticks)
         shift, turn = drift[:, 0], sign * drift[:, 1]

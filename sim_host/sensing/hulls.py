@@ -1,5 +1,6 @@
 """What stands on the pitch as cameras see it from above: robots and obstacles, round and square, and what they hide."""
 
+from bisect import bisect_left
 from collections.abc import Sequence
 
 import numpy as np
@@ -49,6 +50,16 @@ class Hulls:
         is_tall = np.concatenate((self._height[:, None] > 0.0, self._height[:, None] >= self._height), axis=1)
         is_tall[bodies, bodies + 1] = False
         self._may_hide = is_tall[:, None, :] & self._is_others[:, :, None]
+        self._steps: list[float] = sorted(self._height.tolist())
+        self._lower: int | None = None
+        """How many hulls are lower than the ball, which hides behind none of these; nothing before the first look."""
+
+    def _mind_ball(self, height: float) -> None:
+        """Take in which hulls are high enough to hide a ball at this height: most of the time those of before."""
+        lower = bisect_left(self._steps, height)
+        if lower != self._lower:
+            self._lower = lower
+            self._may_hide[:, :, 0] = (self._height >= height)[:, None] & self._is_others
 
     def places(self, robots: Vectors) -> Vectors:
         """Where all bodies are, m, the robots being there."""
@@ -60,7 +71,7 @@ class Hulls:
         `places` of the things as seen from each robot, m, shape (robots, things), and their `distance`. A thing is
         hidden when the line to its middle passes through a hull that does not stand farther away.
         """
-        self._may_hide[:, :, 0] = (self._height >= ball_height)[:, None] & self._is_others
+        self._mind_ball(ball_height)
         hides = through_circles(places, distance, places[:, 1:], self._radius)
         hides &= self._may_hide
         found: Flags = np.logical_or.reduce(hides, axis=0)

@@ -23,15 +23,14 @@ class OwnMotion:
 
     def at(self, tick: int, robots: Motions, frames: TeamFrames) -> Floats:
         """x, y, heading, vx, vy, omega of each robot in its team frame, shape (6, robots)."""
-        place = frames.sign * robots.place + frames.shift
+        place = frames.sign * robots.place
+        place += frames.shift
         velocity = frames.turn * robots.velocity
-        seen = self._noise.at(tick).copy()
-        seen[0] += place.real
-        seen[1] += place.imag
-        seen[2] = _wrapped(seen[2] + robots.heading + frames.angle)
-        seen[3] += velocity.real
-        seen[4] += velocity.imag
-        seen[5] += robots.omega
+        seen = np.empty((_PARTS, len(place)))
+        seen[0], seen[1], seen[2] = place.real, place.imag, robots.heading
+        seen[3], seen[4], seen[5] = velocity.real, velocity.imag, robots.omega
+        seen += self._noise.at(tick)
+        _turn(seen[2], frames.angle)
         return seen
 
     def _draw(self, ticks: range) -> list[Floats]:
@@ -42,6 +41,9 @@ class OwnMotion:
         return list(np.ascontiguousarray(np.moveaxis(noise, 2, 1)))
 
 
-def _wrapped(angle: Floats) -> Floats:
-    """The same directions in (−π, π]."""
-    return np.pi - np.mod(np.pi - angle, 2.0 * np.pi)
+def _turn(directions: Floats, angle: Floats) -> None:
+    """Turn directions by an angle, in place; they lie in (−π, π] then."""
+    directions += angle
+    np.subtract(np.pi, directions, out=directions)
+    directions %= 2.0 * np.pi
+    np.subtract(np.pi, directions, out=directions)

@@ -67,9 +67,9 @@ class Perception:
         roster, streams = self._roster, self._streams
         self._shutter = Shutter.of(sensing, self._tick_s)
         drift = Drift(sensing, roster, streams, self._tick_s)
+        signs = {attacks: [complex(side.attack(attacks)) for side in roster.sides] for attacks in (1, -1)}
         self._frames = {
-            attacks: Block(partial(drift.frames, sign=np.array([float(side.attack(attacks)) for side in roster.sides])))
-            for attacks in (1, -1)
+            attacks: Block(partial(drift.frames, sign=np.array(signs_then))) for attacks, signs_then in signs.items()
         }
         """Sign of the x direction that cyan attacks → the team frames as the robots believe them to lie."""
         self._own = OwnMotion(sensing, roster, streams)

@@ -1,12 +1,15 @@
 """Robots as the sensors work with them, all at once: how they move, and where each believes its team frame to lie."""
 
 from collections.abc import Sequence
+from itertools import chain
 from typing import NamedTuple, Self
 
 import numpy as np
 
 from sim_host.sensing.streams import Floats, Vectors
 from sim_host.snapshot import RobotState
+
+_NUMBERS = len(RobotState._fields)
 
 
 class Motions(NamedTuple):
@@ -24,12 +27,9 @@ class Motions(NamedTuple):
     @classmethod
     def of(cls, robots: Sequence[RobotState]) -> Self:
         """Those of these robots."""
-        return cls(
-            place=np.array([complex(robot.x, robot.y) for robot in robots], dtype=complex),
-            heading=np.array([robot.heading for robot in robots]),
-            velocity=np.array([complex(robot.vx, robot.vy) for robot in robots], dtype=complex),
-            omega=np.array([robot.omega for robot in robots]),
-        )
+        numbers = np.fromiter(chain.from_iterable(robots), float, _NUMBERS * len(robots))
+        place, height_heading, velocity, omega_holding = numbers.view(complex).reshape(-1, _NUMBERS // 2).T
+        return cls(place, height_heading.imag, velocity, omega_holding.real)
 
 
 class TeamFrames(NamedTuple):
@@ -38,8 +38,8 @@ class TeamFrames(NamedTuple):
     Things near a robot lie about its own place as they do in truth, turned by `turn` with everything else.
     """
 
-    sign: Floats
-    """1, or −1 for who attacks −x."""
+    sign: Vectors
+    """1, or −1 for who attacks −x; complex as what it is multiplied with."""
     shift: Vectors
     """m."""
     turn: Vectors
