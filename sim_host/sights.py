@@ -15,7 +15,7 @@ from schemas.message import VERSION
 from schemas.side import Side
 from sim_host.radio import RadioAir
 from sim_host.referee.state import RefereeState
-from sim_host.referee.view import game_view
+from sim_host.referee.view import game_views
 from sim_host.sensing.camera import PER_OBSTACLE
 from sim_host.sensing.perception import Percept, Perception
 from sim_host.snapshot import Roster, Snapshot
@@ -33,7 +33,6 @@ def _numbers(*names: str) -> str:
 
 
 _BALL = f'{{{_numbers("x", "y", "z", "vx", "vy")},"age":%.4f,"visible":%b}}'.encode()
-_SIDES = tuple(Side)
 _NOW = b'"tick":%d,"time":%b'
 _TOLD = b'"game":%b,"order":%b'
 """What all robots of a side are told alike."""
@@ -90,9 +89,8 @@ class Sights:
         """Robot → its `schemas.sight.Sight` as JSON; each is sent as soon as it is written."""
         percepts = self._perception.at(snapshot, state.cyan_attacks)
         heard = self._radio.listen(snapshot.tick)
-        told = {
-            side: _TOLD % (game_view(state, side, self._roster, episode), _order(orders.get(side))) for side in _SIDES
-        }
+        views = game_views(state, self._roster, episode)
+        told = {side: _TOLD % (view, _order(orders.get(side))) for side, view in views.items()}
         now = _NOW % (snapshot.tick, repr(snapshot.time).encode())
         sights = {}
         for place, (name, side) in enumerate(zip(self._roster.names, self._roster.sides, strict=True)):

@@ -1,4 +1,4 @@
-"""The game as one team sees it, written as JSON: both teams are told in every tick."""
+"""The game as each team sees it, written as JSON: both teams are told in every tick."""
 
 from pydantic_core import to_json
 
@@ -17,29 +17,33 @@ TEAM_PHASES: dict[tuple[Phase, Side | None, Side], bytes] = {
 """Phase, taker and viewer → the phase's name from the viewer's point of view."""
 
 _JSON = {True: b"true", False: b"false"}
-_FORM = (
-    b'{"phase":"%b","running":%b,"half":%d,"clock":%b,"our_score":%d,"their_score":%d,"stage":"%b","left":%b,'
-    b'"robots":%b,"spot":%b,"episode":%d}'
-)
+_FORM = b'{"phase":"%b",%b,"our_score":%d,"their_score":%d,%b,"robots":%b,"spot":%b,"episode":%d}'
+_TIME = b'"running":%b,"half":%d,"clock":%b'
+_WAIT = b'"stage":"%b","left":%b'
 
 
-def game_view(state: RefereeState, side: Side, roster: Roster, episode: int = 1) -> bytes:
-    """A `schemas.game.GameView`; `spot` in m, in the side's team frame."""
+def game_views(state: RefereeState, roster: Roster, episode: int = 1) -> dict[Side, bytes]:
+    """Side → its `schemas.game.GameView`; `spot` in m, in the side's team frame."""
     score, left, people = state.score, state.timing.left, state.people
-    ours, theirs = (score.cyan, score.magenta) if side is Side.CYAN else (score.magenta, score.cyan)
-    return _FORM % (
-        TEAM_PHASES[state.phase, state.side, side],
-        _JSON[state.running],
-        state.half,
-        repr(state.timing.clock).encode(),
-        ours,
-        theirs,
-        state.stage.encode(),
-        b"null" if left is None else repr(left).encode(),
-        _robots(state, side, roster) if people.records or people.away else b"{}",
-        b"null" if state.spot is None else _spot(state.spot, state.attack(side)),
-        episode,
-    )
+    time = _TIME % (_JSON[state.running], state.half, repr(state.timing.clock).encode())
+    wait = _WAIT % (state.stage.encode(), b"null" if left is None else repr(left).encode())
+    return {
+        side: _FORM
+        % (
+            TEAM_PHASES[state.phase, state.side, side],
+            time,
+            ours,
+            theirs,
+            wait,
+            _robots(state, side, roster) if people.records or people.away else b"{}",
+            b"null" if state.spot is None else _spot(state.spot, state.attack(side)),
+            episode,
+        )
+        for side, ours, theirs in (
+            (Side.CYAN, score.cyan, score.magenta),
+            (Side.MAGENTA, score.magenta, score.cyan),
+        )
+    }
 
 
 def _spot(spot: Spot, attack: int) -> bytes:

@@ -95,8 +95,7 @@ class Camera:
             self._lay_out(snapshot.obstacles)
         number, ball = self._shutter.number(snapshot.tick), snapshot.ball
         luck, is_noticed = self._luck.at(number)
-        things = np.concatenate(([complex(ball.x, ball.y)], self._hulls.places(robots.place)))
-        places = things - robots.place[:, None]
+        places = self._hulls.places(complex(ball.x, ball.y), robots.place) - robots.place[:, None]
         distance = np.abs(places)
         found: Flags = distance <= self._range
         found &= is_noticed
@@ -164,7 +163,7 @@ class Camera:
         return list(zip(np.ascontiguousarray(np.moveaxis(noise, -1, 1)), is_noticed, strict=True))
 
     def _draw_ball(self, numbers: range) -> list[Floats]:
-        """Per picture: noise of the ball's height, in m, and of vx and vy, as drawn; noisy when its place is; (3, robots)."""
+        """Per picture: noise of the ball's height in m, of vx and vy as drawn, noisy when its place is; (3, robots)."""
         ticks, s = self._ticks(numbers), self._streams
         robots = self._roster.names
         is_noisy = s.between(What.SEEN, robots, (BALL,), ticks)[:, :, 0, 3:] < self._sensing.noise_rate

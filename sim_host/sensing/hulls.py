@@ -61,9 +61,11 @@ class Hulls:
             self._lower = lower
             self._may_hide[:, :, 0] = (self._height >= height)[:, None] & self._is_others
 
-    def places(self, robots: Vectors) -> Vectors:
-        """Where all bodies are, m, the robots being there."""
-        return np.concatenate((robots, self._places))
+    def places(self, ball: complex, robots: Vectors) -> Vectors:
+        """Where all things are, m, ball and robots being there."""
+        places = np.empty(1 + len(robots) + len(self._places), dtype=complex)
+        places[0], places[1 : 1 + len(robots)], places[1 + len(robots) :] = ball, robots, self._places
+        return places
 
     def hidden(self, places: Vectors, distance: Floats, headings: Floats, ball_height: float) -> Flags:
         """Whether a hull stands before a thing and is as high, shape (robots, things).

@@ -4,7 +4,7 @@ import pytest
 
 from schemas.game import GameView, Point, TeamPhase
 from schemas.side import Side
-from sim_host.referee.view import game_view
+from sim_host.referee.view import game_views
 
 
 @pytest.mark.parametrize("halves_over", [0, 1])
@@ -18,7 +18,7 @@ def test_both_teams_see_a_corner_at_the_end_its_taker_attacks(bench, halves_over
     bench.ask("corner", Side.CYAN)
     bench.until(lambda state: state.spot is not None)
     inset = bench.book.restarts.corner_inset
-    ours, theirs = (GameView.model_validate_json(game_view(bench.state, side, bench.roster)) for side in Side)
+    ours, theirs = [GameView.model_validate_json(view) for view in game_views(bench.state, bench.roster).values()]
     assert (ours.phase, theirs.phase) == (TeamPhase.OUR_CORNER, TeamPhase.THEIR_CORNER)
     assert (ours.our_score, ours.their_score) == (theirs.their_score, theirs.our_score) == (0, 1)
     assert ours.spot.x == pytest.approx(bench.pitch.goal_line - inset)
@@ -28,6 +28,6 @@ def test_both_teams_see_a_corner_at_the_end_its_taker_attacks(bench, halves_over
 
 def test_in_play_both_see_the_same_and_no_spot(bench):
     bench.playing()
-    cyan, magenta = (game_view(bench.state, side, bench.roster) for side in Side)
+    cyan, magenta = game_views(bench.state, bench.roster).values()
     seen = GameView.model_validate_json(cyan)
     assert cyan == magenta and seen.phase is TeamPhase.PLAY and seen.running and seen.spot is None
