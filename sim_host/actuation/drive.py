@@ -3,6 +3,9 @@
 One control tick is planned at once: within it the demand does not change. The limits hold in the body frame, where the
 wheels are, and a limit that bites keeps the direction of what it limits. Planar vectors are complex numbers, x + iy:
 turning is multiplying. A turn rate is a vector of one dimension, and obeys the same rules.
+
+Small arrays cost what numpy does around them: one type in each operation, and constants that are arrays already, spare
+it the buffers and conversions that take longer than ten multiplications.
 """
 
 from collections.abc import Sequence
@@ -22,7 +25,9 @@ Motions = TypeVar("Motions", bound=NDArray[Any])
 FieldDrive = Sequence[float]
 """vx, vy in m/s and omega in rad/s, field frame."""
 
-_TINY = 1e-12
+_ONE = np.array(1.0)
+_NOTHING = np.array(0.0)
+_TINY = np.array(1e-12)
 """m/s; keeps directions of nothing finite."""
 
 
@@ -58,7 +63,8 @@ class Ramp:
 
     def within_limits(self, demand: Motions) -> Motions:
         """Demanded motions, shortened to top speed."""
-        shortened: Motions = demand * np.minimum(1.0, self._top / (np.abs(demand) + _TINY))
+        share = np.minimum(_ONE, self._top / (np.abs(demand) + _TINY))
+        shortened: Motions = demand * share.astype(demand.dtype)
         return shortened
 
     def toward(self, now: Motions, demand: Motions) -> Motions:
@@ -69,10 +75,10 @@ class Ramp:
         """
         change = self.within_limits(demand) - now
         size = np.abs(change)
-        direction = change / (size + _TINY)
-        against = np.minimum((now * direction.conj()).real, 0.0)
+        direction = change / (size + _TINY).astype(change.dtype)
+        against = np.minimum((now * direction.conj()).real, _NOTHING)
         done = np.minimum(self._loss, self._gain + self._spent * against)
-        after: Motions = now + np.minimum(done, size) * direction
+        after: Motions = now + np.minimum(done, size).astype(change.dtype) * direction
         return after
 
 

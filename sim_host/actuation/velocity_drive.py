@@ -14,7 +14,7 @@ from sim_host.snapshot import RobotState
 
 _NUMBERS = 4
 """Of a robot's motion: vx, vy, omega, and the imaginary part of the turn rate, which is 0."""
-_AS_SET = 1e-3
+_AS_SET = np.array(1e-3)
 """m/s and rad/s; a robot that moves this exactly as it was set to was touched by nobody."""
 
 
@@ -27,7 +27,7 @@ class VelocityDrive:
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:
         drives = [model.drive for model in models]
         self._count = len(models)
-        self._step = time.physics_step
+        self._step = np.array(time.physics_step)
         self._top = np.array([top for drive in drives for top in (drive.max_speed, drive.max_turn_rate)])
         self._ramp = Ramp.of_both(drives, time.physics_step, time.steps_per_tick)
         self._set_in_body: Vectors = np.zeros(2 * self._count, dtype=complex)
@@ -52,7 +52,9 @@ class VelocityDrive:
         headings *= self._step
         headings += heading
         in_field = after.copy()
-        in_field[:, ::2] *= np.exp(1j * headings)
+        turned = np.zeros(headings.shape, dtype=complex)
+        turned.imag = headings
+        in_field[:, ::2] *= np.exp(turned, out=turned)
         self._set_in_body, self._set_in_field = after[-1], in_field[-1]
         numbers = in_field.view(float).reshape(len(after), self._count, _NUMBERS)
         planned: list[list[FieldDrive]] = numbers[..., :3].tolist()

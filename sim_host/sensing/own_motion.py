@@ -8,6 +8,8 @@ from sim_host.sensing.team_frames import Motions, TeamFrames
 from sim_host.snapshot import Roster
 
 _PARTS = 6
+_PI, _TAU = np.array(np.pi), np.array(2.0 * np.pi)
+"""Arrays, which numpy need not make of them first."""
 
 
 class OwnMotion:
@@ -44,6 +46,6 @@ class OwnMotion:
 def _turn(directions: Floats, angle: Floats) -> None:
     """Turn directions by an angle, in place; they lie in (−π, π] then."""
     directions += angle
-    np.subtract(np.pi, directions, out=directions)
-    directions %= 2.0 * np.pi
-    np.subtract(np.pi, directions, out=directions)
+    np.subtract(_PI, directions, out=directions)
+    directions %= _TAU
+    np.subtract(_PI, directions, out=directions)
