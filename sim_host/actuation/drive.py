@@ -35,9 +35,15 @@ class Ramp:
     """The limits of some motions, and how each goes toward its demand over the physics steps of one tick."""
 
     def __init__(
-        self, top: Sequence[float], gain: Sequence[float], loss: Sequence[float], step: float, steps: int
+        self,
+        kind: type[float] | type[complex],
+        limits: tuple[Sequence[float], Sequence[float], Sequence[float]],
+        step: float,
+        steps: int,
     ) -> None:
-        """Top speed, and how fast speed is gained and lost, of each motion; `step` in s."""
+        """Top speed, and how fast speed is gained and lost, of each motion, which are all of a kind; `step` in s."""
+        top, gain, loss = limits
+        self._kind = np.dtype(kind)
         elapsed = step * np.arange(1, steps + 1)[:, None]
         self._top = np.array(top)
         self._gain = np.array(gain) * elapsed
@@ -47,24 +53,24 @@ class Ramp:
     @classmethod
     def of_moving(cls, drives: Sequence[Drive], step: float, steps: int) -> Self:
         """The limits of the drives' velocities."""
-        return cls(*_moving(drives), step, steps)
+        return cls(complex, _moving(drives), step, steps)
 
     @classmethod
     def of_turning(cls, drives: Sequence[Drive], step: float, steps: int) -> Self:
         """The limits of the drives' turn rates."""
-        return cls(*_turning(drives), step, steps)
+        return cls(float, _turning(drives), step, steps)
 
     @classmethod
     def of_both(cls, drives: Sequence[Drive], step: float, steps: int) -> Self:
         """The limits of each drive's velocity, and then of its turn rate."""
         pairs = zip(_moving(drives), _turning(drives), strict=True)
         top, gain, loss = ([limit for both in zip(*pair, strict=True) for limit in both] for pair in pairs)
-        return cls(top, gain, loss, step, steps)
+        return cls(complex, (top, gain, loss), step, steps)
 
     def within_limits(self, demand: Motions) -> Motions:
         """Demanded motions, shortened to top speed."""
         share = np.minimum(_ONE, self._top / (np.abs(demand) + _TINY))
-        shortened: Motions = demand * share.astype(demand.dtype)
+        shortened: Motions = demand * share.astype(self._kind)
         return shortened
 
     def toward(self, now: Motions, demand: Motions) -> Motions:
@@ -75,10 +81,10 @@ class Ramp:
         """
         change = self.within_limits(demand) - now
         size = np.abs(change)
-        direction = change / (size + _TINY).astype(change.dtype)
+        direction = change / (size + _TINY).astype(self._kind)
         against = np.minimum((now * direction.conj()).real, _NOTHING)
         done = np.minimum(self._loss, self._gain + self._spent * against)
-        after: Motions = now + np.minimum(done, size).astype(change.dtype) * direction
+        after: Motions = now + np.minimum(done, size).astype(self._kind) * direction
         return after
 
 
