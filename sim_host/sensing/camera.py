@@ -15,8 +15,10 @@ from sim_host.snapshot import BallState, ObstacleState, Roster, Snapshot
 
 BALL = "ball"
 """No robot and no obstacle has this name."""
-_NO_DISTANCE = 1e-9
+_NO_DISTANCE = np.array(1e-9)
 """m; in what direction from itself a robot is, nobody asks."""
+_NOWHERE = np.array(np.inf)
+"""m; how far away what was not found is."""
 PER_OBSTACLE = 3
 """Numbers that a picture has of each obstacle."""
 
@@ -73,6 +75,8 @@ class Camera:
         self._roster = roster
         self._rows = np.arange(len(roster.names))[:, None]
         self._growth = np.array([sensing.range_noise, sensing.bearing_noise])[:, None, None] ** 2
+        self._ball_growth = np.array(sensing.ball_velocity_growth)
+        self._ball_velocity = np.array(sensing.ball_velocity**2)
         self._ball_luck = Block(self._draw_ball)
         self._lay_out(())
 
@@ -104,7 +108,7 @@ class Camera:
         blurred = places + places * self._blur(distance, luck)
         seen = frames.turn[:, None] * blurred
         seen += (frames.sign * robots.place + frames.shift)[:, None]
-        away = np.where(found, np.abs(blurred), np.inf)
+        away = np.where(found, np.abs(blurred), _NOWHERE)
         return Picture(
             tick=snapshot.tick,
             ball=self._ball(ball, seen[:, 0], distance[:, 0], frames.turn, self._ball_luck.at(number)),
@@ -128,10 +132,9 @@ class Camera:
         self, ball: BallState, place: Vectors, distance: Floats, turn: Vectors, luck: Floats
     ) -> list[list[float]]:
         """The ball of each robot that sees it at this place: with its height and velocity, and their noise."""
-        s = self._sensing
-        sigma = s.ball_velocity_growth * distance
+        sigma = self._ball_growth * distance
         sigma *= sigma
-        sigma += s.ball_velocity**2
+        sigma += self._ball_velocity
         np.sqrt(sigma, out=sigma)
         velocity = turn * complex(ball.vx, ball.vy)
         seen = np.empty((5, len(place)))
@@ -149,8 +152,7 @@ class Camera:
         numbers = np.empty((*away.shape, PER_OBSTACLE))
         numbers[..., 0], numbers[..., 1], numbers[..., 2] = places.real, places.imag, self._hulls.reach
         rows = numbers[self._rows, order].reshape(len(away), -1).tolist()
-        counts = np.add.reduce(found, axis=1).tolist()
-        return [row[: PER_OBSTACLE * count] for row, count in zip(rows, counts, strict=True)]
+        return [row[: PER_OBSTACLE * them.count(True)] for row, them in zip(rows, found.tolist(), strict=True)]
 
     def _ticks(self, numbers: range) -> list[int]:
         return [self._shutter.tick_of(number) for number in numbers]

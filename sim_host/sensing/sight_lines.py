@@ -10,6 +10,8 @@ from sim_host.sensing.streams import Floats, Vectors
 
 Flags = NDArray[np.bool_]
 
+_EYE = np.array(0.0)
+"""m; along a line."""
 _LEAST = 1e-9
 """m; a line that is more nearly parallel to the side of a box is taken to lean by as much."""
 
@@ -20,12 +22,12 @@ def through_circles(places: Vectors, distance: Floats, centres: Vectors, radius:
     `places` of the things, shape (eyes, things), with their `distance`; `centres`, shape (eyes, hulls).
     """
     hulls, eyes, things = len(radius), *distance.shape
-    line = np.repeat(centres.T, things, axis=1)
+    line = centres.T.repeat(things, axis=1)
     np.conjugate(line, out=line)
     line *= places.reshape(-1)
     along, beside = line.real, line.imag  # of the circle's middle, times the length of the line
     flat = distance.reshape(-1)
-    hides: Flags = along > 0.0
+    hides: Flags = along > _EYE
     hides &= along < flat * flat
     hides &= np.abs(beside) < flat * radius[:, None]
     return hides.reshape(hulls, eyes, things)
