@@ -13,12 +13,14 @@ from collections.abc import Callable
 from pydantic_core import to_json
 
 from schemas.command import BallBelief, Command, Drive, Motion, Radio
+from schemas.light import light_reader
 from schemas.match_config import load_match
 from sim_host.simulation import Simulation
 from sim_host.world.engine import Engine
 
 ROUNDS = 15
 TICKS = 100
+read_command = light_reader(Command)
 
 
 def timed(body: Callable[[], None]) -> float:
@@ -29,14 +31,18 @@ def timed(body: Callable[[], None]) -> float:
 
 
 def commands(simulation: Simulation, tick: int) -> dict[str, Command]:
-    """What ten lively robots answer to a tick: each drives its own circle, 0.7 m wide, and speaks every fifth tick."""
+    """What ten lively robots answer to a tick, as the host reads it: each drives its own circle, 0.7 m wide, and speaks
+    every fifth tick.
+    """
     word = Radio(self=Motion(x=1, y=2, heading=0.1), ball=BallBelief(x=1, y=2), role="striker", intention="shoot")
     return {
-        name: Command.model_construct(
-            answers_tick=tick,
-            drive=Drive(vx=math.cos(place), vy=math.sin(place), omega=3.0),
-            dribble=True,
-            radio=word if (tick + place) % 5 == 0 else None,
+        name: read_command(
+            Command(
+                answers_tick=tick,
+                drive=Drive(vx=math.cos(place), vy=math.sin(place), omega=3.0),
+                dribble=True,
+                radio=word if (tick + place) % 5 == 0 else None,
+            ).encode()
         )
         for place, name in enumerate(simulation.roster.names)
     }

@@ -22,8 +22,9 @@ from schemas.message import VERSION, Message, Part
 M = TypeVar("M", bound=Message)
 P = TypeVar("P", bound=Part)
 
-_encode = msgspec.json.Encoder(enc_hook=vars).encode
-"""Structs as JSON; parts that are models by their fields."""
+light_encode = msgspec.json.Encoder(enc_hook=vars).encode
+"""What structs, models, dataclasses and mappings hold, as JSON: to the byte what pydantic writes of numbers below 1e16;
+beyond, their exponent has no sign."""
 
 _LIMITS: Mapping[type, Callable[[Any], dict[str, Any]]] = {
     Ge: lambda limit: {"ge": limit.ge},
@@ -74,8 +75,8 @@ class _Light(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     """What was read, or made."""
 
     def encode(self) -> bytes:
-        """As `Message.encode`, for numbers below 1e16 to the byte: beyond, their exponent has no sign."""
-        return _encode(self)
+        """As `Message.encode`."""
+        return light_encode(self)
 
     def __iter__(self) -> Iterator[tuple[str, Any]]:
         """Field and value, as models have it: `dict(part)` are the fields."""

@@ -9,12 +9,14 @@ from statistics import median
 from schemas.bus.contract import Bus, Received
 from schemas.command import Command
 from schemas.host import RobotHealth
+from schemas.light import light_reader
 from schemas.message import BadMessageError
 from schemas.topics import COMMAND
 from sim_host.complaints import Complaints
 from sim_host.relay import Relay
 from sim_host.snapshot import Roster
 
+_read_command = light_reader(Command)
 SILENT_TICKS = 3
 """A robot that missed this many ticks in a row is not waited for until it is heard again."""
 _STRANGERS = 100
@@ -142,7 +144,7 @@ class Inbox:
         if ledger.removed:
             return None  # it answers what it saw before it was removed
         try:
-            command: Command = received.message()
+            command = _read_command(received.payload)
             if command.answers_tick > tick:
                 raise BadMessageError(f"Command: answers_tick is {command.answers_tick}, the newest sight is {tick}")
         except BadMessageError as error:

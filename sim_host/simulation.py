@@ -7,14 +7,14 @@ from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from pydantic import TypeAdapter
 from pydantic_core import to_json
 
 from schemas.coach import CoachOrder
-from schemas.command import Command
+from schemas.command import Command, Radio
 from schemas.errors import TouchlineError
 from schemas.game import ActionReply, EventKind, GameEvent, Phase, RefereeAction
 from schemas.host import AppliedInput, Placement, Setup, TeamSetup, chained
+from schemas.light import light_encode
 from schemas.match_config import MatchConfig
 from schemas.message import VERSION
 from schemas.parameters import ParameterDeed, ParametersReply, ParametersRequest, Setting
@@ -58,10 +58,6 @@ class Tick:
     """One for each action, in order."""
     refused: Mapping[str, int] = field(default_factory=dict)
     """Robot → how many parts of its command could not be done."""
-
-
-_INPUTS = TypeAdapter(Mapping[str, AppliedInput]).serializer
-"""Knows what it encodes: half the work of finding it out."""
 
 
 def _keep(robot: str, sight: bytes) -> None:
@@ -285,11 +281,12 @@ class Simulation:
             command = commands.get(name)
             if command is None or command.radio is None:
                 continue
-            refusal = self._crew.radio.say(snapshot.tick, name, command.radio)
+            word = Radio.model_validate(command.radio)
+            refusal = self._crew.radio.say(snapshot.tick, name, word)
             if refusal is not None:
                 refusals.setdefault(name, []).append(refusal)
                 continue
-            fields = {"tick": snapshot.tick, "time": snapshot.time, "robot": name, "radio": command.radio}
+            fields = {"tick": snapshot.tick, "time": snapshot.time, "robot": name, "radio": word}
             beliefs.append((self.roster.side_of(name), name, fields))
         return beliefs
 
@@ -302,7 +299,7 @@ class Simulation:
             fields["obstacles"] = self._stage.obstacles
         fields["episode"] = self.episode
         rest = to_json({"version": VERSION, **fields}, inf_nan_mode="constants").removesuffix(b"}")
-        noted = b'%s,"inputs":%s' % (rest, _INPUTS.to_json(inputs))
+        noted = b'%s,"inputs":%s' % (rest, light_encode(inputs))
         chain = self.world.chain(noted)
         return {"applied": {**fields, "inputs": inputs, "chain": chain}, "applied_encoded": chained(noted, chain)}
 
