@@ -41,25 +41,33 @@ class What(IntEnum):
 
 
 def philox(counter: tuple[Words, Words, Words, Words], key: tuple[int, int]) -> tuple[Words, Words, Words, Words]:
-    """Four 32-bit words of randomness for each counter; all arrays of one shape, 32-bit values in 64-bit words."""
+    """Four 32-bit words of randomness for each counter, whose arrays are broadcast; 32-bit values in 64-bit words.
+
+    Counters that are made of few words each way cost less than as many that are written out: the first rounds mix one
+    axis with the next, and only then is every word another.
+    """
     c0, c1, c2, c3 = counter
     k0, k1 = key
     for _ in range(_ROUNDS):
         p0, p1 = _M0 * c0, _M1 * c2
         high0, high1 = p0 >> _HALF, p1 >> _HALF
-        high1 ^= c1  # in place: every new array costs as much as what is done to it
-        high1 ^= np.uint64(k0)
-        high0 ^= c3
         high0 ^= np.uint64(k1)
+        high1 ^= np.uint64(k0)
         p0 &= _LOW
         p1 &= _LOW
-        c0, c1, c2, c3 = high1, p1, high0, p0
+        c0, c1, c2, c3 = _mixed(high1, c1), p1, _mixed(high0, c3), p0
         k0, k1 = (k0 + _W0) & 0xFFFFFFFF, (k1 + _W1) & 0xFFFFFFFF
     return c0, c1, c2, c3
 
 
-AT_ONCE = 64
-"""Draws are made for this many ticks or pictures at a time; the numbers are the same, the cost of each is not."""
+def _mixed(high: Words, word: Words) -> Words:
+    """Both, exclusively or; in place where that is possible: a new array costs as much as what is done to it."""
+    return np.bitwise_xor(high, word, out=high if high.shape == word.shape else None)
+
+
+AT_ONCE = 256
+"""Draws are made for this many ticks or pictures at a time; the numbers are the same, the cost of each is not: with 64
+it is half as much again, with more it falls no further."""
 
 
 class Block(Generic[Draws]):
@@ -103,19 +111,24 @@ class Streams:
 
     def _uniforms(self, what: What, robots: Sequence[str], ticks: Sequence[int], index: Words) -> Floats:
         """Shape (ticks, robots, index, 4)."""
-        shape = (len(ticks), len(robots), len(index))
-        tick = np.broadcast_to(np.array(ticks, dtype=np.uint64)[:, None, None], shape)
-        robot = np.broadcast_to(_words_of(robots)[:, None], shape)
-        kind = np.broadcast_to(np.uint64(int(what)), shape)
-        words = philox((np.broadcast_to(index, shape), robot, tick & _LOW, kind), self._key)
-        return (np.stack(words, axis=-1).astype(np.float64) + 0.5) * 2.0**-32
+        tick = np.array(ticks, dtype=np.uint64)[:, None, None] & _LOW
+        robot, kind = _words_of(robots)[:, None], np.array(int(what), dtype=np.uint64)
+        uniform = np.empty((len(ticks), len(robots), len(index), 4))
+        for place, word in enumerate(philox((index, robot, tick, kind), self._key)):
+            uniform[..., place] = word
+        uniform += 0.5
+        uniform *= 2.0**-32
+        return uniform
 
 
 def normal_pairs(uniform: Floats) -> Floats:
     """Standard normal numbers from as many uniform ones in (0, 1), two by two on the last axis (Box and Muller)."""
     radius = np.sqrt(-2.0 * np.log(uniform[..., 0]))
     angle = 2.0 * np.pi * uniform[..., 1]
-    return np.stack((radius * np.cos(angle), radius * np.sin(angle)), axis=-1)
+    pairs = np.empty(uniform.shape)
+    np.multiply(radius, np.cos(angle), out=pairs[..., 0])
+    np.multiply(radius, np.sin(angle), out=pairs[..., 1])
+    return pairs
 
 
 def _words_of(names: Sequence[str]) -> Words:
