@@ -56,10 +56,8 @@ def main() -> None:
 
     def host() -> None:
         for commanded in told:
-            tick = simulation.step(commanded)  # sights and inputs leave it encoded
+            tick = simulation.step(commanded)  # sights, beliefs and inputs leave it encoded
             to_json(tick.world)
-            for _, _, word in tick.beliefs:
-                to_json(word)
 
     raw = Engine(simulation.profile, simulation.roster)
     drives = [(math.cos(place), math.sin(place), 0.3) for place in range(len(raw.robots))]

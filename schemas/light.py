@@ -7,6 +7,7 @@ remains what the message means: it reads whatever the struct refuses, and says w
 """
 
 import dataclasses
+import re
 import types
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache
@@ -16,6 +17,7 @@ import msgspec
 from annotated_types import Ge, Gt, Le, Lt, MaxLen, MinLen
 from pydantic import StringConstraints
 from pydantic.fields import FieldInfo
+from pydantic_core import to_json
 
 from schemas.message import VERSION, Message, Part
 
@@ -25,6 +27,8 @@ P = TypeVar("P", bound=Part)
 light_encode = msgspec.json.Encoder(enc_hook=vars).encode
 """What structs, models, dataclasses and mappings hold, as JSON: to the byte what pydantic writes of numbers below 1e16;
 beyond, their exponent has no sign."""
+_MAYBE_HUGE = re.compile(rb"e\d")
+"""Stands in the JSON of every number from 1e16 on, and now and then in that of a word."""
 
 _LIMITS: Mapping[type, Callable[[Any], dict[str, Any]]] = {
     Ge: lambda limit: {"ge": limit.ge},
@@ -36,6 +40,22 @@ _LIMITS: Mapping[type, Callable[[Any], dict[str, Any]]] = {
     StringConstraints: lambda limit: _text(limit),
 }
 """How a limit of a model is said to a struct."""
+
+
+def light_encode_exactly(thing: Any) -> bytes:
+    """As `light_encode`, and to the byte what pydantic writes of all other numbers too."""
+    text = light_encode(thing)
+    return text if _MAYBE_HUGE.search(text) is None else to_json(thing, fallback=dict)
+
+
+def beyond_defaults(part: Part) -> dict[str, Any]:
+    """The fields of a part, light or not, that are not what they are by default; likewise of the parts in it."""
+    said = {}
+    for name, default in _defaults(type(part)):
+        value = getattr(part, name)
+        if value != default:
+            said[name] = beyond_defaults(value) if _is_part(value.__class__) else value
+    return said
 
 
 def light_reader(model: type[M]) -> Callable[[bytes], M]:
@@ -140,6 +160,22 @@ def _text(limit: StringConstraints) -> dict[str, Any]:
     if isinstance(limit.pattern, str) and limit.pattern.endswith("$"):
         known["pattern"] = rf"{limit.pattern[:-1]}\Z"
     return {key: value for key, value in known.items() if value is not None}
+
+
+@cache
+def _is_part(kind: type) -> bool:
+    return issubclass(kind, (Part, _Light))
+
+
+@cache
+def _defaults(kind: type[Any]) -> tuple[tuple[str, Any], ...]:
+    """The fields of a model or a struct, each with what it is by default, or with something that nothing is."""
+    if issubclass(kind, Part):
+        return tuple((name, info.get_default(call_default_factory=True)) for name, info in kind.model_fields.items())
+    return tuple(
+        (one.name, one.default if one.default_factory is msgspec.NODEFAULT else one.default_factory())
+        for one in msgspec.structs.fields(kind)
+    )
 
 
 def _as_light(part: Part) -> Any:

@@ -85,8 +85,8 @@ class Outbox:
         if news != self._said or tick.replies or tick.tick % self._state_every == 0:
             self._state.put(state.game_state(tick.tick, tick.time, episode))
             self._said = news
-        for side, robot, fields in tick.beliefs:
-            self._beliefs[robot, side].put_fields(fields)
+        for side, robot, belief in tick.beliefs:
+            self._beliefs[robot, side].put_payload(belief)
         self._world.put_fields(tick.world)
         self._applied.put_payload(tick.applied_encoded)
         self._bodies(tick)

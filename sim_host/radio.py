@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from schemas.command import Radio
+from schemas.light import beyond_defaults, light_encode_exactly
 from schemas.sections import Radio as Air
 from schemas.side import Side
 from sim_host.sensing.streams import Block, Streams, What
@@ -17,7 +18,6 @@ _WINDOW_S = 1.0
 """The budget counts what a team said in the last second."""
 
 _EMPTY = b"{}"
-_WORD = Radio.__pydantic_serializer__
 
 _LOST = -1
 """In place of a delay in ticks: the word never arrives."""
@@ -99,9 +99,12 @@ class RadioAir:
         return heir
 
     def say(self, tick: int, speaker: str, word: Radio) -> str | None:
-        """Send a word to all teammates; returns why it was refused, or nothing."""
+        """Send a word, light or not, to all teammates; returns why it was refused, or nothing.
+
+        What stands at its default is not sent, and takes nothing of the budget.
+        """
         place = self._roster.names.index(speaker)
-        said = _WORD.to_json(word, exclude_defaults=True)
+        said = light_encode_exactly(beyond_defaults(word))
         bits = 8 * len(said)
         team = self._teams[self._roster.sides[place]]
         self._forget(team, tick)

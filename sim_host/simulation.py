@@ -10,11 +10,11 @@ from typing import Any
 from pydantic_core import to_json
 
 from schemas.coach import CoachOrder
-from schemas.command import Command, Radio
+from schemas.command import Command
 from schemas.errors import TouchlineError
 from schemas.game import ActionReply, EventKind, GameEvent, Phase, RefereeAction
 from schemas.host import AppliedInput, Placement, Setup, TeamSetup, chained
-from schemas.light import light_encode
+from schemas.light import light_encode, light_encode_exactly
 from schemas.match_config import MatchConfig
 from schemas.message import VERSION
 from schemas.parameters import ParameterDeed, ParametersReply, ParametersRequest, Setting
@@ -51,8 +51,8 @@ class Tick:
     """`schemas.host.Applied`."""
     applied_encoded: bytes
     """The same as it goes over the bus, and as the hash chain has taken it in."""
-    beliefs: Sequence[tuple[Side, str, Fields]] = ()
-    """Side, robot, `schemas.host.Belief` of each word said."""
+    beliefs: Sequence[tuple[Side, str, bytes]] = ()
+    """Side, robot, `schemas.host.Belief` of each word said, encoded."""
     events: tuple[GameEvent, ...] = ()
     replies: tuple[ActionReply, ...] = ()
     """One for each action, in order."""
@@ -274,20 +274,20 @@ class Simulation:
 
     def _talk(
         self, snapshot: Snapshot, commands: Mapping[str, Command], refusals: dict[str, list[str]]
-    ) -> list[tuple[Side, str, Fields]]:
+    ) -> list[tuple[Side, str, bytes]]:
         """Send this tick's words on their way."""
         beliefs = []
         for name in self.roster.names:  # not in the order of arrival, which no two runs share
             command = commands.get(name)
             if command is None or command.radio is None:
                 continue
-            word = Radio.model_validate(command.radio)
+            word = command.radio
             refusal = self._crew.radio.say(snapshot.tick, name, word)
             if refusal is not None:
                 refusals.setdefault(name, []).append(refusal)
                 continue
-            fields = {"tick": snapshot.tick, "time": snapshot.time, "robot": name, "radio": word}
-            beliefs.append((self.roster.side_of(name), name, fields))
+            belief = {"version": VERSION, "tick": snapshot.tick, "time": snapshot.time, "robot": name, "radio": word}
+            beliefs.append((self.roster.side_of(name), name, light_encode_exactly(belief)))
         return beliefs
 
     def _applied(self, snapshot: Snapshot, inputs: Mapping[str, AppliedInput], done: Due) -> dict[str, Any]:

@@ -9,12 +9,13 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 from pydantic import Field, StringConstraints
+from pydantic_core import to_json
 
 from schemas.coach import CoachMode, CoachOrder
-from schemas.command import Command, Drive, Kick, KickMode, Motion, Radio
+from schemas.command import BallBelief, Command, Drive, Kick, KickMode, Motion, Radio
 from schemas.game import GameState, Standing
 from schemas.host import Applied
-from schemas.light import light_form, light_reader
+from schemas.light import beyond_defaults, light_encode_exactly, light_form, light_reader
 from schemas.message import BadMessageError, Message
 from schemas.protocol.examples import examples
 from schemas.sight import Sight
@@ -216,3 +217,33 @@ def test_a_light_command_is_encoded_as_the_command_with_the_same_fields(tick, dr
 def test_a_light_message_never_changes():
     with pytest.raises(AttributeError):
         light_form(Command)(answers_tick=1).dribble = True
+
+
+NUMBERS = st.sampled_from((0.0, -0.0, 1e15, 1e16, -1.5e16, 1e300, 1e-7)) | st.floats(-1e300, 1e300)
+LOUD_WORDS = st.builds(
+    Radio,
+    self=st.none() | st.builds(Motion, x=NUMBERS, y=NUMBERS, heading=NUMBERS, vx=NUMBERS, omega=NUMBERS),
+    ball=st.none() | st.builds(BallBelief, x=NUMBERS, y=NUMBERS, vx=NUMBERS, age=st.just(0.0) | st.floats(0.0, 1e17)),
+    role=st.none() | st.sampled_from(("", "role1", "1e5", "ü\n")),
+    pass_to=st.none() | st.just("cyan4"),
+    extra=st.dictionaries(st.text(max_size=5), st.booleans() | st.integers() | NUMBERS | st.text(), max_size=3),
+)
+
+
+@given(LOUD_WORDS)
+@example(Radio())
+@example(Radio(self=Motion(x=1e16, y=0.0, heading=0.0), role="1e5"))
+def test_a_word_is_written_to_the_byte_as_the_model_writes_it_light_or_not(word: Radio) -> None:
+    light = light_reader(Command)(Command(answers_tick=0, radio=word).encode()).radio
+    for one in (word, light):
+        assert one is not None
+        assert light_encode_exactly({"radio": one}) == to_json({"radio": word})
+        terse = word.model_dump_json(exclude_defaults=True).encode()
+        assert light_encode_exactly(beyond_defaults(one)) == terse
+
+
+def test_a_part_that_is_its_default_is_nothing_beyond_the_defaults() -> None:
+    for read in (Command.decode, light_reader(Command)):
+        assert beyond_defaults(read(Command(answers_tick=7).encode())) == {"answers_tick": 7}
+        turns = Command(answers_tick=7, drive=Drive(omega=2.0)).encode()
+        assert beyond_defaults(read(turns)) == {"answers_tick": 7, "drive": {"omega": 2.0}}

@@ -8,10 +8,11 @@ from pydantic_core import to_json
 from pytest import approx
 
 from schemas.coach import CoachOrder
-from schemas.command import Command, Drive, Kick, KickMode, Radio
+from schemas.command import Command, Drive, Kick, KickMode, Motion, Radio
 from schemas.errors import TouchlineError
 from schemas.game import ActionName, EventKind, Phase, RefereeAction, TeamPhase
-from schemas.host import Applied, Placement
+from schemas.host import Applied, Belief, Placement
+from schemas.light import light_reader
 from schemas.match_config import load_match
 from schemas.message import VERSION
 from schemas.scene import SceneDeed, SceneRequest
@@ -110,6 +111,21 @@ def test_a_word_on_the_radio_reaches_teammates_and_the_coach(simulation: Simulat
     assert sight(tick, "cyan3").radio["cyan2"].role == "striker"
     assert sight(tick, "cyan3").radio["cyan2"].age == approx(0.1)
     assert sight(tick, "magenta1").radio == {}
+
+
+def test_a_word_is_said_alike_whether_its_command_was_read_as_a_model_or_as_a_struct() -> None:
+    word = Radio(self=Motion(x=1.5, y=-0.0, heading=3e16, vx=0.0), intention="shoot", extra={"speed": 1e17, "n": 2})
+    payload = Command(answers_tick=0, radio=word).encode()
+    told = []
+    for read in (Command.decode, light_reader(Command)):
+        one = simulate(radio__delay=0.0, radio__jitter=0.0, radio__loss=0.0)
+        tick = one.step({"cyan2": read(payload)})
+        one.close()
+        told.append((tick.beliefs, tick.sights))
+    assert told[0] == told[1]
+    [(_, _, belief)] = told[0][0]
+    assert belief == Belief(tick=1, time=tick.time, robot="cyan2", radio=word).encode()
+    assert b'"radio":{"cyan2":{"self":{"x":1.5,"y":-0.0,"heading":3e+16}' in told[0][1]["cyan3"]
 
 
 def test_a_refused_kick_comes_back_in_the_outcome(simulation: Simulation) -> None:
