@@ -16,8 +16,7 @@ from schemas.side import Side
 from sim_host.radio import RadioAir
 from sim_host.referee.state import RefereeState
 from sim_host.referee.view import game_views
-from sim_host.sensing.camera import PER_OBSTACLE
-from sim_host.sensing.perception import Percept, Perception
+from sim_host.sensing.perception import Perception
 from sim_host.snapshot import Roster, Snapshot
 
 Send = Callable[[str, bytes], None]
@@ -32,7 +31,9 @@ def _numbers(*names: str) -> str:
     return ",".join(f'"{name}":%.4f' for name in names)
 
 
-_BALL = f'{{{_numbers("x", "y", "z", "vx", "vy")},"age":%.4f,"visible":%b}}'.encode()
+_BALL = b'{%b,"age":%.4f,"visible":%b}'
+_PLACE = _numbers("x", "y", "z", "vx", "vy").encode()
+"""Where a picture shows the ball."""
 _NOW = b'"tick":%d,"time":%b'
 _TOLD = b'"game":%b,"order":%b'
 """What all robots of a side are told alike."""
@@ -51,17 +52,19 @@ def _form(robot: str, side: Side) -> bytes:
 
 
 class _Written:
-    """The obstacles of one picture, written once."""
+    """The things of one kind that a picture shows one robot, written once."""
 
-    def __init__(self) -> None:
+    def __init__(self, form: bytes) -> None:
+        self._form = form
+        self._each = form.count(b"%")
         self._numbers: list[float] | None = None
         self._text = b""
 
     def text(self, numbers: list[float]) -> bytes:
-        """JSON of `schemas.sight.Obstacle` one after the other; the same list again is the same picture again."""
+        """JSON of one after the other; the same list again is the same picture again."""
         if numbers is not self._numbers:
             self._numbers = numbers
-            self._text = b",".join([_OBSTACLE] * (len(numbers) // PER_OBSTACLE)) % tuple(numbers)
+            self._text = b",".join([self._form] * (len(numbers) // self._each)) % tuple(numbers)
         return self._text
 
 
@@ -73,7 +76,8 @@ class Sights:
         self._perception = perception
         self._radio = radio
         self._forms = [_form(name, side) for name, side in zip(roster.names, roster.sides, strict=True)]
-        self._obstacles = [_Written() for _ in roster.names]
+        self._balls = [_Written(_PLACE) for _ in roster.names]
+        self._obstacles = [_Written(_OBSTACLE) for _ in roster.names]
 
     def at(
         self,
@@ -95,12 +99,12 @@ class Sights:
         sights = {}
         for place, (name, side) in enumerate(zip(self._roster.names, self._roster.sides, strict=True)):
             command, refused = commands.get(name), refusals.get(name)
-            percept = percepts[place]
+            own, ball, ball_age, visible, obstacles, obstacles_age = percepts[place]
             sight = self._forms[place] % (
-                *percept.own,
-                _ball(percept),
-                self._obstacles[place].text(percept.obstacles),
-                percept.obstacles_age,
+                *own,
+                b"null" if ball is None else _BALL % (self._balls[place].text(ball), ball_age, _JSON[visible]),
+                self._obstacles[place].text(obstacles),
+                obstacles_age,
                 now,
                 _JSON[name == snapshot.possession],
                 _JSON[snapshot.kickers_ready[place]],
@@ -118,9 +122,3 @@ class Sights:
 
 def _order(order: CoachOrder | None) -> bytes:
     return b"null" if order is None else to_json(order)
-
-
-def _ball(percept: Percept) -> bytes:
-    if percept.ball is None:
-        return b"null"
-    return _BALL % (*percept.ball, percept.ball_age, _JSON[percept.visible])
