@@ -22,7 +22,7 @@ from pydantic_core import to_json
 from schemas.message import VERSION, Message, Part
 
 M = TypeVar("M", bound=Message)
-P = TypeVar("P", bound=Part)
+K = TypeVar("K")
 
 light_encode = msgspec.json.Encoder(enc_hook=vars).encode
 """What structs, models, dataclasses and mappings hold, as JSON: to the byte what pydantic writes of numbers below 1e16;
@@ -51,7 +51,7 @@ def light_encode_exactly(thing: Any) -> bytes:
 def beyond_defaults(part: Part) -> dict[str, Any]:
     """The fields of a part, light or not, that are not what they are by default; likewise of the parts in it."""
     said = {}
-    for name, default in _defaults(type(part)):
+    for name, default in _defaults(part.__class__):
         value = getattr(part, name)
         if value != default:
             said[name] = beyond_defaults(value) if _is_part(value.__class__) else value
@@ -83,12 +83,12 @@ def light_reader(model: type[M]) -> Callable[[bytes], M]:
     return read
 
 
-def light_form(model: type[P]) -> type[P]:
-    """What makes messages or parts of one kind as structs, of parts that are models or structs themselves.
+def light_form(kind: type[K]) -> type[K]:
+    """What makes messages, parts or dataclasses of one kind as structs, of parts that are models or structs themselves.
 
     It looks at none of its values: it is for who has looked at them, or made them of such as were looked at.
     """
-    return cast(type[P], _struct(model))
+    return cast(type[K], _struct(kind) if issubclass(kind, Part) else _struct_of_fields(kind))
 
 
 class _Light(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, gc=False):
@@ -111,6 +111,15 @@ def _struct(model: type[Part]) -> Any:
     hints = get_type_hints(model, include_extras=True)
     fields = [(name, _type(hints[name]), *_default(info)) for name, info in model.model_fields.items()]
     return msgspec.defstruct(model.__name__, fields, bases=(_Light,), module=__name__, kw_only=True)
+
+
+def _struct_of_fields(kind: type[Any]) -> Any:
+    """The struct of a dataclass whose defaults never change."""
+    fields = [
+        (one.name, Any) if one.default is dataclasses.MISSING else (one.name, Any, one.default)
+        for one in dataclasses.fields(kind)
+    ]
+    return msgspec.defstruct(kind.__name__, fields, bases=(_Light,), module=__name__)
 
 
 def _is_plain(model: type[Part]) -> bool:
@@ -168,14 +177,14 @@ def _is_part(kind: type) -> bool:
 
 
 @cache
-def _defaults(kind: type[Any]) -> tuple[tuple[str, Any], ...]:
+def _defaults(kind: type[Any]) -> list[tuple[str, Any]]:
     """The fields of a model or a struct, each with what it is by default, or with something that nothing is."""
     if issubclass(kind, Part):
-        return tuple((name, info.get_default(call_default_factory=True)) for name, info in kind.model_fields.items())
-    return tuple(
+        return [(name, info.get_default(call_default_factory=True)) for name, info in kind.model_fields.items()]
+    return [
         (one.name, one.default if one.default_factory is msgspec.NODEFAULT else one.default_factory())
         for one in msgspec.structs.fields(kind)
-    )
+    ]
 
 
 def _as_light(part: Part) -> Any:

@@ -4,8 +4,10 @@ from collections.abc import Container, Mapping
 
 from schemas.command import Command, Drive
 from schemas.host import AppliedInput
+from schemas.light import light_form
 
-_REST = AppliedInput(drive=Drive(), dribble=False)
+_Input = light_form(AppliedInput)
+_REST = _Input(Drive(), dribble=False)
 
 
 class Commands:
@@ -42,5 +44,5 @@ class Commands:
         if command is None or name in self._still or tick - command.answers_tick > self._watchdog:
             return _REST
         if is_fresh:
-            return AppliedInput(command.drive, command.dribble, command.kick, command.answers_tick)
-        return AppliedInput(command.drive, command.dribble)
+            return _Input(command.drive, command.dribble, command.kick, command.answers_tick)
+        return _Input(command.drive, command.dribble)

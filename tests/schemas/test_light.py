@@ -1,5 +1,6 @@
 """Light readers: structs with the fields of a model, which the model itself would have read from the same payload."""
 
+import dataclasses
 import json
 from collections.abc import Callable
 from enum import Enum
@@ -14,8 +15,8 @@ from pydantic_core import to_json
 from schemas.coach import CoachMode, CoachOrder
 from schemas.command import BallBelief, Command, Drive, Kick, KickMode, Motion, Radio
 from schemas.game import GameState, Standing
-from schemas.host import Applied
-from schemas.light import beyond_defaults, light_encode_exactly, light_form, light_reader
+from schemas.host import Applied, AppliedInput
+from schemas.light import beyond_defaults, light_encode, light_encode_exactly, light_form, light_reader
 from schemas.message import BadMessageError, Message
 from schemas.protocol.examples import examples
 from schemas.sight import Sight
@@ -212,6 +213,15 @@ def test_a_light_command_is_encoded_as_the_command_with_the_same_fields(tick, dr
     assert light.encode() == heavy.encode()
     assert dict(light) == dict(heavy)
     assert Command.model_validate(light) == heavy
+
+
+@given(DRIVES, st.booleans(), st.none() | KICKS, st.none() | st.integers(0, 10**6))
+def test_a_light_dataclass_is_written_as_the_dataclass(drive, dribble, kick, tick):
+    light, heavy = light_form(AppliedInput)(drive, dribble, kick, tick), AppliedInput(drive, dribble, kick, tick)
+    assert light_encode({"cyan1": light}) == to_json({"cyan1": heavy})
+    assert dict(light) == {one.name: getattr(heavy, one.name) for one in dataclasses.fields(heavy)}
+    rest = light_form(AppliedInput)(drive, dribble=dribble)
+    assert (rest.kick, rest.answers_tick) == (None, None)
 
 
 def test_a_light_message_never_changes():

@@ -70,7 +70,7 @@ def test_every_sight_and_truth_is_a_valid_message(simulation: Simulation) -> Non
     for name in simulation.roster.names:
         assert sight(tick, name).robot == name
     World.decode(to_json({"version": VERSION, **tick.world}))
-    Applied.decode(to_json({"version": VERSION, **tick.applied}))
+    Applied.decode(tick.applied_encoded)
 
 
 def test_the_world_says_who_touched_the_ball_and_whose_kick_was_carried_out(simulation: Simulation) -> None:

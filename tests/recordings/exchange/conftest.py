@@ -26,7 +26,7 @@ def played(table: Table) -> Iterator[Said]:
     while True:
         now = round(tick.time * 1e9)
         yield Said(now, WORLD, WORLD.key, World.model_validate(tick.world))
-        yield Said(now, APPLIED, APPLIED.key, Applied.model_validate(tick.applied))
+        yield Said(now, APPLIED, APPLIED.key, Applied.decode(tick.applied_encoded))
         state = simulation.state.game_state(tick.tick, tick.time, 1)
         news = (state.phase, state.side, state.running, state.half, state.score)
         if news != said or tick.tick % 50 == 0:
