@@ -92,6 +92,12 @@ class Camera:
         self._dropout = np.array([s.ball_dropout] + [s.obstacle_dropout] * bodies)
         self._is_other = np.arange(-1, bodies) != self._rows
         self._luck = Block(self._draw)
+        robots = len(roster.names)
+        self._blur = np.empty((robots, 1 + bodies), dtype=complex)
+        self._blur_parts = np.moveaxis(self._blur.view(float).reshape(robots, 1 + bodies, 2), 2, 0)
+        self._bodies = np.empty((robots, bodies, PER_OBSTACLE))
+        self._bodies[..., 2] = self._hulls.reach
+        self._first_body = bodies * self._rows
 
     def take(self, snapshot: Snapshot, robots: Motions, frames: TeamFrames) -> Picture:
         """A picture, in a tick in which one is taken."""
@@ -105,7 +111,8 @@ class Camera:
         found &= is_noticed
         if self._sensing.occlusion == "hulls":
             found &= ~self._hulls.hidden(places, distance, robots.heading, ball.z)
-        blurred = places + places * self._blur(distance, luck)
+        self._blur_by(distance, luck)
+        blurred = places + places * self._blur
         seen = frames.turn[:, None] * blurred
         seen += (frames.sign * robots.place + frames.shift)[:, None]
         away = np.where(found, np.abs(blurred), _NOWHERE)
@@ -116,17 +123,14 @@ class Camera:
             obstacles=self._nearest_first(away[:, 1:], seen[:, 1:], found[:, 1:]),
         )
 
-    def _blur(self, distance: Floats, luck: Floats) -> Vectors:
+    def _blur_by(self, distance: Floats, luck: Floats) -> None:
         """The noise along the line of sight and across it, as a share of the way from the eye: along + i·across."""
         share = self._growth * distance
         share *= distance
         share += self._near
         np.sqrt(share, out=share)
         share /= distance + _NO_DISTANCE
-        share *= luck
-        blur = np.empty(distance.shape, dtype=complex)
-        blur.real, blur.imag = share
-        return blur
+        np.multiply(share, luck, out=self._blur_parts)
 
     def _ball(
         self, ball: BallState, place: Vectors, distance: Floats, turn: Vectors, luck: Floats
@@ -149,9 +153,10 @@ class Camera:
     def _nearest_first(self, away: Floats, places: Vectors, found: Flags) -> list[list[float]]:
         """The bodies that were found, in the order of their distance: it tells nobody's name."""
         order = away.argsort(axis=1, kind="stable")
-        numbers = np.empty((*away.shape, PER_OBSTACLE))
-        numbers[..., 0], numbers[..., 1], numbers[..., 2] = places.real, places.imag, self._hulls.reach
-        rows = numbers[self._rows, order].reshape(len(away), -1).tolist()
+        order += self._first_body
+        numbers = self._bodies
+        numbers[..., 0], numbers[..., 1] = places.real, places.imag
+        rows = numbers.reshape(-1, PER_OBSTACLE).take(order, axis=0).reshape(len(away), -1).tolist()
         return [row[: PER_OBSTACLE * them.count(True)] for row, them in zip(rows, found.tolist(), strict=True)]
 
     def _ticks(self, numbers: range) -> list[int]:

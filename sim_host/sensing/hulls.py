@@ -23,7 +23,8 @@ class Hulls:
         is_round = [1.0] * len(robots) + [float(one.shape is Shape.CYLINDER) for one in obstacles]
         radius = [body.radius for body in robots] + [one.radius for one in obstacles]
         self._radius = np.array(radius) * is_round
-        self._places = np.array([complex(one.x, one.y) for one in obstacles], dtype=complex)
+        self._places = np.zeros(1 + len(robots) + len(obstacles), dtype=complex)
+        self._places[1 + len(robots) :] = [complex(one.x, one.y) for one in obstacles]
         self._headings = np.array([one.heading for one in obstacles])
         self._lay_out_boxes(models, obstacles)
         self._lay_out_heights(len(robots))
@@ -62,9 +63,9 @@ class Hulls:
             self._may_hide[:, :, 0] = (self._height >= height)[:, None] & self._is_others
 
     def places(self, ball: complex, robots: Vectors) -> Vectors:
-        """Where all things are, m, ball and robots being there."""
-        places = np.empty(1 + len(robots) + len(self._places), dtype=complex)
-        places[0], places[1 : 1 + len(robots)], places[1 + len(robots) :] = ball, robots, self._places
+        """Where all things are, m, ball and robots being there; holds until the next call."""
+        places = self._places
+        places[0], places[1 : 1 + len(robots)] = ball, robots
         return places
 
     def hidden(self, places: Vectors, distance: Floats, headings: Floats, ball_height: float) -> Flags:
