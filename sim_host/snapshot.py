@@ -2,7 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import cached_property
+from itertools import chain
+from typing import NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
 
 from schemas.host import RosterEntry
 from schemas.match_config import MatchConfig
@@ -23,6 +28,38 @@ class RobotState(NamedTuple):
     vy: float
     omega: float
     holding: bool
+
+
+_ROBOT_NUMBERS = len(RobotState._fields)
+
+
+class Motions(NamedTuple):
+    """The true motions of all robots, in the field frame, in the order of the roster."""
+
+    place: NDArray[np.complex128]
+    """m."""
+    heading: NDArray[np.float64]
+    """rad."""
+    velocity: NDArray[np.complex128]
+    """m/s."""
+    omega: NDArray[np.float64]
+    """rad/s."""
+
+    @classmethod
+    def of(cls, robots: Sequence[RobotState]) -> Self:
+        """Those of these robots."""
+        numbers = np.fromiter(chain.from_iterable(robots), float, _ROBOT_NUMBERS * len(robots))
+        place, height_heading, velocity, omega_holding = numbers.view(complex).reshape(-1, _ROBOT_NUMBERS // 2).T
+        return cls(place, height_heading.imag, velocity, omega_holding.real)
+
+
+class Robots(tuple[RobotState, ...]):
+    """All robots, in the order of the roster."""
+
+    @cached_property
+    def motions(self) -> Motions:
+        """The same as arrays, made once for all who work with them; never changed."""
+        return Motions.of(self)
 
 
 class BallState(NamedTuple):
@@ -109,7 +146,7 @@ class Snapshot:
     tick: int
     time: float
     roster: Roster
-    robots: tuple[RobotState, ...]
+    robots: Robots
     ball: BallState
     possession: str | None
     """The robot that holds the ball."""

@@ -9,7 +9,7 @@ from sim_host.actuation.drive import FieldDrive
 from sim_host.actuation.omni_drive import OmniDrive
 from sim_host.actuation.stuck import StuckWatch
 from sim_host.actuation.velocity_drive import VelocityDrive
-from sim_host.snapshot import RobotState
+from sim_host.snapshot import Robots, RobotState
 
 
 class Chassis:
@@ -34,14 +34,16 @@ class Chassis:
         """Per robot: it has long moved much slower than it should."""
         return self._watch.stuck()
 
-    def plan(self, robots: Sequence[RobotState], inputs: Sequence[AppliedInput]) -> Iterable[Sequence[FieldDrive]]:
+    def plan(self, robots: Robots, inputs: Sequence[AppliedInput]) -> Iterable[Sequence[FieldDrive]]:
         """The drives of one tick: per physics step, per robot. Each is to be asked for when its step begins."""
         told = [one.drive for one in inputs]
         if not self._rolling:
             planned = self._velocity.plan(robots, told)
             self._watch.note(self._set, self._velocity.held)
             return planned
-        planned = self._velocity.plan([robots[place] for place in self._set], [told[place] for place in self._set])
+        planned = self._velocity.plan(
+            Robots([robots[place] for place in self._set]), [told[place] for place in self._set]
+        )
         self._omni.plan([robots[place] for place in self._rolling], [told[place] for place in self._rolling])
         self._watch.note(self._set, self._velocity.held)
         self._watch.note(self._rolling, self._omni.held)

@@ -43,12 +43,16 @@ class Ramp:
     ) -> None:
         """Top speed, and how fast speed is gained and lost, of each motion, which are all of a kind; `step` in s."""
         top, gain, loss = limits
-        self._kind = np.dtype(kind)
         elapsed = step * np.arange(1, steps + 1)[:, None]
         self._top = np.array(top)
         self._gain = np.array(gain) * elapsed
         self._loss = np.array(loss) * elapsed
         self._spent = np.array(gain) / np.array(loss) - 1.0
+        self._share: NDArray[Any] = np.zeros(self._top.shape, kind)
+        self._size: NDArray[Any] = np.zeros(self._top.shape, kind)
+        self._done: NDArray[Any] = np.zeros(self._gain.shape, kind)
+        """Real numbers of the kind that they are multiplied with, written through their real parts."""
+        self._real_share, self._real_size, self._real_done = self._share.real, self._size.real, self._done.real
 
     @classmethod
     def of_moving(cls, drives: Sequence[Drive], step: float, steps: int) -> Self:
@@ -69,8 +73,9 @@ class Ramp:
 
     def within_limits(self, demand: Motions) -> Motions:
         """Demanded motions, shortened to top speed."""
-        share = np.minimum(_ONE, self._top / (np.abs(demand) + _TINY))
-        shortened: Motions = demand * share.astype(self._kind)
+        speed: Floats = np.abs(demand) + _TINY
+        np.minimum(_ONE, self._top / speed, out=self._real_share)
+        shortened: Motions = demand * self._share
         return shortened
 
     def toward(self, now: Motions, demand: Motions) -> Motions:
@@ -81,10 +86,13 @@ class Ramp:
         """
         change = self.within_limits(demand) - now
         size = np.abs(change)
-        direction = change / (size + _TINY).astype(self._kind)
+        np.add(size, _TINY, out=self._real_size)
+        direction = change / self._size
         against = np.minimum((now * direction.conj()).real, _NOTHING)
         done = np.minimum(self._loss, self._gain + self._spent * against)
-        after: Motions = now + np.minimum(done, size).astype(self._kind) * direction
+        np.minimum(done, size, out=self._real_done)
+        after: Motions = self._done * direction
+        after += now
         return after
 
 

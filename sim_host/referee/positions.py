@@ -21,7 +21,7 @@ from sim_host.referee.call import Restart, Spot
 from sim_host.referee.clear_ground import clearance
 from sim_host.referee.match import Match
 from sim_host.referee.state import RefereeState
-from sim_host.snapshot import Snapshot
+from sim_host.snapshot import Robots, Snapshot
 
 TOUCHES = 0.02
 """m that a hull may reach into the ball on its spot: a taker may touch it."""
@@ -110,7 +110,7 @@ def legal_spot(match: Match, state: RefereeState, restart: Restart, snapshot: Sn
     index = match.roster.names.index(fault.robot)
     robot = snapshot.robots[index]
     for x, y in _around(line_up, index):
-        moved = (*snapshot.robots[:index], robot._replace(x=x, y=y), *snapshot.robots[index + 1 :])
+        moved = Robots((*snapshot.robots[:index], robot._replace(x=x, y=y), *snapshot.robots[index + 1 :]))
         tried = line_up._replace(snapshot=dataclasses.replace(snapshot, robots=moved))
         if all(check(tried, index) is None for check in _checks(state, restart)) and _has_room(tried, index):
             return Pose(x, y, math.atan2(restart.spot[1] - y, restart.spot[0] - x))

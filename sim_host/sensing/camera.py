@@ -10,8 +10,8 @@ from sim_host.sensing.hulls import Hulls
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.sight_lines import Flags
 from sim_host.sensing.streams import Block, Floats, Streams, Vectors, What, normal_pairs
-from sim_host.sensing.team_frames import Motions, TeamFrames
-from sim_host.snapshot import BallState, ObstacleState, Roster, Snapshot
+from sim_host.sensing.team_frames import TeamFrames
+from sim_host.snapshot import BallState, Motions, ObstacleState, Roster, Snapshot
 
 BALL = "ball"
 """No robot and no obstacle has this name."""

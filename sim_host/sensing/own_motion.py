@@ -4,8 +4,8 @@ import numpy as np
 
 from schemas.sections import Sensing
 from sim_host.sensing.streams import Block, Floats, Streams, What
-from sim_host.sensing.team_frames import Motions, TeamFrames
-from sim_host.snapshot import Roster
+from sim_host.sensing.team_frames import TeamFrames
+from sim_host.snapshot import Motions, Roster
 
 _PARTS = 6
 _PI, _TAU = np.array(np.pi), np.array(2.0 * np.pi)

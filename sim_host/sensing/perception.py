@@ -17,8 +17,8 @@ from sim_host.sensing.drift import Drift
 from sim_host.sensing.own_motion import OwnMotion
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.streams import Block, Streams
-from sim_host.sensing.team_frames import Motions, TeamFrames
-from sim_host.snapshot import Roster, Snapshot
+from sim_host.sensing.team_frames import TeamFrames
+from sim_host.snapshot import Motions, Roster, Snapshot
 
 
 class Percept(NamedTuple):
@@ -95,7 +95,7 @@ class Perception:
         if cyan_attacks != self._cyan_attacks:
             self._change_sides()
             self._cyan_attacks = cyan_attacks
-        tick, robots = snapshot.tick, Motions.of(snapshot.robots)
+        tick, robots = snapshot.tick, snapshot.robots.motions
         frames = self._frames[cyan_attacks].at(tick)
         if self._shutter.takes(tick):
             self._exposed = snapshot, robots, frames

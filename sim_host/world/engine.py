@@ -17,7 +17,7 @@ from schemas.host import Placement
 from schemas.profile import Profile
 from sim_host.actuation.bounce import NO_BOUNCE
 from sim_host.actuation.drive import FieldDrive
-from sim_host.snapshot import BallState, ObstacleState, RobotState, Roster
+from sim_host.snapshot import BallState, ObstacleState, Robots, RobotState, Roster
 from sim_host.world.bodies import NO_TURN, BodyMaker, Quaternion, Vector, upright
 from sim_host.world.gravity import GRAVITY
 
@@ -171,9 +171,9 @@ class Engine:
             x, y = x - below * 2.0 * (qx * qz + qw * qy), y - below * 2.0 * (qy * qz - qw * qx)
         return x, y, height
 
-    def robot_states(self, holding: int | None) -> tuple[RobotState, ...]:
+    def robot_states(self, holding: int | None) -> Robots:
         """All robots, as they were read."""
-        return tuple([_robot_state(state, place == holding) for place, state in enumerate(self._states[:-1])])
+        return Robots([_robot_state(state, place == holding) for place, state in enumerate(self._states[:-1])])
 
     def ball_state(self) -> BallState:
         """The ball, as it was read."""

@@ -9,7 +9,7 @@ from schemas.obstacle import StaticObstacle
 from schemas.profile import Profile
 from sim_host.actuation.ball_handling import BallHandling, BallReport
 from sim_host.actuation.chassis import Chassis
-from sim_host.snapshot import BallState, ObstacleState, RobotState, Roster, Snapshot
+from sim_host.snapshot import BallState, ObstacleState, Robots, RobotState, Roster, Snapshot
 from sim_host.world.engine import Engine
 from sim_host.world.impact import Impacts
 from sim_host.world.touch import Touch
@@ -114,7 +114,7 @@ class World:
 
         A checkpoint has to be made before the next tick; what it is made of is given here, bit for bit.
         """
-        self.tick, self._robots, self._ball_state, self._chain = tick, tuple(robots), ball, chain
+        self.tick, self._robots, self._ball_state, self._chain = tick, Robots(robots), ball, chain
 
     def advance(self, inputs: Mapping[str, AppliedInput]) -> Advance:
         """One control tick."""
@@ -174,7 +174,7 @@ class World:
         `begin_at` says so.
         """
         states = self._engine.robot_states(None)
-        self._robots = tuple(
+        self._robots = Robots(
             [
                 state if name in placed else before._replace(holding=False)
                 for name, state, before in zip(self._roster.names, states, self._robots, strict=True)

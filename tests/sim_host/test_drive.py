@@ -98,7 +98,7 @@ def test_the_turn_rate_keeps_its_own_limits(now: float, demand: float) -> None:
 def test_robots_are_planned_each_for_itself() -> None:
     """Defect 5 of section 14 was one memory for all robots."""
     now, demand = np.array([0, 1 + 1j, -2j]), np.array([3, 0, 2j])
-    together = MOVING.toward(now, demand)
+    together = Ramp.of_moving([LIMITS] * 3, STEP, STEPS).toward(now, demand)
     for one in range(3):
         alone = MOVING.toward(now[one : one + 1], demand[one : one + 1])
         assert together[:, one] == approx(alone[:, 0])

@@ -16,7 +16,7 @@ from schemas.side import Side
 from sim_host.referee.core import Referee
 from sim_host.referee.positions import standing_wrong
 from sim_host.referee.state import Restart
-from sim_host.snapshot import BallState, RobotState, Roster, Snapshot
+from sim_host.snapshot import BallState, Robots, RobotState, Roster, Snapshot
 from sim_host.start import start_poses
 from sim_host.world.world import World
 
@@ -28,7 +28,7 @@ def a_match(profile_name, rules, **overrides):
     starts = start_poses(roster, profile.field, book.restarts)
     settings = {"duration": None, "kick_off": Side.CYAN, "automatic": True, "starts": starts}
     referee = Referee(book, profile.field, profile.ball, roster, **settings)
-    robots = tuple(
+    robots = Robots(
         RobotState(pose.x, pose.y, 0.4, pose.heading, 0.0, 0.0, 0.0, False)
         for pose in (starts[name] for name in roster.names)
     )

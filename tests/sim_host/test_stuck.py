@@ -8,7 +8,7 @@ from schemas.profile import load_profile
 from schemas.robot_model import RobotModel
 from sim_host.actuation.stuck import StuckWatch
 from sim_host.actuation.velocity_drive import VelocityDrive
-from sim_host.snapshot import RobotState
+from sim_host.snapshot import Robots, RobotState
 
 MSL = load_profile("msl")
 
@@ -41,7 +41,7 @@ def held(told: tuple[float, float, float], measured: tuple[float, float, float])
     last = [(0.0, 0.0, 0.0)] * 3
     for _ in range(50):
         moving = [last[0], measured, last[2]]
-        last = drive.plan([RobotState(0, 0, 0.4, 0, *twist, False) for twist in moving], commands)[-1]
+        last = drive.plan(Robots(RobotState(0, 0, 0.4, 0, *twist, False) for twist in moving), commands)[-1]
     flags: list[bool] = drive.held.tolist()
     return flags
 

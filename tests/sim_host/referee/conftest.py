@@ -13,7 +13,7 @@ from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
 from sim_host.referee.core import Referee, Ruling
-from sim_host.snapshot import BallState, ObstacleState, RobotState, Roster, Snapshot
+from sim_host.snapshot import BallState, ObstacleState, Robots, RobotState, Roster, Snapshot
 
 
 class Bench:
@@ -79,7 +79,7 @@ class Bench:
         A ball without another `spin`, in rad/s, rolls.
         """
         turning = spin or (-self.velocity[1] / self.radius, self.velocity[0] / self.radius)
-        robots = tuple(self._seen(name, *motions.get(self.robot(name), (0.0, 0.0, 0.0))) for name in self.roster.names)
+        robots = Robots(self._seen(name, *motions.get(self.robot(name), (0.0, 0.0, 0.0))) for name in self.roster.names)
         ball = BallState(
             *self._turned(*self.ball[:2]), self.ball[2], *self._turned(*self.velocity[:2]), self.velocity[2]
         )

@@ -13,7 +13,7 @@ from schemas.sections import Sensing
 from schemas.side import Side
 from sim_host.sensing.perception import Percept, Perception
 from sim_host.sensing.streams import Streams
-from sim_host.snapshot import BallState, ObstacleState, RobotState, Roster, Snapshot
+from sim_host.snapshot import BallState, ObstacleState, Robots, RobotState, Roster, Snapshot
 
 TICK = 0.02
 Place = tuple[float, ...]
@@ -66,7 +66,7 @@ class Scenery:
 
     def look(self) -> list[Seen]:
         """Everybody's percept of the next tick."""
-        bodies = self.roster, tuple(self.robots), self.ball
+        bodies = self.roster, Robots(self.robots), self.ball
         snapshot = Snapshot(self.tick, self.tick * TICK, *bodies, None, (), obstacles=self.obstacles)
         self.tick += 1
         return [seen_of(percept) for percept in self.perception.at(snapshot, self.attacks)]
