@@ -33,15 +33,15 @@ class _Word:
     """The speaker's name and its word as JSON, left open for the age: written once, heard by all in every tick."""
 
 
-class _Heard(dict[_Word, bytes]):
-    """Word → the same with its age at one tick: written once for all who have heard it."""
+class _Ages(dict[int, bytes]):
+    """Tick → how long ago that is in one tick, as the end of a word: many words are of the same age."""
 
     def __init__(self, tick: int, tick_s: float) -> None:
         self._tick = tick
         self._tick_s = tick_s
 
-    def __missing__(self, word: _Word) -> bytes:
-        self[word] = text = b'%b"age":%.4f}' % (word.opened, (self._tick - word.said) * self._tick_s)
+    def __missing__(self, said: int) -> bytes:
+        self[said] = text = b'"age":%.4f}' % ((self._tick - said) * self._tick_s)
         return text
 
 
@@ -147,8 +147,10 @@ class RadioAir:
                 before = self._heard[mate].get(speaker)
                 if before is None or word.said > before.said:
                     self._heard[mate][speaker] = word
-        texts = _Heard(tick, self._tick_s)
-        return [b"{%b}" % b",".join([texts[word] for word in words.values()]) for words in self._heard]
+        ages = _Ages(tick, self._tick_s)
+        return [
+            b"{%b}" % b",".join([word.opened + ages[word.said] for word in heard.values()]) for heard in self._heard
+        ]
 
     def _forget(self, team: _TeamAir, tick: int) -> None:
         oldest = tick - _WINDOW_S / self._tick_s

@@ -22,25 +22,28 @@ class OwnMotion:
         self._sigma = np.array([s.own_position] * 2 + [s.own_heading] + [s.own_velocity] * 2 + [s.own_turn_rate])
         self._rate = s.noise_rate
         self._noise = Block(self._draw)
+        seen = self._seen = np.empty((len(roster.names), _PARTS))
+        self._place, self._velocity = seen[:, 0:2].view(complex)[:, 0], seen[:, 3:5].view(complex)[:, 0]
+        self._heading, self._omega = seen[:, 2], seen[:, 5]
 
-    def at(self, tick: int, robots: Motions, frames: TeamFrames) -> Floats:
-        """x, y, heading, vx, vy, omega of each robot in its team frame, shape (6, robots)."""
-        place = frames.sign * robots.place
-        place += frames.shift
-        velocity = frames.turn * robots.velocity
-        seen = np.empty((_PARTS, len(place)))
-        seen[0], seen[1], seen[2] = place.real, place.imag, robots.heading
-        seen[3], seen[4], seen[5] = velocity.real, velocity.imag, robots.omega
+    def at(self, tick: int, robots: Motions, frames: TeamFrames) -> list[list[float]]:
+        """x, y, heading, vx, vy, omega of each robot in its team frame."""
+        seen = self._seen
+        np.multiply(frames.sign, robots.place, out=self._place)
+        np.add(self._place, frames.shift, out=self._place)
+        np.multiply(frames.turn, robots.velocity, out=self._velocity)
+        self._heading[...], self._omega[...] = robots.heading, robots.omega
         seen += self._noise.at(tick)
-        _turn(seen[2], frames.angle)
-        return seen
+        _turn(self._heading, frames.angle)
+        numbers: list[list[float]] = seen.tolist()
+        return numbers
 
     def _draw(self, ticks: range) -> list[Floats]:
-        """The noise of each of these ticks, shape (6, robots); a reading that has none is 0 throughout."""
+        """The noise of each of these ticks, shape (robots, 6); a reading that has none is 0 throughout."""
         noise: Floats = self._streams.normals(What.OWN, self._names, ticks, _PARTS) * self._sigma
         if self._rate < 1.0:
             noise *= self._streams.uniforms(What.OWN_LUCK, self._names, ticks, 1) < self._rate
-        return list(np.ascontiguousarray(np.moveaxis(noise, 2, 1)))
+        return list(noise)
 
 
 def _turn(directions: Floats, angle: Floats) -> None:

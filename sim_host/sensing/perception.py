@@ -103,7 +103,7 @@ class Perception:
                 self.develop()
         while self._under_way and self._under_way[0].tick <= tick - self._shutter.latency:
             self._take_in(self._under_way.popleft())
-        own = self._own.at(tick, robots, frames).T.tolist()
+        own = self._own.at(tick, robots, frames)
         known, tick_s = self._known, self._tick_s
         age = (tick - known.tick) * tick_s
         return [
