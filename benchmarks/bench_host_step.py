@@ -10,11 +10,10 @@ import statistics
 import time
 from collections.abc import Callable
 
-from pydantic_core import to_json
-
 from schemas.command import BallBelief, Command, Drive, Motion, Radio
-from schemas.light import light_reader
+from schemas.light import light_encode_exactly, light_reader
 from schemas.match_config import load_match
+from schemas.message import VERSION
 from sim_host.simulation import Simulation
 from sim_host.world.engine import Engine
 
@@ -57,7 +56,7 @@ def main() -> None:
     def host() -> None:
         for commanded in told:
             tick = simulation.step(commanded)  # sights, beliefs and inputs leave it encoded
-            to_json(tick.world)
+            light_encode_exactly({"version": VERSION, **tick.world})  # as `Publisher.put_fields` does
 
     raw = Engine(simulation.profile, simulation.roster)
     drives = [(math.cos(place), math.sin(place), 0.3) for place in range(len(raw.robots))]

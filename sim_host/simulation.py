@@ -7,8 +7,6 @@ from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from pydantic_core import to_json
-
 from schemas.coach import CoachOrder
 from schemas.command import Command
 from schemas.errors import TouchlineError
@@ -298,7 +296,7 @@ class Simulation:
         if done.rebuilt:
             fields["obstacles"] = self._stage.obstacles
         fields["episode"] = self.episode
-        rest = to_json({"version": VERSION, **fields}, inf_nan_mode="constants").removesuffix(b"}")
+        rest = light_encode_exactly({"version": VERSION, **fields}).removesuffix(b"}")
         noted = b'%s,"inputs":%s' % (rest, light_encode(inputs))
         chain = self.world.chain(noted)
         return {"applied": {**fields, "inputs": inputs, "chain": chain}, "applied_encoded": chained(noted, chain)}
