@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from schemas.command import Radio
 from schemas.light import beyond_defaults, light_encode_exactly
@@ -19,6 +20,8 @@ _WINDOW_S = 1.0
 
 _EMPTY = b"{}"
 
+Delays = NDArray[np.int64]
+"""Ticks from each member of a team to each, shape (members, members)."""
 _LOST = -1
 """In place of a delay in ticks: the word never arrives."""
 _SAME = 1e-6
@@ -120,12 +123,12 @@ class RadioAir:
         """On its way to everyone who will hear it."""
         side = self._roster.sides[speaker]
         members = self._members[side]
-        delays = self._delays[side].at(word.said)[members.index(speaker)]
+        delays = self._delays[side].at(word.said)[members.index(speaker)].tolist()
         for mate, delay in zip(members, delays, strict=True):
             if mate != speaker and delay != _LOST:
                 self._under_way.setdefault(word.said + delay, []).append((speaker, mate, word))
 
-    def _new_delays(self) -> dict[Side, Block[list[list[int]]]]:
+    def _new_delays(self) -> dict[Side, Block[Delays]]:
         """Per side and tick: for how many ticks a word of each member is under way to each member."""
         names = self._roster.names
         return {
@@ -133,12 +136,11 @@ class RadioAir:
             for side, members in self._members.items()
         }
 
-    def _draw(self, names: Sequence[str], ticks: range) -> list[list[list[int]]]:
+    def _draw(self, names: Sequence[str], ticks: range) -> list[Delays]:
         air = self._air
         lost, late, *_ = np.moveaxis(self._streams.between(What.AIR, names, names, ticks), -1, 0)
         whole = np.ceil((air.delay + late * air.jitter) / self._tick_s - _SAME).astype(np.int64)
-        delays: list[list[list[int]]] = np.where(lost < air.loss, _LOST, whole).tolist()
-        return delays
+        return list(np.where(lost < air.loss, _LOST, whole))
 
     def listen(self, tick: int) -> list[bytes]:
         """What everybody has heard by this tick, as JSON: teammate → `schemas.sight.Heard`, the newest of each."""

@@ -1,8 +1,7 @@
 """The state of the world at one tick, as plain numbers in the field frame: what the referee and the sensors look at."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import chain
 from typing import NamedTuple, Self
 
@@ -56,10 +55,14 @@ class Motions(NamedTuple):
 class Robots(tuple[RobotState, ...]):
     """All robots, in the order of the roster."""
 
-    @cached_property
-    def motions(self) -> Motions:
-        """The same as arrays, made once for all who work with them; never changed."""
-        return Motions.of(self)
+    motions: Motions
+    """The same as arrays, made once for all who work with them; never changed."""
+
+    def __new__(cls, robots: Iterable[RobotState]) -> Self:
+        """These robots."""
+        self = super().__new__(cls, robots)
+        self.motions = Motions.of(self)
+        return self
 
 
 class BallState(NamedTuple):
