@@ -104,6 +104,13 @@ def test_robots_are_planned_each_for_itself() -> None:
         assert together[:, one] == approx(alone[:, 0])
 
 
+def test_what_was_planned_stays_what_it_is_when_the_next_tick_is_planned() -> None:
+    shortened, first = MOVING.within_limits(np.array([100j])), MOVING.toward(np.array([0j]), np.array([3 + 0j]))
+    kept = shortened.copy(), first.copy()
+    MOVING.toward(first[-1], np.array([-3j]))
+    assert (shortened == kept[0]).all() and (first == kept[1]).all()
+
+
 @pytest.mark.parametrize("step", [0.0025, 0.005, 0.01])
 def test_an_acceleration_is_the_same_in_steps_of_any_length(step: float) -> None:
     """Reference 14, defect 15: the seed's trajectory took every step for 7 ms. 1 m/s is reached after v / a."""
