@@ -1,7 +1,7 @@
 """One order for the messages of many keys: by simulated time, each key in its own order, and the same in every run.
 
-Messages come through as many mailboxes as there are topics. Written as they are met, twenty ticks of one topic would
-stand before the first tick of the next; so they are held for a moment and released tick by tick.
+Robots answer in an order that no two runs share, a message may come late, and sights come on a way of their own. So all
+are held for a moment and released tick by tick.
 """
 
 from bisect import bisect_left
@@ -10,14 +10,19 @@ from operator import itemgetter
 
 from schemas.bus.contract import Received
 from schemas.topic import Party
-from schemas.topics import APPLIED, INTAKE, WORLD
+from schemas.topics import SIGHT, TOPICS
 
-_EACH_TICK = frozenset({WORLD.key, APPLIED.key, INTAKE.key})
-"""What the host says once in every tick: how far each of them has come tells what can be missing still."""
-
+_PLACES = {
+    topic.key: place
+    for place, topic in enumerate(
+        row for row in TOPICS.values() if (row.recorded and row.writer is Party.HOST) or row is SIGHT
+    )
+}
+"""Rows of the host's in the order in which their messages of one moment stand; all others come after them."""
+_LAST = len(_PLACES)
 
 Timed = tuple[int, int, str, int, Received]
-"""A message behind its place: simulated time in ns, topic of the table, key, and number on the key; sorts by these."""
+"""A message behind its place: simulated time in ns, place of its row, key, and number on the key; sorts by these."""
 
 
 _FIRST = (0, 0)
@@ -30,7 +35,7 @@ class SimOrder:
         self._held: list[Timed] = []
         self._of_key: dict[str, tuple[int, int]] = {}
         self._host_ns = 0
-        self._each_tick: dict[str, int] = {}
+        self._settled_ns: int | None = None
         self._released_ns = 0
 
     def __len__(self) -> int:
@@ -43,22 +48,30 @@ class SimOrder:
 
     @property
     def settled_ns(self) -> int:
-        """Up to where all that comes in every tick has come, ns; one of them may be recovered late."""
-        return min(self._each_tick.values(), default=self._host_ns)
+        """Up to where the host's minutes have come, ns."""
+        return self._host_ns if self._settled_ns is None else self._settled_ns
+
+    def settle(self, minutes: Received) -> None:
+        """All that these minutes hold was taken in."""
+        if minutes.stamp is not None:
+            self._settled_ns = max(self._settled_ns or 0, minutes.stamp.sim_ns)
+            self._host_ns = max(self._host_ns, minutes.stamp.sim_ns)
 
     def reach(self, received: Received) -> None:
         """The host has said this, which is not kept here."""
         if received.topic.writer is Party.HOST and received.stamp is not None:
-            self._reach(received.key, received.stamp.sim_ns)
+            self._host_ns = max(self._host_ns, received.stamp.sim_ns)
 
-    def add(self, row: int, messages: Iterable[Received]) -> None:
+    def add(self, messages: Iterable[Received]) -> None:
         """Take messages in; those of a key come in their order."""
         held, of_key = self._held, self._of_key
         for received in messages:
             key, stamp = received.key, received.stamp
             said = stamp.sim_ns if stamp is not None else -1
-            if received.topic.writer is Party.HOST:
-                self._reach(key, said)
+            place = _PLACES.get(received.topic.key, _LAST)
+            if place != _LAST:
+                if said > self._host_ns:
+                    self._host_ns = said
             elif said > self._host_ns:
                 said = -1  # it claims to be ahead of the host
             moment = said if said >= 0 else self._host_ns
@@ -66,7 +79,7 @@ class SimOrder:
             if moment < last:
                 moment = last
             of_key[key] = moment, number + 1
-            held.append((moment, row, key, number, received))
+            held.append((moment, place, key, number, received))
 
     def release(self, before_ns: int | None = None) -> list[tuple[int, Received]]:
         """Give out what is older than `before_ns`, or everything: log time in ns, never running backward, and message.
@@ -81,9 +94,3 @@ class SimOrder:
             self._released_ns = out[-1][0]
         del held[:count]
         return out
-
-    def _reach(self, key: str, sim_ns: int) -> None:
-        if sim_ns > self._host_ns:
-            self._host_ns = sim_ns
-        if key in _EACH_TICK:
-            self._each_tick[key] = max(self._each_tick.get(key, 0), sim_ns)

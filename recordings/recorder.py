@@ -13,9 +13,9 @@ from recordings.cast import Cast
 from recordings.control import Controls
 from recordings.head import attachments, date, manifest_of
 from recordings.holding import Holding
-from recordings.intake import received_of
 from recordings.manifest import Ended, Manifest, Result
 from recordings.match_notes import MatchNotes
+from recordings.minutes import received_of
 from recordings.order import SimOrder
 from recordings.output import Output
 from recordings.presence import HostWatch
@@ -26,8 +26,8 @@ from schemas.bus.contract import Answer, Bus, NoAnswerError, Received
 from schemas.host import RecorderProgress, Setup, SetupRequest
 from schemas.match_config import MatchConfig
 from schemas.message import BadMessageError
-from schemas.topic import Delivery, Party, Topic
-from schemas.topics import EVENT, INTAKE, PROGRESS, SETUP, SIGHT, STATE, TOPICS
+from schemas.topic import Delivery, Topic
+from schemas.topics import EVENT, MINUTES, PROGRESS, SETUP, SIGHT
 
 REPORT_TICKS = 25
 """Ticks after which a lockstep host is told at once that they were taken in."""
@@ -60,15 +60,14 @@ class RecordingSummary:
 
 
 def heard_topics(sights: bool) -> Iterator[Topic]:
-    """The rows that a recorder listens to.
+    """The rows that a recorder listens to: the host's minutes have everything but sights.
 
-    What others than the host say it takes from the host's intake, which can be fetched again. Sights, when asked for,
-    all of them and not the newest alone; they can be fetched again where the match file has them recorded.
+    Sights, when asked for, all of them and not the newest alone; they can be fetched again where the match file has
+    them recorded.
     """
-    yield from (topic for topic in TOPICS.values() if topic.recorded and topic.writer is Party.HOST)
+    yield MINUTES
     if sights:
         yield replace(SIGHT, delivery=Delivery.RECOVERED)
-    yield INTAKE
 
 
 class Recorder:
@@ -162,7 +161,7 @@ class Recorder:
     def _is_over(self) -> bool:
         """Whether the match is over: a host that ends waits until its recorders have everything."""
         if not self._notes.finished:
-            self._take_in_row(self._topics.index(STATE))
+            self._take_in_row(self._topics.index(MINUTES))
         return self._notes.finished
 
     def finish(self, stopped: bool = False) -> RecordingSummary:
@@ -208,17 +207,16 @@ class Recorder:
         return came
 
     def _take_in_row(self, row: int) -> int:
-        """Take in what waits of a topic, or all that the host's intake holds; returns how many messages that were."""
+        """Take in what waits of a topic, or all that the host's minutes hold; returns how many messages that were."""
         messages = list(islice(iter(self._subscriptions[row].receive, None), _AT_ONCE))
         if not messages:
             return 0
-        if self._topics[row] is INTAKE:
+        if self._topics[row] is MINUTES:
             messages = [entry for received in messages for entry in self._unpacked(received)]
-        else:
             self._notes.take(messages)
         if self._selection:
             messages = [received for received in messages if self._wants(received)]
-        self._order.add(row, messages)
+        self._order.add(messages)
         self._messages += len(messages)
         return len(messages)
 
@@ -232,13 +230,13 @@ class Recorder:
             self._order.reach(received)
         return wanted
 
-    def _unpacked(self, intake: Received) -> list[Received]:
+    def _unpacked(self, minutes: Received) -> list[Received]:
         try:
-            entries = received_of(intake)
+            entries = received_of(minutes)
         except BadMessageError:
-            self._notes.unreadable[INTAKE.key] += 1
+            self._notes.unreadable[MINUTES.key] += 1
             return []
-        self._order.reach(intake)
+        self._order.settle(minutes)
         return entries
 
     def _report(self, idle: bool) -> None:

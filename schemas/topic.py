@@ -52,6 +52,8 @@ class Topic:
     recorded: bool
     says: str
     reply: type[Message] | None = None
+    kept: int = 1500
+    """Messages of a `recovered` topic that a writer keeps of a key: 30 s of ticks in real time."""
 
     @property
     def chunks(self) -> tuple[str, ...]:

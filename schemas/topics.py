@@ -10,7 +10,7 @@ from schemas.control import RecorderReply, RecorderRequest
 from schemas.game import ActionReply, GameEvent, GameState, RefereeAction
 from schemas.hand import HandDrive
 from schemas.host import Applied, Belief, Health, Invalid, RecorderProgress, Setup, SetupRequest
-from schemas.intake import Intake
+from schemas.minutes import Minutes
 from schemas.parameters import ParametersReply, ParametersRequest
 from schemas.replay import ReplayReply, ReplayRequest
 from schemas.scene import SceneReply, SceneRequest
@@ -207,15 +207,16 @@ INVALID = Topic(
     True,
     "a payload that was no valid message, and why",
 )
-INTAKE = Topic(
-    "host/intake",
-    Intake,
+MINUTES = Topic(
+    "host/minutes",
+    Minutes,
     Party.HOST,
     (Party.RECORDER,),
-    _TICK,
+    "every 8 ticks, or 0.15 s of wall time",
     Delivery.RECOVERED,
     False,
-    "commands and orders as they reached the host; recorders record them on their own keys from here",
+    "all that is recorded, as the host said it and took it in; recorders record it on its own keys from here",
+    kept=300,
 )
 PROGRESS = Topic(
     "record/{name}/progress",
@@ -279,7 +280,7 @@ TOPICS: dict[str, Topic] = {
     "applied": APPLIED,
     "health": HEALTH,
     "invalid": INVALID,
-    "intake": INTAKE,
+    "minutes": MINUTES,
     "progress": PROGRESS,
     "control": CONTROL,
     "replay": REPLAY,

@@ -3,13 +3,13 @@
 from collections.abc import Callable, Sequence
 
 from schemas.bus.contract import Bus
+from schemas.bus.minutes import MinuteKeeper
 from schemas.game import ActionReply, RefereeAction
 from schemas.topics import PARAMETERS, SCENE, SETUP
 from sim_host.clerks.actions import ActionClerk
 from sim_host.clerks.orders import OrderClerk
 from sim_host.clerks.prompt import PromptClerk
 from sim_host.complaints import Complaints
-from sim_host.relay import Relay
 from sim_host.simulation import Simulation
 
 
@@ -17,13 +17,18 @@ class Desk:
     """Answers between two ticks."""
 
     def __init__(
-        self, bus: Bus, simulation: Simulation, complaints: Complaints, relay: Relay, officiated: Callable[[], bool]
+        self,
+        bus: Bus,
+        simulation: Simulation,
+        complaints: Complaints,
+        minutes: MinuteKeeper,
+        officiated: Callable[[], bool],
     ) -> None:
         """`officiated` tells whether a league's referee box decides: then nobody else does."""
         self._setup = PromptClerk(bus, SETUP, lambda _: simulation.setup(), complaints)
         self._parameters = PromptClerk(bus, PARAMETERS, simulation.parameters, complaints)
         self._scene = PromptClerk(bus, SCENE, simulation.scene, complaints)
-        self._orders = OrderClerk(bus, simulation.orders, complaints, relay)
+        self._orders = OrderClerk(bus, simulation.orders, complaints, minutes)
         self._actions = ActionClerk(bus, complaints, officiated)
 
     @property

@@ -1,6 +1,9 @@
 """The host of one match: the simulation on the bus, tick by tick, at its pace."""
 
+from collections.abc import Callable
+
 from schemas.bus.contract import Bus
+from schemas.bus.minutes import MinuteKeeper
 from schemas.game import EventKind, GameEvent
 from schemas.match_config import MatchConfig
 from schemas.profile import Profile
@@ -12,7 +15,6 @@ from sim_host.inbox import Inbox
 from sim_host.outbox import Outbox
 from sim_host.pace import Lockstep, Pace, Realtime
 from sim_host.pulse import Pulse
-from sim_host.relay import Relay
 from sim_host.simulation import Simulation, Tick
 from sim_host.standing import StandingOrders
 
@@ -29,17 +31,17 @@ class Host:
     def __init__(self, config: MatchConfig, bus: Bus) -> None:
         self.simulation = Simulation(config)
         self._complaints = Complaints()
-        self._relay = Relay(bus)
-        self.inbox = Inbox(bus, self.simulation.roster, self._complaints, self._relay)
+        self._minutes = MinuteKeeper(bus)
+        self.inbox = Inbox(bus, self.simulation.roster, self._complaints, self._minutes)
         self.attendance = Attendance(bus, self.inbox.ledgers, config.patience.recorder)
         self._hands = Hands(bus, self._complaints)
         self._config = config
         self._clock = bus.clock
-        self._desk = Desk(bus, self.simulation, self._complaints, self._relay, self.attendance.is_officiated)
-        self.pace = _pace(config, bus, self.inbox, self.attendance, self._desk, self.simulation.profile)
+        self._desk = Desk(bus, self.simulation, self._complaints, self._minutes, self.attendance.is_officiated)
+        self.pace = _pace(config, bus, self.inbox, self.attendance, self._meanwhile, self.simulation.profile)
         tick_s = self.simulation.profile.time.tick
-        self._outbox = Outbox(bus, self.simulation.roster, tick_s, sights_kept=config.record.sights)
-        self._standing = StandingOrders(bus, self.simulation.orders, self.inbox.ledgers, tick_s)
+        self._outbox = Outbox(self._minutes, self.simulation.roster, tick_s, sights_kept=config.record.sights)
+        self._standing = StandingOrders(self._minutes, self.simulation.orders, self.inbox.ledgers, tick_s)
         self._pulse = Pulse(bus.clock, config.pace)
         self._roster = self.simulation.roster
         self._silent = dict.fromkeys(self._roster.names, False)
@@ -70,6 +72,7 @@ class Host:
             self.attendance.update(timeout=0.02)
             self._attend()
             self._report(self.simulation.now)
+            self._minutes.send_if_due()
             if self._desk.actions:
                 return
 
@@ -79,6 +82,7 @@ class Host:
         for robot, sight in first.sights.items():
             self._send_sight(robot, sight)
         self._outbox.truth(first, self.simulation.state)
+        self._minutes.end_tick(first.tick)
         self.pace.begin()
 
     def tick(self) -> Tick:
@@ -92,21 +96,22 @@ class Host:
         tick = self.simulation.step(commands, self._desk.actions, self._send_sight, silent)
         self._outbox.truth(tick, self.simulation.state)
         self._standing.tell(tick.tick, tick.time, self.simulation.roster)
-        self._relay.send(tick.tick)
         self._desk.reply(tick.replies)
         self._keep_account(tick)
         self._report(tick)
+        self._minutes.end_tick(tick.tick)
         return tick
 
     def part(self) -> None:
         """Give the recorders time to take in the last tick, and after full time those who watch to hear of it."""
         last = self.simulation.now.tick
+        self._minutes.send()
         deadline = self._clock.now() + _PARTING_S
         while self._clock.now() < deadline:
             self.attendance.update(timeout=0.005)
             self._desk.attend()
             self._desk.refuse("the match is over")
-            self._relay.send(last)
+            self._minutes.send_if_due()
             if not any(self.attendance.behind(last).values()):
                 break
         if self.simulation.over and self.attendance.is_watched():
@@ -129,6 +134,11 @@ class Host:
             self._outbox.follow(roster)
             self._silent = {name: self._silent.get(name, False) for name in roster.names}
         self._roster = roster
+
+    def _meanwhile(self) -> None:
+        """While answers are missing: whoever joins must know the match, and what was said must not wait as long."""
+        self._desk.tell_setup()
+        self._minutes.send_if_due()
 
     def _send_sight(self, robot: str, sight: bytes) -> None:
         """Sights go out before anything else: robots wait for them, watchers do not."""
@@ -185,7 +195,14 @@ class Host:
             self._outbox.health(self._pulse.report(tick.tick, tick.time, late, self.inbox, self.attendance))
 
 
-def _pace(config: MatchConfig, bus: Bus, inbox: Inbox, attendance: Attendance, desk: Desk, profile: Profile) -> Pace:
+def _pace(
+    config: MatchConfig,
+    bus: Bus,
+    inbox: Inbox,
+    attendance: Attendance,
+    meanwhile: Callable[[], None],
+    profile: Profile,
+) -> Pace:
     if config.speed is None:
-        return Lockstep(bus.clock, inbox, attendance, config.patience, desk.tell_setup)
+        return Lockstep(bus.clock, inbox, attendance, config.patience, meanwhile)
     return Realtime(bus.clock, inbox, profile.time.tick, config.speed, profile.safety.watchdog)

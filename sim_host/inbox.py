@@ -7,13 +7,13 @@ from itertools import chain, repeat
 from statistics import median
 
 from schemas.bus.contract import Bus, Received
+from schemas.bus.minutes import MinuteKeeper
 from schemas.command import Command
 from schemas.host import RobotHealth
 from schemas.light import light_reader
 from schemas.message import BadMessageError
 from schemas.topics import COMMAND
 from sim_host.complaints import Complaints
-from sim_host.relay import Relay
 from sim_host.snapshot import Roster
 
 _read_command = light_reader(Command)
@@ -92,11 +92,11 @@ class Ledger:
 class Inbox:
     """The commands of all robots."""
 
-    def __init__(self, bus: Bus, roster: Roster, complaints: Complaints, relay: Relay) -> None:
-        """`relay` gets everything that comes, for the record."""
+    def __init__(self, bus: Bus, roster: Roster, complaints: Complaints, minutes: MinuteKeeper) -> None:
+        """`minutes` gets everything that comes, for the record."""
         self._commands = bus.subscribe(COMMAND)
         self._complaints = complaints
-        self._relay = relay
+        self._minutes = minutes
         self.ledgers: dict[str, Ledger] = {}
         self.strangers: dict[str, int] = {}
         self._sent_at: deque[tuple[int, int]] = deque(maxlen=_LATENCIES)
@@ -124,7 +124,7 @@ class Inbox:
             received = self._commands.receive(wait)
             if received is None:
                 return None
-            self._relay.note(received)
+            self._minutes.note(received)
             taken = self._judge(received, tick)
             if taken is not None:
                 return taken

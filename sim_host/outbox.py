@@ -3,7 +3,8 @@
 from dataclasses import replace
 from typing import Any
 
-from schemas.bus.contract import Bus, Publisher
+from schemas.bus.contract import Publisher
+from schemas.bus.minutes import MinuteKeeper
 from schemas.game import GameEvent
 from schemas.host import Health, Invalid
 from schemas.side import Side
@@ -22,17 +23,17 @@ _STATE_S = 1.0
 class Outbox:
     """All writers of the host."""
 
-    def __init__(self, bus: Bus, roster: Roster, tick_s: float, *, sights_kept: bool = False) -> None:
+    def __init__(self, minutes: MinuteKeeper, roster: Roster, tick_s: float, *, sights_kept: bool = False) -> None:
         """`sights_kept`: a recorder can fetch sights again, which costs some 30 MB of memory for ten robots."""
         self._sight_topic = replace(SIGHT, delivery=Delivery.RECOVERED) if sights_kept else SIGHT
-        self._bus = bus
-        self._world = bus.publisher(WORLD)
-        self._applied = bus.publisher(APPLIED)
-        self._state = bus.publisher(STATE)
-        self._event = bus.publisher(EVENT)
-        self._health = bus.publisher(HEALTH)
-        self._invalid = bus.publisher(INVALID)
-        self._ball = bus.publisher(WORLD_BALL)
+        self._minutes = minutes
+        self._world = minutes.publisher(WORLD)
+        self._applied = minutes.publisher(APPLIED)
+        self._state = minutes.publisher(STATE)
+        self._event = minutes.publisher(EVENT)
+        self._health = minutes.publisher(HEALTH)
+        self._invalid = minutes.publisher(INVALID)
+        self._ball = minutes.publisher(WORLD_BALL)
         self._sent: dict[str, bytes] = {}
         self._wanted: list[tuple[Publisher, str | None]] = []
         self._sights: dict[str, Publisher] = {}
@@ -47,10 +48,10 @@ class Outbox:
         self._roster = roster
         for name, side in zip(roster.names, roster.sides, strict=True):
             if name not in self._sights:
-                self._sights[name] = self._bus.publisher(self._sight_topic, robot=name)
-                self._robots[name] = self._bus.publisher(WORLD_ROBOT, robot=name)
+                self._sights[name] = self._minutes.publisher(self._sight_topic, robot=name)
+                self._robots[name] = self._minutes.publisher(WORLD_ROBOT, robot=name)
             if (name, side) not in self._beliefs:
-                self._beliefs[name, side] = self._bus.publisher(BELIEF, side=side.value, robot=name)
+                self._beliefs[name, side] = self._minutes.publisher(BELIEF, side=side.value, robot=name)
         self._wanted = []
 
     def sight(self, robot: str, sight: bytes) -> None:

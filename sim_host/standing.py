@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from schemas.bus.contract import Bus
+from schemas.bus.minutes import MinuteKeeper
 from schemas.coach import CoachOrder, StandingOrder
 from schemas.side import Side
 from schemas.topics import STANDING_ORDER
@@ -16,11 +16,17 @@ _AGAIN_S = 1.0
 class StandingOrders:
     """The standing order of each side as it is told."""
 
-    def __init__(self, bus: Bus, orders: Mapping[Side, CoachOrder], ledgers: Mapping[str, Ledger], tick_s: float):
+    def __init__(
+        self,
+        minutes: MinuteKeeper,
+        orders: Mapping[Side, CoachOrder],
+        ledgers: Mapping[str, Ledger],
+        tick_s: float,
+    ) -> None:
         """`orders` are those that stand, kept up to date by somebody else, as the `ledgers` are."""
         self._orders = orders
         self._ledgers = ledgers
-        self._writers = {side: bus.publisher(STANDING_ORDER, side=side.value) for side in Side}
+        self._writers = {side: minutes.publisher(STANDING_ORDER, side=side.value) for side in Side}
         self._every = round(_AGAIN_S / tick_s)
         self._told: dict[Side, tuple[int, dict[str, bool]]] = {}
 

@@ -7,8 +7,8 @@ from typing import Any
 from recordings.reader import Recorded
 from recordings.replay.listeners import Listeners
 from recordings.replay.player import Player
-from recordings.replay.relay import Relay
-from schemas.bus.contract import Bus, Publisher, Server
+from schemas.bus.contract import Bus, Publisher, Received, Server, Stamp
+from schemas.bus.minutes import MinuteKeeper
 from schemas.game import ActionReply
 from schemas.host import Setup
 from schemas.message import BadMessageError, Message
@@ -48,7 +48,7 @@ class ReplayHost:
         self._refused: list[tuple[Server, Callable[[], Message]]] = [
             (bus.serve(topic), refusal) for topic, refusal in _REFUSALS.items()
         ]
-        self._relay = Relay(bus)
+        self._minutes = MinuteKeeper(bus)
         self._tick_ns = setup.time.tick * 1e9 if setup is not None else math.inf
         self._listeners = Listeners(bus, self._tick_ns)
         self.player = make_player(say=self._say, has_room=self._listeners.have_room)
@@ -77,7 +77,7 @@ class ReplayHost:
         self._answer()
         newcomers = self._listeners.update()
         said = self.player.pump()
-        self._relay.send(self._tick(), empty=False)
+        self._minutes.send_if_due()
         now = self._clock.now()
         if said:
             self._told_at = now
@@ -92,6 +92,8 @@ class ReplayHost:
 
     def part(self) -> None:
         """Give the recorders time to take in the last message."""
+        self._minutes.end_tick(self._tick())
+        self._minutes.send()
         deadline = self._clock.now() + _PARTING_S
         while self._listeners.behind() and self._clock.now() < deadline:
             self._clock.sleep_until(self._clock.now() + _NAP_S)
@@ -100,7 +102,7 @@ class ReplayHost:
 
     def _say(self, recorded: Recorded) -> None:
         if recorded.log_ns != self._clock.sim_ns:
-            self._relay.send(self._tick(), empty=True)
+            self._minutes.end_tick(self._tick())
             self._clock.sim_ns = recorded.log_ns
         try:
             writer = self._writers[recorded.key]
@@ -109,9 +111,10 @@ class ReplayHost:
         if writer is None:
             self.foreign += 1
         else:
-            writer.put_payload(recorded.payload)
+            stamp = writer.put_payload(recorded.payload)
             if recorded.topic.writer is not Party.HOST:
-                self._relay.note(recorded)
+                stamp = Stamp(stamp.sequence, recorded.sent_ns, recorded.log_ns)
+                self._minutes.note(Received(recorded.topic, recorded.key, recorded.payload, stamp))
             self._listeners.said(recorded)
 
     def _tick(self) -> int:
@@ -120,7 +123,10 @@ class ReplayHost:
 
     def _writer(self, recorded: Recorded) -> Publisher | None:
         chunks = recorded.topic.match(recorded.key)
-        return self._bus.publisher(recorded.topic, **chunks) if chunks is not None else None
+        if chunks is None:
+            return None
+        seat = self._minutes if recorded.topic.writer is Party.HOST else self._bus
+        return seat.publisher(recorded.topic, **chunks)
 
     def _answer(self) -> None:
         while (question := self._setups.receive()) is not None:

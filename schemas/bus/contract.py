@@ -80,21 +80,21 @@ class Publisher(ABC):
         self.topic = topic
         self.key = key
 
-    def put(self, message: Message) -> None:
+    def put(self, message: Message) -> Stamp:
         """Send a message; never waits for readers."""
-        self.put_payload(message.encode())
+        return self.put_payload(message.encode())
 
-    def put_fields(self, fields: dict[str, Any]) -> None:
+    def put_fields(self, fields: dict[str, Any]) -> Stamp:
         """Send a message given as plain fields, laid out as its model has them.
 
         Nothing is validated here, for speed: the reader validates, and refuses a NaN, which is null here. For messages
         sent many times per tick.
         """
-        self.put_payload(light_encode_exactly({"version": VERSION, **fields}))
+        return self.put_payload(light_encode_exactly({"version": VERSION, **fields}))
 
     @abstractmethod
-    def put_payload(self, payload: bytes) -> None:
-        """Send bytes that are a message already."""
+    def put_payload(self, payload: bytes) -> Stamp:
+        """Send bytes that are a message already; returns what travels beside them."""
 
     @abstractmethod
     def wanted(self) -> bool:

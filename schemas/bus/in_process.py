@@ -26,9 +26,6 @@ from schemas.clock import Clock
 from schemas.message import Message
 from schemas.topic import Delivery, Topic
 
-_KEPT = 1500
-"""Messages that are kept of each key for readers of the past."""
-
 
 @dataclass(eq=False)
 class Medium:
@@ -66,7 +63,7 @@ class _Publisher(Publisher):
         if topic.delivery is Delivery.RECOVERED:
             self._kept = bus.keep(topic, key)
 
-    def put_payload(self, payload: bytes) -> None:
+    def put_payload(self, payload: bytes) -> Stamp:
         bus = self._bus
         bus.check_open()
         stamp = Stamp(self._sequence, bus.clock.unix_ns(), bus.clock.sim_ns)
@@ -77,6 +74,7 @@ class _Publisher(Publisher):
                 self._kept.append(received)
             for subscription in bus.medium.subscriptions.get(bus.prefix + self.topic.key, ()):
                 subscription.bring(self.key, received)
+        return stamp
 
     def wanted(self) -> bool:
         if self.topic.delivery is Delivery.RECOVERED:
@@ -175,7 +173,7 @@ class InProcessBus(Bus):
 
     def keep(self, topic: Topic, key: str) -> deque[Received]:
         """Where a writer of this key keeps what it sends, for as long as its bus is open."""
-        kept: deque[Received] = deque(maxlen=_KEPT)
+        kept: deque[Received] = deque(maxlen=topic.kept)
         with self.medium.lock:
             self.medium.kept.setdefault(self.prefix + topic.key, {})[key] = kept
         self._kept.append((self.prefix + topic.key, key))

@@ -5,7 +5,7 @@ from typing import Any
 import zenoh
 from zenoh import ext
 
-from schemas.bus.contract import BusError, Publisher, Received
+from schemas.bus.contract import BusError, Publisher, Received, Stamp
 from schemas.bus.mending import Mender
 from schemas.bus.session import Seat, first_line
 from schemas.bus.zenoh_mending import ZenohMending
@@ -14,8 +14,6 @@ from schemas.bus.zenoh_sample import STAMP, is_poke, message_in
 from schemas.topic import Delivery, Topic
 from schemas.topics import TOPICS
 
-_CACHE = 1500
-"""Samples a writer keeps for recovery, per key: 30 s of ticks in real time."""
 _BACKLOG = 500_000
 """Samples that may wait for a reader who takes every one."""
 _LITERAL_KEYS = frozenset(topic.key for topic in TOPICS.values() if not topic.chunks)
@@ -36,7 +34,7 @@ class ZenohPublisher(Publisher):
             self._writer = ext.declare_advanced_publisher(
                 seat.session,
                 full,
-                cache=ext.CacheConfig(max_samples=_CACHE),
+                cache=ext.CacheConfig(max_samples=topic.kept),
                 sample_miss_detection=ext.MissDetectionConfig(heartbeat=0.5, sporadic_heartbeat=None),
                 publisher_detection=True,
                 **quiet,
@@ -44,13 +42,15 @@ class ZenohPublisher(Publisher):
         else:
             self._writer = seat.session.declare_publisher(full, **quiet)
 
-    def put_payload(self, payload: bytes) -> None:
+    def put_payload(self, payload: bytes) -> Stamp:
         clock = self._clock
+        stamp = Stamp(self._sequence, clock.unix_ns(), clock.sim_ns)
         try:
-            self._writer.put(payload, attachment=STAMP.pack(self._sequence, clock.unix_ns(), clock.sim_ns))
+            self._writer.put(payload, attachment=STAMP.pack(*stamp))
         except zenoh.ZError as error:
             raise BusError(f"this bus is closed ({first_line(error)})") from None
         self._sequence += 1
+        return stamp
 
     def wanted(self) -> bool:
         if self.topic.delivery is Delivery.RECOVERED:
@@ -71,11 +71,11 @@ class ZenohSubscription(ZenohReader):
         every: Any = zenoh.handlers.FifoChannel(_BACKLOG)
         if topic.delivery is Delivery.RECOVERED and not newest:
             recovery = ext.RecoveryConfig(heartbeat=True, periodic_queries=None)
-            history = ext.HistoryConfig(detect_late_publishers=True, max_samples=_CACHE) if past else None
+            history = ext.HistoryConfig(detect_late_publishers=True, max_samples=topic.kept) if past else None
             self._reader = ext.declare_advanced_subscriber(
                 seat.session, self._full_key, every, history=history, recovery=recovery
             )
-            mender = Mender(since_ns=0, reach=_CACHE) if past else Mender(since_ns=born_ns)
+            mender = Mender(since_ns=0, reach=topic.kept) if past else Mender(since_ns=born_ns)
             self._mending = ZenohMending(seat, mender, self._read, self.poke)
         else:
             self._reader = seat.session.declare_subscriber(self._full_key, every)

@@ -29,9 +29,9 @@ from schemas.host import (
     Setup,
     SetupRequest,
 )
-from schemas.intake import Intake, IntakeEntry
 from schemas.match_config import MatchConfig
 from schemas.message import Message
+from schemas.minutes import Minutes, MinutesEntry
 from schemas.parameters import Parameter, ParameterDeed, ParametersReply, ParametersRequest
 from schemas.profile import load_profile
 from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
@@ -173,12 +173,12 @@ def _host() -> tuple[Message, ...]:
             reason="Command: drive.vx is 'fast': Input should be a valid number",
             size=41,
         ),
-        Intake(
+        Minutes(
             tick=_TICK + 1,
             entries=[
-                IntakeEntry(
+                MinutesEntry(
                     key="robot/cyan2/command",
-                    text=Command(answers_tick=_TICK, drive=_DRIVE).encode().decode(),
+                    message=Command(answers_tick=_TICK, drive=_DRIVE).model_dump(mode="json"),
                     sequence=412,
                     sent_ns=1_767_225_608_240_311_872,
                     sim_ns=8_240_000_000,

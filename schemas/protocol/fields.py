@@ -100,6 +100,8 @@ def in_words(hint: Any, link: Link) -> str:
     """A type in words, with the limits it is declared with."""
     if hint == Name:
         return "name"
+    if hint is Any:
+        return "any JSON"
     if isinstance(hint, type) and hint in _PLAIN:
         return _PLAIN[hint]
     inner = get_args(hint)

@@ -14,22 +14,21 @@ from recordings.reader import Recording, open_recording
 from recordings.record import output_at
 from recordings.recorder import Recorder, RecordingSummary
 from recordings.selection import EVERYTHING, Selection
-from schemas.bus.contract import Bus, Publisher, Received
+from schemas.bus.contract import Bus, Publisher
 from schemas.bus.in_process import Medium
+from schemas.bus.minutes import MinuteKeeper
 from schemas.clock import SteppedClock
 from schemas.command import Command, Drive
 from schemas.game import EventKind, GameEvent, GameState, Phase, Score
 from schemas.host import Applied, AppliedInput, Setup
-from schemas.intake import payload_field
 from schemas.match_config import MatchConfig, load_match
 from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
 from schemas.sight import Sight
-from schemas.topics import APPLIED, COMMAND, EVENT, INTAKE, ORDER, SETUP, STATE, WORLD
+from schemas.topics import APPLIED, COMMAND, EVENT, ORDER, SETUP, STATE, WORLD
 from schemas.world import BallTruth, RobotTruth, World
 from sim_host.outbox import Outbox
-from sim_host.relay import Relay
 from sim_host.simulation import Simulation
 
 ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
@@ -70,13 +69,16 @@ class HandMadeHost:
     robots: Bus
     setup: Setup
     writers: dict[str, Publisher] = field(default_factory=dict)
+    is_prompt: bool = True
+    """It sends the minutes of each tick at once, so that nobody has to wait for them."""
 
     def __post_init__(self) -> None:
         self.server = self.bus.serve(SETUP)
         self.bus.declare_alive("host", "host")
         self.ears = [self.bus.subscribe(topic) for topic in (COMMAND, ORDER)]
-        for topic in (WORLD, APPLIED, STATE, EVENT, INTAKE):
-            self.writers[topic.key] = self.bus.publisher(topic)
+        self.minutes = MinuteKeeper(self.bus)
+        for topic in (WORLD, APPLIED, STATE, EVENT):
+            self.writers[topic.key] = self.minutes.publisher(topic)
         for name in ROBOTS:
             self.writers[COMMAND.fill(robot=name)] = self.robots.publisher(COMMAND, robot=name)
 
@@ -95,25 +97,21 @@ class HandMadeHost:
         self.relay(tick, len(ROBOTS))
 
     def relay(self, tick: int, count: int = 0) -> None:
-        """Hand on what has come from others, `count` of it at least, as the host does."""
-        came: list[Received] = []
+        """Note what has come from others, `count` of it at least: all of the tick has been said."""
+        came = 0
         for ear in self.ears:
-            while (received := ear.receive(MOMENT if len(came) < count else 0.0)) is not None:
-                came.append(received)
-        entries = [
-            {
-                "key": received.key,
-                **payload_field(received.payload),
-                **(received.stamp._asdict() if received.stamp is not None else {}),
-            }
-            for received in came
-        ]
-        self.writers["host/intake"].put_fields({"tick": tick, "entries": entries})
+            while (received := ear.receive(MOMENT if came < count else 0.0)) is not None:
+                self.minutes.note(received)
+                came += 1
+        self.minutes.end_tick(tick)
+        if self.is_prompt:
+            self.minutes.send()
 
     def referee(self, tick: int, phase: Phase, score: Score, side: Side | None = None) -> None:
         self.writers["game/state"].put(
             GameState(tick=tick, time=tick * TICK, phase=phase, side=side, clock=tick * TICK, score=score)
         )
+        self.minutes.send()
 
     def goal(self, tick: int) -> None:
         self.writers["game/event"].put(
@@ -146,6 +144,7 @@ class Stage:
 
     def leave(self) -> RecordingSummary:
         """The host leaves; the recorder takes in the rest."""
+        self.host.minutes.send()
         self.host.bus.close()
         return self.recorder.run(lambda: False)
 
@@ -227,10 +226,11 @@ def record_match(
     table, server = Table(config), host_bus.serve(SETUP)
     simulation = table.simulation
     host_bus.declare_alive("host", "host")
-    outbox = Outbox(host_bus, simulation.roster, simulation.profile.time.tick)
+    minutes = MinuteKeeper(host_bus)
+    outbox = Outbox(minutes, simulation.roster, simulation.profile.time.tick)
     account = Account()
     recorder = Recorder(bus, output_at(path, bus.clock, config.name, account, limits, viz=viz), account, config=config)
-    relay, ear = Relay(host_bus), host_bus.subscribe(COMMAND)
+    ear = host_bus.subscribe(COMMAND)
     commands = {name: host_bus.publisher(COMMAND, robot=name) for name in table.brains}
     recorder.pump()
     while (question := server.receive()) is not None:
@@ -240,8 +240,8 @@ def record_match(
         host_bus.clock.sim_ns = round(tick.time * 1e9)
         outbox.truth(tick, simulation.state)
         while (received := ear.receive()) is not None:
-            relay.note(received)
-        relay.send(tick.tick)
+            minutes.note(received)
+        minutes.end_tick(tick.tick)
         if tick.tick % 25 == 0:
             recorder.pump()
         if simulation.over or tick.time >= until:
@@ -255,6 +255,7 @@ def record_match(
         for name, command in said.items():
             commands[name].put(command)
         tick = simulation.step(said)
+    minutes.send()
     simulation.close()
     host_bus.close()
     recorder.run(lambda: False)

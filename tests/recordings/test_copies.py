@@ -45,7 +45,7 @@ def test_two_recordings_of_one_course_of_events_are_identical(run):
 
 def test_what_depends_on_wall_time_is_left_out_unless_it_is_asked_for(run):
     def health(host):
-        host.bus.publisher(HEALTH).put(Health(tick=60, time=1.2, pace="lockstep", real_time_factor=7.0))
+        host.minutes.publisher(HEALTH).put(Health(tick=60, time=1.2, pace="lockstep", real_time_factor=7.0))
 
     def again(host):
         host.writers["robot/cyan1/command"].put(Command(answers_tick=59, drive=Drive(vx=1.0)))

@@ -19,7 +19,7 @@ def test_the_facts_are_those_that_were_written(recorded):
 
 def test_each_key_has_its_messages_rate_bytes_and_losses(stage):
     stage.play(range(20))
-    stage.host.writers["world"]._sequence += 3
+    stage.host.writers["world"]._writer._sequence += 3
     stage.play(range(20, 51))
     stage.leave()
     recording = stage.read()
@@ -33,7 +33,7 @@ def test_each_key_has_its_messages_rate_bytes_and_losses(stage):
 
 def test_the_facts_of_a_cut_off_file_are_gathered_from_what_is_left(stage):
     stage.play(range(20))
-    stage.host.writers["world"]._sequence += 3
+    stage.host.writers["world"]._writer._sequence += 3
     stage.play(range(20, 50))
     stage.leave()
     path = stage.path.with_name("cut.mcap.part")

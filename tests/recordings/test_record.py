@@ -29,7 +29,7 @@ LIMIT = 60.0
 """Seconds after which something that should have happened will not; nothing depends on how soon it does."""
 
 TICKS = 800
-"""Half of what writers keep, as many as a host at full rate plays in a stall of 3 s; a slower machine takes longer."""
+"""As many as a host at full rate plays in a stall of 3 s, and a third of what it keeps."""
 
 DYING_HOST = """
 import os, sys
@@ -207,6 +207,7 @@ def test_a_recorder_that_stood_still_for_three_seconds_at_full_rate_has_lost_not
         open_client("friendly", WallClock(), endpoint, LIMIT) as robots,
     ):
         host = hand_made_host(bus, robots)
+        host.is_prompt = False
         progress = bus.subscribe(PROGRESS)
         wait_for_recorder(bus, host)
         ticks = iter(range(TICKS))

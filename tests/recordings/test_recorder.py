@@ -9,7 +9,7 @@ from schemas.bus.contract import Bus, Received, Stamp
 from schemas.control import RecorderDeed, RecorderRequest
 from schemas.game import Phase, Score
 from schemas.host import Health
-from schemas.topics import COMMAND, CONTROL, EVENT, HEALTH, INTAKE, ORDER, PROGRESS, SIGHT, WORLD
+from schemas.topics import COMMAND, CONTROL, EVENT, HEALTH, MINUTES, ORDER, PROGRESS, SIGHT, WORLD
 from schemas.world import World
 
 
@@ -160,7 +160,7 @@ def test_a_sender_without_simulated_time_is_recorded_at_the_hosts(make_stage):
 def test_a_gap_in_the_sequence_is_counted_on_its_key(stage):
     stage.play(range(10))
     world = stage.host.writers["world"]
-    world._sequence += 4
+    world._writer._sequence += 4
     stage.play(range(10, 20))
     summary = stage.leave()
 
@@ -173,7 +173,7 @@ def test_a_gap_in_the_sequence_is_counted_on_its_key(stage):
 
 def test_what_was_sent_before_the_recorder_came_is_counted_apart(stage):
     for name in ("world", "host/applied"):
-        stage.host.writers[name]._sequence = 30
+        stage.host.writers[name]._writer._sequence = 30
     stage.play(range(30, 40))
     summary = stage.leave()
 
@@ -187,6 +187,7 @@ def test_a_payload_that_cannot_be_read_is_recorded_as_it_is(stage):
     stage.play(range(5))
     stage.host.writers["robot/cyan2/command"].put_payload(junk)
     stage.host.writers["host/applied"].put_payload(junk)
+    stage.host.relay(4)
     stage.recorder.pump()
     stage.play(range(5, 10))
     summary = stage.leave()
@@ -283,7 +284,8 @@ def test_progress_is_reported_every_50_ms_of_wall_time(stage):
 
 def test_a_recorder_that_joins_late_is_not_behind_by_what_was_before_it(stage):
     heard = reports(stage.host.bus)
-    stage.host.bus.publisher(HEALTH).put(Health(tick=5000, time=100.0, pace="lockstep", real_time_factor=1.0))
+    stage.host.minutes.publisher(HEALTH).put(Health(tick=5000, time=100.0, pace="lockstep", real_time_factor=1.0))
+    stage.host.minutes.send()
     stage.recorder.pump()
     stage.recorder.pump()
 
@@ -312,18 +314,28 @@ class Detour:
             self._bring(*message)
 
 
-def test_a_tick_counts_as_taken_in_when_all_has_come_that_the_host_says_of_it(stage):
-    """Or a host would run away from a recorder, or leave the match, while the rest is fetched still."""
+def play_with_sights(stage, ticks: range, pump_every: int) -> None:
+    """As `Stage.play`, with a sight in each tick."""
+    if (key := "robot/cyan1/sight") not in stage.host.writers:
+        stage.host.writers[key] = stage.host.bus.publisher(SIGHT, robot="cyan1")
+    for tick in ticks:
+        stage.play(range(tick, tick + 1), pump_every=1000)
+        stage.host.writers[key].put_payload(b"{}")
+        if tick % pump_every == 0:
+            stage.recorder.pump()
+
+
+def test_a_tick_counts_as_taken_in_when_the_minutes_of_it_have_come(make_stage):
+    """Or a host would run away from a recorder, or leave the match, while they are fetched still."""
+    stage = make_stage(sights=True)
+    stage.begin()
     heard = reports(stage.host.bus)
-    stage.play(range(40), pump_every=1)
-    detours = [Detour(stage, topic) for topic in (WORLD, INTAKE)]
-    stage.play(range(40, 80), pump_every=1)
+    play_with_sights(stage, range(40), pump_every=1)
+    detour = Detour(stage, MINUTES)
+    play_with_sights(stage, range(40, 80), pump_every=1)
     look_for(stage, 0.2)
     assert [report.message().tick for report in iter(heard.receive, None)][-1] == 39
-    detours.pop().end()
-    look_for(stage, 0.2)
-    assert [report.message().tick for report in iter(heard.receive, None)][-1] == 39
-    detours.pop().end()
+    detour.end()
     look_for(stage, 0.2)
     assert [report.message().tick for report in iter(heard.receive, None)][-1] == 79
 
@@ -336,26 +348,28 @@ def test_a_host_that_stands_still_leaves_nothing_unwritten_for_long(stage):
     assert len(list(open_recording(stage.path.with_name("match.mcap.part")).messages("world"))) == 4
 
 
-def test_what_is_fetched_again_after_a_stall_stands_where_it_belongs(stage):
+def test_what_is_fetched_again_after_a_stall_stands_where_it_belongs(make_stage):
     """Topics are fetched one by one: what came of the others has to wait, however long the recorder stood still."""
-    stage.play(range(20), pump_every=1)
-    worlds, events = Detour(stage, WORLD), Detour(stage, EVENT)
-    stage.play(range(20, 31), pump_every=1000)
+    stage = make_stage(sights=True)
+    stage.begin()
+    play_with_sights(stage, range(20), pump_every=1)
+    minutes, sights = Detour(stage, MINUTES), Detour(stage, SIGHT)
+    play_with_sights(stage, range(20, 31), pump_every=1000)
     stage.host.goal(30)
-    stage.play(range(31, 80), pump_every=1000)
+    play_with_sights(stage, range(31, 80), pump_every=1000)
     clock = stage.recorder_bus.clock
     clock.sleep_until(clock.now() + 3.0)
     look_for(stage, 0.2)
-    worlds.end()
+    minutes.end()
     look_for(stage, 0.6)
-    events.end()
+    sights.end()
     look_for(stage, 2.0)
     stage.leave()
 
     recording = stage.read()
     assert (recording.result.lost, recording.result.keys["world"].messages) == (0, 80)
     ticks = [round(recorded.time / 0.02) for recorded in recording.messages() if recorded.key != EVENT.key]
-    assert ticks == [tick for tick in range(80) for _ in range(6)]
+    assert ticks == [tick for tick in range(80) for _ in range(7)]
     assert [round(recorded.time / 0.02) for recorded in recording.messages(EVENT.key)] == [30]
 
 
@@ -462,18 +476,17 @@ def test_match_file_profile_rules_and_whole_schemas_are_attached(recorded):
 
 
 def test_a_stamp_counts_modulo_the_32_bits_of_the_file(stage):
-    for reader in stage.recorder_bus.medium.subscriptions["friendly/" + WORLD.key]:
-        reader.bring("world", Received(WORLD, "world", b"{}", Stamp(2**32 + 5, 1, 0)))
+    stage.host.minutes.note(Received(WORLD, "world", b"{}", Stamp(2**32 + 5, 1, 0)))
     stage.leave()
     (recorded,) = stage.read().messages("world")
     assert recorded.sequence == 5
 
 
-def test_an_intake_that_cannot_be_read_is_counted_and_passed_over(stage):
+def test_minutes_that_cannot_be_read_are_counted_and_passed_over(stage):
     stage.play(range(5))
     odd = b'{"version":"1.0","tick":5,"entries":[{"key":"robot/cyan1/command","octets":"a"}]}'
-    stage.host.writers["host/intake"].put_payload(odd)
+    stage.host.bus.publisher(MINUTES).put_payload(odd)
     stage.play(range(5, 10))
     summary = stage.leave()
-    assert summary.result.unreadable == {"host/intake": 1}
+    assert summary.result.unreadable == {"host/minutes": 1}
     assert summary.result.keys["robot/cyan1/command"].messages == 10

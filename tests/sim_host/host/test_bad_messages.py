@@ -3,6 +3,7 @@
 import pytest
 
 from schemas.bus.in_process import Medium
+from schemas.bus.minutes import MinuteKeeper
 from schemas.clock import SteppedClock
 from schemas.coach import CoachMode, CoachOrder
 from schemas.command import Command
@@ -12,7 +13,6 @@ from schemas.side import Side
 from schemas.topics import COMMAND, INVALID, ORDER, WORLD
 from sim_host import inbox
 from sim_host.complaints import Complaints
-from sim_host.relay import Relay
 from sim_host.snapshot import Roster
 
 RUBBISH = {
@@ -102,7 +102,7 @@ class Endless:
 
 def test_a_flood_does_not_hold_the_host(monkeypatch):
     seat = Medium().seat("friendly", SteppedClock())
-    box = inbox.Inbox(seat, Roster.of(MatchConfig(), load_profile("msl")), Complaints(), Relay(seat))
+    box = inbox.Inbox(seat, Roster.of(MatchConfig(), load_profile("msl")), Complaints(), MinuteKeeper(seat))
     flood = Endless(seat)
     monkeypatch.setattr(box, "_commands", flood)
     monkeypatch.setattr(inbox, "_AT_ONCE", 20)
