@@ -9,7 +9,7 @@ from schemas.sections import Sensing
 from sim_host.sensing.hulls import Hulls
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.sight_lines import Flags
-from sim_host.sensing.streams import Block, Floats, Streams, Vectors, What, normal_pairs
+from sim_host.sensing.streams import MANY_AT_ONCE, Block, Floats, Streams, Vectors, What, normal_pairs
 from sim_host.sensing.team_frames import TeamFrames
 from sim_host.snapshot import BallState, Motions, ObstacleState, Roster, Snapshot
 
@@ -91,7 +91,7 @@ class Camera:
         self._range = np.array([s.ball_range] + [s.obstacle_range] * bodies)
         self._dropout = np.array([s.ball_dropout] + [s.obstacle_dropout] * bodies)
         self._is_other = np.arange(-1, bodies) != self._rows
-        self._luck = Block(self._draw)
+        self._luck = Block(self._draw, MANY_AT_ONCE)
         robots = len(roster.names)
         self._blur = np.empty((robots, 1 + bodies), dtype=complex)
         self._blur_parts = np.moveaxis(self._blur.view(float).reshape(robots, 1 + bodies, 2), 2, 0)

@@ -66,23 +66,26 @@ def _mixed(high: Words, word: Words) -> Words:
 
 
 AT_ONCE = 256
-"""Draws are made for this many ticks or pictures at a time; the numbers are the same, the cost of each is not: with 64
-it is half as much again, with more it falls no further."""
+"""Draws are made for this many ticks or pictures at a time, where one takes dozens of numbers. The numbers are the
+same, the cost of each is not: with 64 it is half as much again, with more it falls no further."""
+MANY_AT_ONCE = 64
+"""The same where one takes hundreds: more at once cost as much, and all of it in one tick."""
 
 
 class Block(Generic[Draws]):
     """Draws of one kind for every tick or picture, made for many at once when the first of them is asked for."""
 
-    def __init__(self, draw: Callable[[range], Sequence[Draws]]) -> None:
+    def __init__(self, draw: Callable[[range], Sequence[Draws]], at_once: int = AT_ONCE) -> None:
         self._draw = draw
+        self._at_once = at_once
         self._block = -1
         self._rows: Sequence[Draws] = ()
 
     def at(self, number: int) -> Draws:
         """The draws of one, of those that `draw` makes for each."""
-        block, row = divmod(number, AT_ONCE)
+        block, row = divmod(number, self._at_once)
         if block != self._block:
-            self._rows = self._draw(range(block * AT_ONCE, (block + 1) * AT_ONCE))
+            self._rows = self._draw(range(block * self._at_once, (block + 1) * self._at_once))
             self._block = block
         return self._rows[row]
 

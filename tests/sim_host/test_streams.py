@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from sim_host.sensing.streams import AT_ONCE, Block, Streams, What, philox
+from sim_host.sensing.streams import AT_ONCE, MANY_AT_ONCE, Block, Streams, What, philox
 
 NAMES = ("cyan1", "cyan2", "magenta1")
 
@@ -79,8 +79,9 @@ def test_uniform_draws_lie_strictly_between_nought_and_one() -> None:
     assert draws.mean() == approx(0.5, abs=0.005)
 
 
-def test_blocks_give_the_same_numbers_in_any_order() -> None:
+@pytest.mark.parametrize("at_once", [AT_ONCE, MANY_AT_ONCE, 1])
+def test_blocks_give_the_same_numbers_in_any_order(at_once: int) -> None:
     streams = Streams(5)
-    block = Block(lambda ticks: streams.normals(What.OWN, NAMES, ticks, 4))
-    for tick in (2 * AT_ONCE + 2, 3, AT_ONCE, AT_ONCE - 1, 2 * AT_ONCE + 3, 3):
+    block = Block(lambda ticks: streams.normals(What.OWN, NAMES, ticks, 4), at_once)
+    for tick in (2 * at_once + 2, 3, at_once, at_once - 1, 2 * at_once + 3, 3):
         assert (block.at(tick) == streams.normals(What.OWN, NAMES, range(tick, tick + 1), 4)[0]).all()
