@@ -17,8 +17,9 @@ from sim_host.sensing.streams import Streams
 from sim_host.simulation import Simulation
 from sim_host.world.engine import Engine
 
-ROUNDS = 12
-TICKS = 128
+ROUNDS = 8
+TICKS = 256
+"""In a round: most of what is drawn at random is drawn for as many at once."""
 
 
 class Timed:
