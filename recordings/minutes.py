@@ -25,18 +25,17 @@ def received_of(minutes: Received) -> list[Received]:
     """
     found = []
     for entry in read_minutes(minutes.payload):
-        topic = _topic_of(entry.key)
+        key, number = entry.key, entry.sequence
+        topic = _topic_of(key)
         if topic is not None:
-            found.append(Received(topic, entry.key, _payload(entry), _stamp(entry), entry.arrived_ns))
+            payload = bytes(entry.message) if entry.octets is None else _octets(entry)
+            stamp = Stamp(number, entry.sent_ns, entry.sim_ns) if number is not None else None
+            found.append(Received(topic, key, payload, stamp, entry.arrived_ns))
     return found
 
 
-def _payload(entry: Entry) -> bytes:
+def _octets(entry: Entry) -> bytes:
     try:
         return entry.payload
     except ValueError as error:
         raise BadMessageError(f"Minutes: octets of {entry.key}: {error}") from None
-
-
-def _stamp(entry: Entry) -> Stamp | None:
-    return Stamp(entry.sequence, entry.sent_ns, entry.sim_ns) if entry.sequence is not None else None
