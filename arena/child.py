@@ -1,4 +1,4 @@
-"""One launched process: a session of its own, a log of its own, and an end at the latest with its supervisor."""
+"""One launched process: a group of its own, a log of its own, and an end at the latest with its supervisor."""
 
 import os
 import signal
@@ -15,7 +15,7 @@ _TAIL_BYTES = 8192
 
 
 class Launched(ABC):
-    """A process of this one that runs, or has run; it leads a session and a group of its own."""
+    """A process of this one that runs, or has run; it leads a group of its own."""
 
     def __init__(self, process: Process, log: Path, begin: int) -> None:
         """What it writes goes to the end of `log`, which is `begin` bytes long before."""
@@ -74,7 +74,7 @@ class Child(Launched):
                 stdout=out,
                 stderr=subprocess.STDOUT,
                 env={**os.environ, **process.environment},
-                start_new_session=True,
+                process_group=0,
             )
 
     @property

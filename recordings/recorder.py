@@ -24,6 +24,7 @@ from recordings.selection import EVERYTHING, Selection
 from recordings.standing import Logged
 from schemas.bus.contract import Answer, Bus, NoAnswerError, Received
 from schemas.host import RecorderProgress, Setup, SetupRequest
+from schemas.idle_time import in_idle_time
 from schemas.match_config import MatchConfig
 from schemas.message import BadMessageError
 from schemas.topic import Delivery, Topic
@@ -110,9 +111,16 @@ class Recorder:
     def run(self, told_to_stop: Callable[[], bool]) -> RecordingSummary:
         """Record until the host is gone or somebody says stop, take in what is still on its way, and finish."""
         stopped = False
-        while not stopped and not self._host.gone(finished=self._is_whole()):
+
+        def look() -> bool:
+            nonlocal stopped
+            if self._host.gone(finished=self._is_whole()):
+                return True
             self.pump()
             stopped = self._sleep(told_to_stop)
+            return stopped
+
+        in_idle_time(look)
         self.drain(_QUIET_S if stopped else _DRAIN_S)
         return self.finish(stopped)
 

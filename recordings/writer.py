@@ -25,6 +25,7 @@ from recordings.viz.drawing import READS
 from schemas.bus.contract import Received
 from schemas.clock import Clock
 from schemas.errors import TouchlineError
+from schemas.idle_time import in_idle_time, start
 from schemas.message import VERSION
 from schemas.topics import TOPICS, root
 
@@ -67,7 +68,8 @@ class RecordingWriter:
         self.part = self._part.path
         self._file = self._part.file
         self._mcap = LeanWriter(self._file, CHUNK_BYTES)
-        self._thread = Thread(target=self._run, name="recording writer", daemon=True)
+        self._thread = Thread(target=in_idle_time, args=[self._do_job], name="recording writer", daemon=True)
+        self._flush_at = 0.0
         self.begun = False
 
     def begin(self, manifest: Manifest, attachments: dict[str, bytes], standing: Batch | None = None) -> None:
@@ -76,7 +78,8 @@ class RecordingWriter:
         `standing` are messages that stood when this file began, and are in the files before it too.
         """
         self.begun = True
-        self._thread.start()
+        self._flush_at = self._clock.now() + FLUSH_S
+        start(self._thread)
         attached = {name: digest(content) for name, content in attachments.items()}
         manifest = manifest.model_copy(update={"attached": attached, "standing": len(standing or ())})
         if self._viz and manifest.setup is not None:
@@ -134,26 +137,26 @@ class RecordingWriter:
         if self._error is not None:
             raise self._error
 
-    def _run(self) -> None:
-        """The thread: jobs in order, a flush each half second; after an error it takes jobs and does nothing."""
-        due = self._clock.now() + FLUSH_S
-        while True:
-            try:
-                job = self._jobs.get(timeout=max(0.01, due - self._clock.now()))
-            except Empty:
-                job = _nothing
-            if job is None:
-                return
-            if self._error is not None:
-                continue
-            try:
-                job()
-                self.size = self._file.tell()
-                if self._clock.now() >= due:
-                    self._mcap.flush()  # type: ignore[no-untyped-call]
-                    due = self._clock.now() + FLUSH_S
-            except Exception as error:  # raised again in the thread that hands over
-                self._error = error
+    def _do_job(self) -> bool:
+        """The thread's next job, or a flush when that is due; returns whether that was the last.
+
+        After an error jobs are taken and not done.
+        """
+        try:
+            job = self._jobs.get(timeout=max(0.01, self._flush_at - self._clock.now()))
+        except Empty:
+            job = _nothing
+        if job is None or self._error is not None:
+            return job is None
+        try:
+            job()
+            self.size = self._file.tell()
+            if self._clock.now() >= self._flush_at:
+                self._mcap.flush()  # type: ignore[no-untyped-call]
+                self._flush_at = self._clock.now() + FLUSH_S
+        except Exception as error:  # raised again in the thread that hands over
+            self._error = error
+        return False
 
     def _write_head(self, manifest: dict[str, str], attachments: dict[str, bytes]) -> None:
         self._mcap.start(profile="", library=library())

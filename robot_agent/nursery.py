@@ -50,7 +50,7 @@ def _bear(wanted: dict[str, Any], keeper: int, door: socket.socket) -> int:
     """Fork once more and leave, so that the robot becomes the keeper's; in the robot, its exit status."""
     if os.fork() != 0:
         os._exit(0)
-    os.setsid()  # before anybody knows of it: signals are sent to the group that it leads from now on
+    os.setpgid(0, 0)  # before anybody knows of it: signals are sent to the group that it leads from now on
     adopted = _is_adopted(keeper)
     door.send(b"%d" % (os.getpid() if adopted else 0))
     door.close()
