@@ -1,5 +1,6 @@
 """Robots that are forked from one process, against those that are launched by their command lines: nobody can tell."""
 
+import os
 import signal
 import subprocess
 import sys
@@ -82,12 +83,12 @@ def test_a_robot_has_its_own_environment(nursery: Nursery, tmp_path: Path) -> No
     assert "TOUCHLINE_MATCH; default: final" in " ".join((tmp_path / "cyan2.log").read_text().split())
 
 
-def test_a_robot_is_called_by_its_own_command_line_and_leads_its_own_session(nursery: Nursery, tmp_path: Path) -> None:
+def test_a_robot_is_called_by_its_own_command_line_and_leads_its_own_group(nursery: Nursery, tmp_path: Path) -> None:
     process = robot("cyan1", *_WAITS)
     launched = nursery.launch(process, tmp_path / "cyan1.log")
     wait_for(lambda: words_of(launched.pid) == list(process.command))
-    session = Path(f"/proc/{launched.pid}/stat").read_text().rpartition(")")[2].split()[3]
-    assert int(session) == launched.pid
+    group, session = Path(f"/proc/{launched.pid}/stat").read_text().rpartition(")")[2].split()[2:4]
+    assert (int(group), int(session)) == (launched.pid, os.getsid(0))
     assert launched.status() is None
     launched.send(signal.SIGTERM)
     assert end_of(launched) in _ENDED
