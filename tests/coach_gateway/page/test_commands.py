@@ -181,7 +181,7 @@ def test_the_ball_is_placed_by_dragging_where_the_referee_allows_it(resting, vis
     match = resting
     tab = visit(match, "referee")
     tab.button("start").click()
-    match.until(lambda: match.state.running)
+    tab.until("window.touchline.match.state?.running")
     ball = match.world["ball"]
     tab.drag((ball["x"], ball["y"]), (3.0, 2.0))
     tab.wait_for_log("the game is running; stop it first")
@@ -189,6 +189,7 @@ def test_the_ball_is_placed_by_dragging_where_the_referee_allows_it(resting, vis
     match.until(lambda: match.state.phase is Phase.DROP_BALL)
     spot = match.state.spot
     assert spot is not None
+    tab.until("window.touchline.match.state?.phase === 'drop_ball'")
     tab.until_seen("ball", spot.x, spot.y)
     tab.drag((spot.x, spot.y), (3.0, 2.0))
     tab.wait_for_log("Ball to (3.00, 2.00) accepted")
@@ -199,11 +200,11 @@ def test_a_robot_is_moved_by_dragging_while_the_game_is_stopped(resting, visit) 
     match = resting
     tab = visit(match, "referee")
     tab.button("start").click()
-    match.until(lambda: match.state.running)
+    tab.until("window.touchline.match.state?.running")
     tab.drag(match.where("cyan1"), (-6.0, 5.0))
     tab.wait_for_log("Move cyan1 refused: the game is running")
     tab.page.keyboard.press("Space")
-    match.until(lambda: match.state.phase is Phase.STOPPED)
+    tab.until("window.touchline.match.state?.phase === 'stopped'")
     match.until(lambda: math.hypot(*(match.world["robots"]["cyan1"][axis] for axis in ("vx", "vy"))) < 0.02)
     x, y = match.where("cyan1")
     tab.until_seen("robots.cyan1", x, y)

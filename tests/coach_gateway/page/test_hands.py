@@ -169,6 +169,6 @@ def test_what_is_in_the_hand_when_the_game_goes_on_is_not_set_down(resting, visi
     other = visit(match, "referee")
     drop(match, other)
     other.button("start").click()
-    tab.until("window.touchline.match.state.running")
+    tab.until("window.touchline.match.state?.running")
     tab.page.mouse.up()
     tab.wait_for_log("Move cyan1 refused: the game is running")
