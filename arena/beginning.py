@@ -10,10 +10,10 @@ from recordings.head import PROFILE
 from recordings.manifest import Manifest
 from recordings.reader import Recording
 from schemas.errors import TouchlineError
-from schemas.host import RosterEntry
 from schemas.message import BadMessageError
 from schemas.obstacle import Shape, StaticObstacle
 from schemas.profile import STANDARD, load_profile, profile_of
+from schemas.roster import RosterEntry
 from schemas.side import Side
 from schemas.world import World
 from sim_host.resimulation import ImpossibleTickError, InForce, Known, numbers_of

@@ -19,9 +19,10 @@ from rich.table import Table
 
 from schemas.command import Drive
 from schemas.frames import Pose
-from schemas.host import AppliedInput, Placement
+from schemas.host import AppliedInput
 from schemas.profile import load_profile
 from schemas.robot_model import RobotModel
+from schemas.roster import Placement
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
 from sim_host.radio import RadioAir

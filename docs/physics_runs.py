@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from schemas.command import Drive, Kick, KickMode
-from schemas.host import AppliedInput, Placement
+from schemas.host import AppliedInput
 from schemas.profile import Profile, load_profile
 from schemas.robot_model import RobotModel
+from schemas.roster import Placement
 from schemas.side import Side
 from sim_host.sensing.perception import Perception
 from sim_host.sensing.streams import Streams

@@ -1,7 +1,8 @@
 """Who is who in a match, for the channels of its recording: side, team and type of a robot."""
 
-from schemas.host import RosterEntry, Setup
+from schemas.host import Setup
 from schemas.profile import STANDARD
+from schemas.roster import RosterEntry
 from schemas.side import Side
 
 

@@ -6,8 +6,9 @@ from typing import Any
 
 from schemas.bus.contract import Received
 from schemas.game import EventKind, GameEvent, GameState, Phase
-from schemas.host import Applied, Health, RosterEntry
+from schemas.host import Applied, Health
 from schemas.message import BadMessageError
+from schemas.roster import RosterEntry
 from schemas.topics import APPLIED, EVENT, HEALTH, STATE
 
 _ROSTER = b'"robots":['

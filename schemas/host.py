@@ -15,6 +15,7 @@ from schemas.obstacle import StaticObstacle
 from schemas.parameters import ParameterName, Setting
 from schemas.profile import STANDARD, Profile
 from schemas.robot_model import RobotModel, types_of
+from schemas.roster import Placement, RosterEntry
 from schemas.rule_book import Periods, Restarts, RuleBook
 from schemas.sections import Ball, Dribble, Kicker, RobotBody, TimeSteps
 from schemas.sections import Drive as DriveLimits
@@ -140,39 +141,6 @@ class AppliedInput:
     kick: Kick | None = None
     answers_tick: int | None = None
     """The sight that this input answers; nothing while the robot is silent."""
-
-
-class Placement(Part):
-    """A body that was set down by hand: `body` is a robot's name or `ball`; field frame, at rest unless it says more.
-
-    A ball that is set rolling on the ground rolls without sliding.
-    """
-
-    body: Name
-    x: float
-    y: float
-    heading: float = 0.0
-    z: float | None = None
-    """Height of the ball's centre in m; on the ground when not given. Robots stand on the ground."""
-    vx: float = 0.0
-    vy: float = 0.0
-    vz: float = 0.0
-    """Of the ball alone."""
-    omega: float = 0.0
-    """Of a robot alone."""
-
-
-class RosterEntry(Part):
-    """One robot that takes part."""
-
-    name: Name
-    side: Side
-    type: Name = "standard"
-    """As the profile or the match file names it."""
-    agent: bool = True
-    """An agent moves it; without, it stands still wherever it is set down."""
-    keeper: bool = False
-    """It is its side's goalkeeper."""
 
 
 class Applied(Message):

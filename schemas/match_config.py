@@ -11,15 +11,12 @@ from schemas.game import Mode
 from schemas.message import Name, Part
 from schemas.noise import PRESETS
 from schemas.obstacle import Shape, StaticObstacle
+from schemas.roster import MAX_ROBOTS, RESERVED
 from schemas.side import Side
 from schemas.toml_file import validated
 
-MAX_ROBOTS = 5
-"""Robots of one side, rule book 10.2."""
 LOCKSTEP = "lockstep"
 """The pace in which the host waits for the answers of all robots."""
-RESERVED = frozenset({"ball"})
-"""Names that mean something else in a key."""
 
 REMEDIES = {
     "name": "a match name is a key chunk: small letters, digits and _",

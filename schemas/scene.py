@@ -13,10 +13,9 @@ from pydantic import Field, StringConstraints, model_validator
 
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import RESTARTS, SIDED, Phase, Score
-from schemas.host import Placement, RosterEntry
-from schemas.match_config import MAX_ROBOTS, RESERVED
 from schemas.message import Message, Name, Part, Source
 from schemas.obstacle import StaticObstacle
+from schemas.roster import MAX_ROBOTS, RESERVED, Placement, RosterEntry
 from schemas.side import Side
 from schemas.toml_file import validated
 

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from schemas.host import RosterEntry
 from schemas.match_config import MatchConfig
+from schemas.roster import RosterEntry
 from schemas.rule_book import RuleBook
 from sim_host.actuation.commands import Commands
 from sim_host.radio import RadioAir

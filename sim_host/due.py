@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from schemas.game import EventKind
-from schemas.host import Placement
 from schemas.parameters import Setting
+from schemas.roster import Placement
 
 
 @dataclass(slots=True)

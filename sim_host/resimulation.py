@@ -10,10 +10,11 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from schemas.errors import TouchlineError
-from schemas.host import Applied, RosterEntry, Setup
+from schemas.host import Applied, Setup
 from schemas.obstacle import StaticObstacle
 from schemas.profile import STANDARD, load_profile
 from schemas.robot_model import RobotModel
+from schemas.roster import RosterEntry
 from schemas.sections import TYPE_SECTIONS
 from schemas.world import World as WorldMessage
 from sim_host.snapshot import BallState, RobotState, Roster

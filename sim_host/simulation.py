@@ -11,12 +11,13 @@ from schemas.coach import CoachOrder
 from schemas.command import Command
 from schemas.errors import TouchlineError
 from schemas.game import ActionReply, EventKind, GameEvent, Phase, RefereeAction
-from schemas.host import AppliedInput, Placement, Setup, TeamSetup, chained
+from schemas.host import AppliedInput, Setup, TeamSetup, chained
 from schemas.light import light_encode, light_encode_exactly
 from schemas.match_config import MatchConfig
 from schemas.message import VERSION
 from schemas.parameters import ParameterDeed, ParametersReply, ParametersRequest, Setting
 from schemas.profile import STANDARD, Profile
+from schemas.roster import Placement
 from schemas.rule_book import RuleBook, load_rule_book
 from schemas.scene import SceneReply, SceneRequest
 from schemas.side import Side

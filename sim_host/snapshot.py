@@ -8,11 +8,11 @@ from typing import NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from schemas.host import RosterEntry
 from schemas.match_config import MatchConfig
 from schemas.obstacle import Shape, StaticObstacle
 from schemas.profile import Profile
 from schemas.robot_model import RobotModel, models_of
+from schemas.roster import RosterEntry
 from schemas.side import Side
 
 

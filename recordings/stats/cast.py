@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 from typing import Self
 
 from schemas.goalkeeper import keeper_of
-from schemas.host import RosterEntry, Setup
+from schemas.host import Setup
+from schemas.roster import RosterEntry
 from schemas.side import Side
 
 

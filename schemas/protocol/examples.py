@@ -23,7 +23,6 @@ from schemas.host import (
     Belief,
     Health,
     Invalid,
-    Placement,
     RecorderProgress,
     RobotHealth,
     Setup,
@@ -35,6 +34,7 @@ from schemas.minutes import Minutes, MinutesEntry
 from schemas.parameters import Parameter, ParameterDeed, ParametersReply, ParametersRequest
 from schemas.profile import load_profile
 from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
+from schemas.roster import Placement
 from schemas.rule_book import load_rule_book
 from schemas.scene import SceneDeed, SceneReply, SceneRequest
 from schemas.side import Side

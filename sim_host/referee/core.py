@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from schemas.frames import Pose
 from schemas.game import RESTARTS, ActionReply, GameEvent, Mode, Phase, RefereeAction
-from schemas.host import Placement
+from schemas.roster import Placement
 from schemas.rule_book import RuleBook
 from schemas.scene import SceneGame
 from schemas.sections import Ball, Field

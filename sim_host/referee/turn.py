@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from schemas.frames import Pose
 from schemas.game import Card, EventKind, GameEvent, Score
-from schemas.host import Placement
+from schemas.roster import Placement
 from schemas.rule_book import RuleBook
 from schemas.side import Side
 from sim_host.referee.call import Spot

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.host import Placement
+from schemas.roster import Placement
 from schemas.scene import Scene, SceneDeed, SceneRequest, load_scene
 from sim_host.staging.stage import BALL, Rig, Stage, Staged, check, moved, opened, ordered
 

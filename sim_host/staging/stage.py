@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.host import Placement, RosterEntry
 from schemas.obstacle import Shape, StaticObstacle
 from schemas.robot_model import RobotModel
+from schemas.roster import Placement, RosterEntry
 from schemas.scene import Scene, SceneGame, check_names, check_sides
 from schemas.sections import Ball, Field
 from schemas.side import Side

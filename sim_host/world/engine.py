@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 import pybullet
 
 from schemas.frames import wrap
-from schemas.host import Placement
 from schemas.profile import Profile
+from schemas.roster import Placement
 from sim_host.actuation.bounce import NO_BOUNCE
 from sim_host.actuation.drive import FieldDrive
 from sim_host.snapshot import BallState, ObstacleState, Robots, RobotState, Roster

@@ -4,9 +4,10 @@ from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import blake2b
 
-from schemas.host import AppliedInput, Placement
+from schemas.host import AppliedInput
 from schemas.obstacle import StaticObstacle
 from schemas.profile import Profile
+from schemas.roster import Placement
 from sim_host.actuation.ball_handling import BallHandling, BallReport
 from sim_host.actuation.chassis import Chassis
 from sim_host.snapshot import BallState, ObstacleState, Robots, RobotState, Roster, Snapshot

@@ -12,10 +12,11 @@ from hypothesis import strategies as st
 from pytest import approx
 
 from schemas.command import Drive
-from schemas.host import AppliedInput, Placement
+from schemas.host import AppliedInput
 from schemas.match_config import load_match
 from schemas.obstacle import Shape, StaticObstacle
 from schemas.profile import load_profile
+from schemas.roster import Placement
 from sim_host.snapshot import RobotState, Roster, Snapshot
 from sim_host.world.world import World
 

@@ -10,10 +10,11 @@ import pytest
 from pytest import approx
 
 from schemas.command import Drive
-from schemas.host import AppliedInput, Placement
+from schemas.host import AppliedInput
 from schemas.match_config import load_match
 from schemas.profile import Profile, load_profile
 from schemas.robot_model import RobotModel
+from schemas.roster import Placement
 from sim_host.snapshot import RobotState, Roster
 from sim_host.world.world import Advance, World
 

@@ -9,10 +9,11 @@ import pytest
 from pydantic_core import from_json, to_json
 
 from schemas.command import Command, Drive, Kick, KickMode
-from schemas.host import Applied, AppliedInput, Placement, noted
+from schemas.host import Applied, AppliedInput, noted
 from schemas.match_config import load_match
 from schemas.message import VERSION
 from schemas.parameters import ParameterDeed, ParametersRequest
+from schemas.roster import Placement
 from schemas.scene import SceneDeed, SceneRequest
 from schemas.world import World
 from sim_host.resimulation import (

@@ -9,10 +9,11 @@ from pytest import approx
 
 from schemas.command import Command, Drive, Kick, KickMode, Radio
 from schemas.game import EventKind, Phase, TeamPhase
-from schemas.host import Applied, Placement
+from schemas.host import Applied
 from schemas.match_config import load_match
 from schemas.obstacle import Shape, StaticObstacle
 from schemas.parameters import ParameterDeed, ParametersRequest
+from schemas.roster import Placement
 from schemas.scene import (
     Scene,
     SceneBall,

@@ -11,10 +11,11 @@ from schemas.coach import CoachOrder
 from schemas.command import Command, Drive, Kick, KickMode, Motion, Radio
 from schemas.errors import TouchlineError
 from schemas.game import ActionName, EventKind, Phase, RefereeAction, TeamPhase
-from schemas.host import Applied, Belief, Placement
+from schemas.host import Applied, Belief
 from schemas.light import light_reader
 from schemas.match_config import load_match
 from schemas.message import VERSION
+from schemas.roster import Placement
 from schemas.scene import SceneDeed, SceneRequest
 from schemas.side import Side
 from schemas.sight import Sight

@@ -7,10 +7,11 @@ import pytest
 
 from schemas.command import Drive
 from schemas.game import Phase
-from schemas.host import AppliedInput, Placement
+from schemas.host import AppliedInput
 from schemas.match_config import load_match
 from schemas.profile import load_profile
 from schemas.robot_model import RobotModel
+from schemas.roster import Placement
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
 from sim_host.referee.core import Referee

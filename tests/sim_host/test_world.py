@@ -8,10 +8,11 @@ import pytest
 from pytest import approx
 
 from schemas.command import Drive, Kick, KickMode
-from schemas.host import AppliedInput, Placement
+from schemas.host import AppliedInput
 from schemas.match_config import load_match
 from schemas.profile import Profile, load_profile
 from schemas.robot_model import RobotModel
+from schemas.roster import Placement
 from sim_host.snapshot import BallState, RobotState, Roster, Snapshot
 from sim_host.world.world import World
 

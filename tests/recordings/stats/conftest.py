@@ -14,9 +14,10 @@ from recordings.stats.page.course import Course
 from recordings.stats.track import Tracks
 from schemas.command import Drive, Kick, KickMode
 from schemas.game import EventKind, GameEvent, GameState, Phase, Score
-from schemas.host import Applied, AppliedInput, Placement, RosterEntry, Setup
+from schemas.host import Applied, AppliedInput, Setup
 from schemas.match_config import load_match
 from schemas.profile import load_profile
+from schemas.roster import Placement, RosterEntry
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
 from schemas.world import BallTruth, RobotTruth, World

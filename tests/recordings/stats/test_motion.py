@@ -3,7 +3,7 @@
 from pytest import approx
 
 from schemas.game import Phase
-from schemas.host import RosterEntry
+from schemas.roster import RosterEntry
 from schemas.side import Side
 
 

@@ -10,9 +10,9 @@ from mcap.writer import Writer
 from pydantic_core import from_json, to_json
 
 from recordings.manifest import sealed
-from schemas.host import Placement
 from schemas.match_config import load_match
 from schemas.parameters import ParameterDeed, ParametersRequest
+from schemas.roster import Placement
 from schemas.scene import SceneDeed, SceneRequest
 from sim_host.simulation import Simulation
 

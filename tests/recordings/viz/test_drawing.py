@@ -12,10 +12,11 @@ from recordings.viz.drawing import BALL as BALL_TOPIC
 from recordings.viz.drawing import EVENTS, FIELD, GAME, REPEAT_NS, ROBOTS, TF, Drawing
 from schemas.bus.contract import Received
 from schemas.game import EventKind, GameEvent, GameState, OffField, Phase, Score
-from schemas.host import Applied, RosterEntry, Setup
+from schemas.host import Applied, Setup
 from schemas.match_config import load_match
 from schemas.obstacle import Shape
 from schemas.profile import load_profile
+from schemas.roster import RosterEntry
 from schemas.rule_book import load_rule_book
 from schemas.side import Side
 from schemas.topics import APPLIED, COMMAND, EVENT, STATE, WORLD

@@ -6,10 +6,11 @@ from dataclasses import replace
 import pytest
 
 from schemas.command import Drive, Kick, KickMode
-from schemas.host import AppliedInput, Placement
+from schemas.host import AppliedInput
 from schemas.match_config import load_match
 from schemas.profile import load_profile
 from schemas.robot_model import RobotModel
+from schemas.roster import Placement
 from sim_host.snapshot import Roster
 from sim_host.world.world import World
 

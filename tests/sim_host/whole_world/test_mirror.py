@@ -19,9 +19,10 @@ import pytest
 from pytest import approx
 
 from schemas.command import Drive, Kick, KickMode
-from schemas.host import AppliedInput, Placement
+from schemas.host import AppliedInput
 from schemas.profile import load_profile
 from schemas.robot_model import RobotModel
+from schemas.roster import Placement
 from schemas.side import Side
 from sim_host.snapshot import Roster, Snapshot
 from sim_host.world.world import World

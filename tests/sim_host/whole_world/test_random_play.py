@@ -17,10 +17,11 @@ from hypothesis import HealthCheck, Phase, example, given, settings
 from hypothesis import strategies as st
 
 from schemas.command import Drive, Kick, KickMode
-from schemas.host import AppliedInput, Placement
+from schemas.host import AppliedInput
 from schemas.profile import Profile, load_profile
 from schemas.quantity import Choice, meanings
 from schemas.robot_model import RobotModel
+from schemas.roster import Placement
 from schemas.sections import Dribble
 from schemas.side import Side
 from sim_host.actuation.carrying import PULL

@@ -7,9 +7,10 @@ import pytest
 from pytest import approx
 
 from schemas.command import Drive
-from schemas.host import AppliedInput, Placement
+from schemas.host import AppliedInput
 from schemas.profile import load_profile
 from schemas.robot_model import RobotModel
+from schemas.roster import Placement
 from schemas.side import Side
 from sim_host.snapshot import Roster
 from sim_host.world.engine import Engine
