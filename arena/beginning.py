@@ -7,12 +7,12 @@ from pydantic_core import from_json, to_json
 
 from recordings.course import Stretch, TickNote
 from recordings.head import PROFILE
-from recordings.manifest import Manifest
 from recordings.reader import Recording
 from schemas.errors import TouchlineError
+from schemas.match_config import MatchConfig
 from schemas.message import BadMessageError
 from schemas.obstacle import Shape, StaticObstacle
-from schemas.profile import STANDARD, load_profile, profile_of
+from schemas.profile import STANDARD
 from schemas.roster import RosterEntry
 from schemas.side import Side
 from schemas.world import World
@@ -34,11 +34,37 @@ def beginning(recording: Recording, stretch: Stretch, before: TickNote | None) -
     if stretch.ticks.start > 0:
         known = _known(before)
         if not from_start:
-            robots, obstacles = tuple(_robots(recording.manifest)), tuple(_obstacles(known.world))
+            robots, obstacles = tuple(_robots(recording)), tuple(_obstacles(known.world))
             in_force = InForce(in_force.tuning, robots, obstacles)
     for one in changes:
         in_force = in_force.after(one)
     return in_force, known
+
+
+def config_of(recording: Recording) -> MatchConfig | None:
+    """The config of a recording with the profile that is attached to it; None where it was not recorded.
+
+    Raises:
+        TouchlineError: the attached profile is damaged.
+    """
+    config, tables = recording.manifest.config, recording.attachments.get(PROFILE)
+    if config is None or tables is None:
+        return config
+    try:
+        return config.model_copy(update={"profile_tables": from_json(tables)})
+    except ValueError:
+        raise TouchlineError(f"{recording.path}: {PROFILE}, attached to it, is damaged; take another copy") from None
+
+
+def need_scene(recording: Recording) -> None:
+    """Make sure that the config of a recording has the scene that the match started in.
+
+    Raises:
+        TouchlineError: the config only names it, and it cannot be read.
+    """
+    missing = recording.manifest.missing_scene
+    if missing is not None:
+        raise TouchlineError(f"{recording.path}: its scene {missing} cannot be read; restore that file")
 
 
 def _known(before: TickNote | None) -> Known:
@@ -52,16 +78,9 @@ def _known(before: TickNote | None) -> Known:
 
 def _numbers(recording: Recording, *, from_start: bool) -> Tuning:
     """What the match was played with: at its start, or when the recorder asked the host."""
-    setup, config = recording.manifest.setup, recording.manifest.config
+    setup, config = recording.manifest.setup, config_of(recording)
     if config is not None:
-        try:
-            tables = recording.attachments.get(PROFILE)
-            profile = load_profile(config.profile) if tables is None else profile_of(config.profile, from_json(tables))
-        except ValueError:
-            raise TouchlineError(
-                f"{recording.path}: {PROFILE}, attached to it, is damaged; take another copy"
-            ) from None
-        tuning = Tuning.begun(config, profile)
+        tuning = Tuning.of(config)
         return tuning if from_start or setup is None else tuning.laid_over(setup.parameters)
     if setup is None or (from_start and setup.parameters):
         raise TouchlineError(
@@ -71,12 +90,18 @@ def _numbers(recording: Recording, *, from_start: bool) -> Tuning:
     return numbers_of(setup)
 
 
-def _robots(manifest: Manifest) -> Iterable[RosterEntry]:
-    """Who took part when the recorder asked, in the order of the roster."""
+def _robots(recording: Recording) -> Iterable[RosterEntry]:
+    """The robots that took part when the recorder asked, in the order of the roster.
+
+    Raises:
+        TouchlineError: they are those of a scene that cannot be read.
+    """
+    manifest = recording.manifest
     for side in Side:
         if manifest.setup is not None:
             names, types = manifest.setup.teams[side].robots, manifest.setup.teams[side].types
         elif manifest.config is not None:
+            need_scene(recording)
             names, types = manifest.config.robots(side), manifest.config.team(side).types
         else:
             return

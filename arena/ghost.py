@@ -21,7 +21,6 @@ from schemas.command import Command
 from schemas.errors import TouchlineError
 from schemas.host import Applied, Setup
 from schemas.match_config import LOCKSTEP, MatchConfig
-from schemas.profile import load_profile
 from schemas.side import Side
 from schemas.sight import Sight
 from schemas.topics import APPLIED
@@ -87,7 +86,7 @@ def check(config: MatchConfig, ghosts: Iterable[str]) -> None:
     Raises:
         TouchlineError: the ticks have another length, or others play on that side.
     """
-    tick = load_profile(config.profile).time.tick
+    tick = config.load_profile().time.tick
     for ghost in ghosts:
         word, _, file = ghost.partition("=")
         setup = open_recording(Path(file)).manifest.setup

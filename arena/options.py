@@ -14,7 +14,6 @@ from schemas.bus.contract import BusError
 from schemas.bus.endpoint import is_loopback, parse_endpoint, with_port
 from schemas.errors import TouchlineError
 from schemas.match_config import MatchConfig, load_match
-from schemas.profile import load_profile
 from schemas.robot_model import models_of
 from schemas.rule_book import SHIPPED, load_rule_book
 from schemas.side import Side
@@ -143,7 +142,7 @@ def read_match(file: Path | None, **flags: Any) -> MatchConfig:
     """
     given = {key.replace("__", "."): value for key, value in flags.items() if value is not None}
     config = load_match(file, given)
-    models_of(config, load_profile(config.profile))
+    models_of(config, config.load_profile())
     book = load_rule_book(config.rules)
     need_pybullet()
     from sim_host.start import opening

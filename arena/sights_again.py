@@ -7,6 +7,7 @@ referee or did to the pitch is not in them: from there on sights are not what th
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
+from arena.beginning import config_of, need_scene
 from recordings.reader import Recording
 from robot_agent.contract import read_sight
 from schemas.coach import CoachOrder
@@ -35,13 +36,14 @@ class SightsAgain:
         """Sight by sight.
 
         Raises:
-            TouchlineError: the recording does not hold its match file, or does not begin at tick 0.
+            TouchlineError: the recording does not hold its match file or its scene, or does not begin at tick 0.
         """
-        config = self.recording.manifest.config
+        config = config_of(self.recording)
         if config is None:
             raise TouchlineError(
                 f"{self.recording.path}: it has neither sights nor its match file; record with touchline match --sights"
             )
+        need_scene(self.recording)
         simulation = Simulation(config)
         try:
             yield from self._sights(simulation, config.speed is None)

@@ -8,7 +8,6 @@ from processes import field
 
 from schemas.bus.zenoh_bus import open_client
 from schemas.clock import WallClock
-from schemas.profile import load_profile
 from schemas.topics import HEALTH
 
 SETTLE_S = 2.0
@@ -43,7 +42,7 @@ def main() -> None:
         ticks = last.message().tick - first.message().tick
         span = (last.stamp.sent_ns - first.stamp.sent_ns) * 1e-9  # type: ignore[union-attr]
         rate = ticks / span
-    factor = rate * load_profile(config.profile).time.tick
+    factor = rate * config.load_profile().time.tick
     print(
         f"lockstep: {rate:.0f} cycles/s with ten agent processes, {rate / 500:.2f} x the 500 wanted, {factor:.1f} x "
         f"real time; bound by the CPU: the host takes {busy / took:.0%} of a core, "

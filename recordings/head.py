@@ -12,7 +12,7 @@ from schemas.clock import Clock
 from schemas.host import Setup
 from schemas.match_config import MatchConfig
 from schemas.message import VERSION, Message
-from schemas.profile import profile_tables, profile_text
+from schemas.profile import profile_tables
 from schemas.rule_book import rule_book_text
 from schemas.topic import Delivery
 from schemas.topics import TOPICS
@@ -57,8 +57,7 @@ def attachments(config: MatchConfig | None) -> dict[str, bytes]:
     files = {"message_schemas.json": to_json({name: whole_schema(model) for name, model in models.items()})}
     if config is not None:
         files["match.json"] = to_json(config)
-        files["profile.toml"] = profile_text(config.profile).encode()
-        files[PROFILE] = to_json(profile_tables(config.profile))
+        files[PROFILE] = to_json(config.profile_tables or profile_tables(config.profile))
         files["rules.toml"] = rule_book_text(config.rules).encode()
     return files
 

@@ -9,9 +9,10 @@ import types
 from enum import StrEnum
 from typing import Any, Self, TypeVar, get_args
 
-from pydantic import ValidationError
+from pydantic import ValidationError, model_validator
 from pydantic_core import from_json, to_json, to_jsonable_python
 
+from recordings.scene_by_name import with_scene
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score
 from schemas.host import Setup
@@ -43,6 +44,8 @@ class Manifest(Part):
     """The host's own words; nothing when it gave none."""
     config: MatchConfig | None = None
     """The match file; nothing when the recorder was not told."""
+    missing_scene: str | None = None
+    """The scene that `config` named and that could not be read: `config.robots` does not give who played then."""
     include: list[str] = []
     """Key expressions that were recorded; all where there is none."""
     exclude: list[str] = []
@@ -55,6 +58,11 @@ class Manifest(Part):
     """Attachment → blake2b of its content, hex."""
     made: str = "recorded"
     """`recorded`, or how it was made of other recordings: `filtered`, `merged`."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _embed_scene(cls, fields: Any) -> Any:
+        return with_scene(fields) if isinstance(fields, dict) else fields
 
 
 class Ended(StrEnum):

@@ -1,4 +1,8 @@
-"""The match file: one frozen `MatchConfig` from TOML, with errors that name file, key, value and remedy."""
+"""The match file: one frozen `MatchConfig` from TOML, with errors that name file, key, value and remedy.
+
+`load_match` reads every file that a match file names, scene and profile, and embeds what is in it: a config is
+self-contained.
+"""
 
 import tomllib
 from pathlib import Path
@@ -11,7 +15,10 @@ from schemas.game import Mode
 from schemas.message import Name, Part
 from schemas.noise import PRESETS
 from schemas.obstacle import Shape, StaticObstacle
+from schemas.profile import SHIPPED, Profile, load_profile, profile_of, profile_tables
 from schemas.roster import MAX_ROBOTS, RESERVED
+from schemas.scene import REMEDIES as SCENE_REMEDIES
+from schemas.scene import Scene, load_scene
 from schemas.side import Side
 from schemas.toml_file import validated
 
@@ -23,6 +30,8 @@ REMEDIES = {
     "seed": "a whole number from 0 to 2^63 - 1",
     "pace": 'write "lockstep", "realtime", or "x4" for four times real time',
     "duration": "playing time of all halves in s, above 0 and at most 86400",
+    "scene": "the name of a scene, or a path that ends in .toml",
+    **{f"scene.{key}": remedy for key, remedy in SCENE_REMEDIES.items()},
     "teams": "write [teams.cyan] and [teams.magenta]",
     "teams.cyan": "write [teams.cyan], and below it what the team is",
     "teams.magenta": "write [teams.magenta], and below it what the team is",
@@ -158,9 +167,15 @@ class MatchConfig(Part):
     pace: Annotated[str, Field(pattern=r"^(lockstep|realtime|x\d{1,6}(\.\d{1,6})?)$")] = LOCKSTEP
     duration: Annotated[float, Field(gt=0, le=86_400)] | None = None
     """Playing time of all halves in s; by default the rule book's."""
-    scene: str | None = None
-    """The scene that the match starts in, by name or path, with its robots; by default everybody at the kick-off."""
+    scene: Scene | None = None
+    """The scene that the match starts in, with its robots; None for the kick-off.
+
+    A match file has the name or the path of a scene here, or the scene itself.
+    """
     profile: str = "msl"
+    """A shipped profile by name, or the path of the file that `profile_tables` was read from."""
+    profile_tables: dict[str, Any] | None = None
+    """All tables of the profile, with those of the profiles that it extends; None for the shipped profile."""
     rules: str = "friendly"
     teams: Teams = Field(default_factory=Teams)
     types: dict[Name, dict[str, Any]] = Field(default_factory=dict)
@@ -210,17 +225,21 @@ class MatchConfig(Part):
         return self.teams.cyan if side is Side.CYAN else self.teams.magenta
 
     def robots(self, side: Side) -> list[str]:
-        """The names of the robots that agents move, the goalkeeper first; of a scene, where the match starts in one.
-
-        Raises:
-            TouchlineError: the scene cannot be read.
-        """
+        """The names of the robots that agents move, the goalkeeper first; of a scene, where the match starts in one."""
         if self.scene is not None:
-            from schemas.scene import load_scene  # it is made of parts that are made for matches
-
-            return [robot.name for robot in load_scene(self.scene).of(side) if robot.agent]
+            return [robot.name for robot in self.scene.of(side) if robot.agent]
         team = self.team(side)
         return team.robots or [f"{side.value}{number}" for number in range(1, team.size + 1)]
+
+    def load_profile(self) -> Profile:
+        """The profile that the match is played with.
+
+        Raises:
+            TouchlineError: no such shipped profile, or a wrong number in it.
+        """
+        if self.profile_tables is None:
+            return load_profile(self.profile)
+        return profile_of(self.profile, self.profile_tables)
 
     @property
     def speed(self) -> float | None:
@@ -247,17 +266,27 @@ def load_match(path: Path | None, overrides: dict[str, Any] | None = None) -> Ma
             raise TouchlineError(f"{path}: not TOML: {error}") from None
     for key, value in (overrides or {}).items():
         _lay_over(content, key.split("."), value)
-    return _validated(_scene_words(content) | content, where)
+    return _validated(_with_profile(_with_scene(content), where), where)
 
 
-def _scene_words(content: dict[str, Any]) -> dict[str, Any]:
-    """What the scene that a match starts in says of profile and rules."""
-    if not isinstance(content.get("scene"), str):
-        return {}
-    from schemas.scene import load_scene  # it is made of parts that are made for matches
+def _with_scene(content: dict[str, Any]) -> dict[str, Any]:
+    """The match file with the scene in place of its name, and with the scene's profile and rules as defaults."""
+    if isinstance(content.get("scene"), str):
+        content = content | {"scene": load_scene(content["scene"]).model_dump(mode="json")}
+    scene = content.get("scene")
+    if not isinstance(scene, dict):
+        return content  # the validator names a wrong type
+    return {key: scene[key] for key in ("profile", "rules") if scene.get(key) is not None} | content
 
-    scene = load_scene(content["scene"])
-    return {key: value for key, value in (("profile", scene.profile), ("rules", scene.rules)) if value is not None}
+
+def _with_profile(content: dict[str, Any], where: str) -> dict[str, Any]:
+    """The match file with the tables of a profile that is not shipped."""
+    if "profile_tables" in content:
+        raise TouchlineError(f'{where}: profile_tables is not for match files; write profile = "FILE.toml"')
+    profile = content.get("profile")
+    if not isinstance(profile, str) or profile in SHIPPED:
+        return content
+    return content | {"profile_tables": profile_tables(profile)}
 
 
 def _lay_over(content: dict[str, Any], path: list[str], value: Any) -> None:

@@ -7,7 +7,7 @@ from schemas.game import Phase
 from schemas.match_config import MatchConfig
 from schemas.profile import Profile
 from schemas.rule_book import Restarts
-from schemas.scene import Scene, SceneGame, SceneRobot, load_scene
+from schemas.scene import Scene, SceneGame, SceneRobot
 from schemas.sections import Field
 from schemas.side import Side
 from sim_host.snapshot import Roster
@@ -26,10 +26,10 @@ def opening(config: MatchConfig, tuning: Tuning, restarts: Restarts) -> tuple[Sc
     """The scene that a match begins with, and the stage that it makes.
 
     Raises:
-        TouchlineError: no such scene, or somebody would begin in something else.
+        TouchlineError: a body would begin in another, or outside the field.
     """
     profile = tuning.profile
-    scene = load_scene(config.scene) if config.scene is not None else start_scene(config, profile, restarts)
+    scene = config.scene if config.scene is not None else start_scene(config, profile, restarts)
     began = opened(scene, "")
     check(began.stage, Rig(profile.field, profile.ball, tuning.types), began.stage.names)
     return scene, began

@@ -11,7 +11,7 @@ from schemas.errors import TouchlineError, did_you_mean
 from schemas.match_config import MatchConfig
 from schemas.noise import PRESETS, sensing_of
 from schemas.parameters import Parameter, ParameterDeed, ParametersRequest, Setting, Value
-from schemas.profile import Changes, Profile, check_consistent, load_profile
+from schemas.profile import Changes, Profile, check_consistent
 from schemas.quantity import Choice, Quantity, checked, meanings
 from schemas.robot_model import RobotModel, types_of
 from schemas.sections import SECTIONS, TYPE_SECTIONS, Sensing
@@ -94,16 +94,7 @@ class Tuning:
         Raises:
             TouchlineError: the profile or a type of robots cannot be read.
         """
-        return cls.begun(config, load_profile(config.profile))
-
-    @classmethod
-    def begun(cls, config: MatchConfig, profile: Profile) -> "Tuning":
-        """What a match begins with whose profile was read already.
-
-        Raises:
-            TouchlineError: a type of robots cannot be read.
-        """
-        profile = profile.with_types(config.types, f'match "{config.name}"')
+        profile = config.load_profile().with_types(config.types, f'match "{config.name}"')
         given = {key: value for key, value in config.radio.model_dump().items() if value is not None}
         origins = {**profile.origins, **{f"radio.{key}": _MATCH_FILE for key in given}}
         profile = dataclasses.replace(profile, radio=dataclasses.replace(profile.radio, **given), origins=origins)

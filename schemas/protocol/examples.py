@@ -32,7 +32,6 @@ from schemas.match_config import MatchConfig
 from schemas.message import Message
 from schemas.minutes import Minutes, MinutesEntry
 from schemas.parameters import Parameter, ParameterDeed, ParametersReply, ParametersRequest
-from schemas.profile import load_profile
 from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
 from schemas.roster import Placement
 from schemas.rule_book import load_rule_book
@@ -216,5 +215,5 @@ def _parameters() -> tuple[Message, ...]:
 def _setup() -> Setup:
     """The setup of the match that is played when nobody names a file."""
     config = MatchConfig()
-    profile, book = load_profile(config.profile), load_rule_book(config.rules)
+    profile, book = config.load_profile(), load_rule_book(config.rules)
     return Setup.of(config, profile, book, {"engine": "pybullet 3.2.7, api 202010061"})

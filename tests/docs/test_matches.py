@@ -10,8 +10,8 @@ from arena.brains import check_teams
 from arena.in_process import play
 from schemas.game import EventKind
 from schemas.match_config import MatchConfig, load_match
-from schemas.profile import load_profile
 from schemas.rule_book import load_rule_book
+from schemas.scene import Scene
 from schemas.side import Side
 from sim_host.simulation import Tick
 
@@ -29,7 +29,7 @@ def at_home(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_every_match_file_loads_with_all_it_names(file: Path) -> None:
     config = load_match(file)
-    load_profile(config.profile)
+    config.load_profile()
     load_rule_book(config.rules)
     if config.teams.cyan.command is None:
         check_teams(config)
@@ -46,9 +46,11 @@ def test_the_friendly_shows_every_word_of_a_match_file(root: Path) -> None:
     obstacles = re.findall(r"^# obstacles = (.*)", text, re.MULTILINE)
     words = {key or table for key, table in shown} | set(re.findall(r"(\w+) = ", "".join(obstacles)))
     schema = MatchConfig.model_json_schema()
-    asked = set(schema["properties"]) - {"teams"}
-    for part in schema["$defs"].values():
-        asked |= set(part.get("properties", {}))
+    asked = set(schema["properties"]) - {"teams", "profile_tables"}
+    of_scenes = {"Scene", *Scene.model_json_schema()["$defs"]} - {"StaticObstacle"}
+    for name, part in schema["$defs"].items():
+        if name not in of_scenes:
+            asked |= set(part.get("properties", {}))
     assert words == asked
 
 
@@ -69,7 +71,7 @@ def test_every_line_of_the_friendly_that_is_left_out_may_be_put_in(root: Path, t
 def test_the_papers_match_is_three_a_side_on_its_own_pitch(root: Path) -> None:
     config = load_match(root / "matches" / "paper.toml")
     assert [len(config.robots(side)) for side in Side] == [3, 3]
-    assert load_profile(config.profile).field.length == 18.0
+    assert config.load_profile().field.length == 18.0
     played = play(config, until=12.0)
     assert [event.kind for event in played.events][:3] == [EventKind.RESTART, EventKind.START, EventKind.IN_PLAY]
 
@@ -90,4 +92,4 @@ def test_the_first_brain_gets_the_ball_carries_it_and_shoots(root: Path) -> None
     in_play = next(event for event in played.events if event.kind is EventKind.IN_PLAY)
     assert in_play.robot == "cyan1"
     assert max(held) - min(held) > 3.0
-    assert kicks and kicks[0] > load_profile(config.profile).field.goal_line - 5.5
+    assert kicks and kicks[0] > config.load_profile().field.goal_line - 5.5

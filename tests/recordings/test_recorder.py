@@ -468,7 +468,6 @@ def test_match_file_profile_rules_and_whole_schemas_are_attached(recorded):
         "match.json",
         "message_schemas.json",
         "profile.json",
-        "profile.toml",
         "rules.toml",
     ]
     assert b'"$defs"' in recorded.attachments["message_schemas.json"]

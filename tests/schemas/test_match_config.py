@@ -39,6 +39,13 @@ def test_without_a_file_it_is_five_against_five_of_the_teams_that_ship() -> None
         ('name = "My Match"', "name is 'My Match'; a match name is a key chunk"),
         ("teams = 3", "teams is 3; write [teams.cyan] and [teams.magenta]"),
         ("[teams]\ncyan = 3", "teams.cyan is 3; write [teams.cyan]"),
+        ("scene = 3", "scene is 3; the name of a scene, or a path that ends in .toml"),
+        ('[scene]\nsays = "Mine."', "scene.robots is missing"),
+        (
+            '[scene]\nsays = "Mine."\n[[scene.robots]]\nname = "anna"\nside = "blue"',
+            "scene.robots.0.side is 'blue'; write cyan or magenta",
+        ),
+        ("[profile_tables]", 'profile_tables is not for match files; write profile = "FILE.toml"'),
         ("obstacles = 3", "obstacles is 3; write [[obstacles]]"),
         ('[[obstacles]]\nname = "b"', "obstacles.0.shape is missing; one of cylinder, box"),
         (
@@ -93,3 +100,34 @@ def test_a_match_crosses_to_its_host_as_json_and_is_the_same() -> None:
     match = load_match(None, {"seed": 2**62, "pace": "x4", "noise.preset": "perfect"})
     assert MatchConfig.model_validate_json(match.model_dump_json()) == match
     assert match.speed == 4.0
+
+
+def test_a_match_holds_its_scene_and_profile_whatever_becomes_of_their_files(tmp_path: Path) -> None:
+    scene, profile = tmp_path / "mine.toml", tmp_path / "slow.toml"
+    scene.write_text('says = "Mine."\nrules = "msl"\nrobots = [{ name = "anna", side = "cyan", x = 0.0, y = 0.0 }]\n')
+    profile.write_text('extends = "msl"\n[drive]\nmax_speed = { value = 1.5, unit = "m/s", origin = "ours" }\n')
+    match = load_match(None, {"scene": str(scene), "profile": str(profile)})
+    scene.write_text("")
+    profile.unlink()
+    arrived = MatchConfig.model_validate_json(match.model_dump_json())
+    assert arrived == match
+    assert (arrived.robots(Side.CYAN), arrived.robots(Side.MAGENTA)) == (["anna"], [])
+    assert (arrived.rules, arrived.profile, arrived.load_profile().drive.max_speed) == ("msl", str(profile), 1.5)
+    assert arrived.load_profile().origins["drive.max_speed"] == "ours"
+
+
+def test_a_shipped_profile_takes_the_place_of_the_files_profile(tmp_path: Path) -> None:
+    (tmp_path / "slow.toml").write_text('extends = "msl"\n')
+    path = tmp_path / "cup.toml"
+    path.write_text(f'profile = "{tmp_path / "slow.toml"}"\n')
+    assert load_match(path).profile_tables is not None
+    assert load_match(path, {"profile": "paper"}).profile_tables is None
+
+
+def test_a_scene_may_stand_in_the_match_file(tmp_path: Path) -> None:
+    path = tmp_path / "cup.toml"
+    path.write_text(
+        '[scene]\nsays = "Mine."\nprofile = "omni"\n[[scene.robots]]\nname = "anna"\nside = "cyan"\nx = 0.0\ny = 0.0\n'
+    )
+    match = load_match(path)
+    assert (match.robots(Side.CYAN), match.profile) == (["anna"], "omni")
