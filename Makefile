@@ -5,7 +5,7 @@
 .PHONY: help match test check bench clean
 READY := .venv/.ready
 # Compiled once: where Python is told to write no bytecode, as in many containers, each process of each match would.
-PACKAGES := schemas sim_host robot_agent coach_gateway recordings arena
+PACKAGES := schemas sim_host robot_agent coach_gateway recordings touchline
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 help: ## show this list
@@ -14,7 +14,7 @@ help: ## show this list
 match: $(READY) ## play a match, for example: make match ARGS="--seed 7 --duration 60"
 	@.venv/bin/touchline match $(ARGS)
 
-test: $(READY) ## run the tests, file by file in two processes, for example: make test ARGS=tests/arena
+test: $(READY) ## run the tests, file by file in two processes, for example: make test ARGS=tests/touchline
 	.venv/bin/pytest -n 2 --dist loadfile $(ARGS)
 
 check: $(READY) ## format, lint, types, and which package may import which

@@ -10,12 +10,12 @@ import statistics
 import time
 from collections.abc import Callable
 
-from schemas.command import BallBelief, Command, Drive, Motion, Radio
-from schemas.light import light_encode_exactly, light_reader
-from schemas.match_config import load_match
+from schemas.config.match_config import load_match
 from schemas.message import VERSION
-from sim_host.simulation import Simulation
-from sim_host.world.engine import Engine
+from schemas.messages.command import BallBelief, Command, Drive, Motion, Radio
+from schemas.messages.light import light_encode_exactly, light_reader
+from sim_host.match.simulation import Simulation
+from sim_host.physics.engine import Engine
 
 ROUNDS = 15
 TURNS = 5
@@ -54,10 +54,10 @@ def main() -> None:
     """Print the median cost of both, and their ratio."""
     simulation = Simulation(load_match(None, {"duration": 86_400}))
     steps = simulation.profile.time.steps_per_tick
-    told: list[dict[str, Command]] = []
+    inputs: list[dict[str, Command]] = []
 
     def host() -> None:
-        for commanded in told:
+        for commanded in inputs:
             tick = simulation.step(commanded)  # sights, beliefs and inputs leave it encoded
             light_encode_exactly({"version": VERSION, **tick.world})  # as `Publisher.put_fields` does
 
@@ -66,7 +66,7 @@ def main() -> None:
 
     def loop() -> None:
         for _ in range(TICKS * steps):
-            raw.drive(drives)
+            raw.set_velocities(drives)
             raw.step()
             raw.read()
 
@@ -76,7 +76,7 @@ def main() -> None:
 
     def ready() -> None:
         now = simulation.now.tick
-        told[:] = [commands(simulation, tick) for tick in range(now, now + TICKS)]
+        inputs[:] = [commands(simulation, tick) for tick in range(now, now + TICKS)]
         raw.rebuild(simulation.world.snapshot().robots, simulation.world.snapshot().ball)
 
     def turn() -> list[float]:

@@ -12,11 +12,11 @@ import sys
 import time
 
 import zenoh
-from processes import HERE, field
+from running_match import HERE, running_match
 
-from schemas.bus.endpoint import with_port
-from schemas.bus.zenoh_bus import open_client
-from schemas.clock import WallClock
+from schemas.bus.endpoint import with_free_port
+from schemas.bus.zenoh.bus import open_client
+from schemas.process.clock import WallClock
 from schemas.topics import HEALTH
 
 ROBOTS = 10
@@ -29,7 +29,7 @@ SECONDS = 8
 def ours() -> float:
     """Median latency over the robots and the seconds, ms."""
     with (
-        field("still_brain:act", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, _),
+        running_match("idle_brain:act", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, _),
         open_client(config.name, WallClock(), endpoint) as bus,
     ):
         healths = bus.subscribe(HEALTH)
@@ -53,7 +53,7 @@ def settings(mode: str, **more: object) -> zenoh.Config:
 
 def raw() -> float:
     """Median latency of the ping-pong, ms."""
-    endpoint = with_port("tcp/127.0.0.1:0")
+    endpoint = with_free_port("tcp/127.0.0.1:0")
     session = zenoh.open(settings("router", listen__endpoints=[endpoint]))
     players = [
         subprocess.Popen([sys.executable, __file__, endpoint, str(number)], cwd=HERE) for number in range(ROBOTS)

@@ -4,10 +4,10 @@ import os
 import time
 from pathlib import Path
 
-from processes import field
+from running_match import running_match
 
-from schemas.bus.zenoh_bus import open_client
-from schemas.clock import WallClock
+from schemas.bus.zenoh.bus import open_client
+from schemas.process.clock import WallClock
 from schemas.topics import HEALTH
 
 SETTLE_S = 2.0
@@ -23,7 +23,7 @@ def cpu_seconds(process: int) -> float:
 def main() -> None:
     """Print cycles per second, their ratio to the wanted rate, and the host's share of one core."""
     with (
-        field("still_brain:act", {"duration": 3600.0}) as (config, endpoint, host),
+        running_match("idle_brain:act", {"duration": 3600.0}) as (config, endpoint, host),
         open_client(config.name, WallClock(), endpoint) as bus,
     ):
         healths = bus.subscribe(HEALTH)

@@ -11,7 +11,7 @@ SECONDS = 120
 def main() -> None:
     """Print the ratio to real time."""
     began = time.perf_counter()
-    command = [sys.executable, "-m", "arena", "match", "--duration", str(SECONDS), "--seed", "7", "--json"]
+    command = [sys.executable, "-m", "touchline", "match", "--duration", str(SECONDS), "--seed", "7", "--json"]
     command += ["--listen", "tcp/127.0.0.1:0"]
     ended = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True)
     took = time.perf_counter() - began

@@ -15,13 +15,13 @@ import time
 from pathlib import Path
 
 from playwright.sync_api import Page, sync_playwright
-from processes import field
+from running_match import running_match
 
 from schemas.bus.contract import Bus, Subscription
-from schemas.bus.zenoh_bus import open_client
-from schemas.clock import WallClock
+from schemas.bus.zenoh.bus import open_client
+from schemas.config.match_config import MatchConfig
 from schemas.game import TeamPhase
-from schemas.match_config import MatchConfig
+from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import SIGHT
 
@@ -36,7 +36,11 @@ def main() -> None:
         print("page: not measured, there is no Chromium; apt-get install chromium")
         return
     with (
-        field("robot_agent.teams.simple:Simple", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, _),
+        running_match("robot_agent.teams.simple:Simple", {"duration": 3600.0, "pace": "realtime"}) as (
+            config,
+            endpoint,
+            _,
+        ),
         tempfile.TemporaryDirectory() as folder,
         open_client(config.name, WallClock(), endpoint, patience=60.0) as bus,
         sync_playwright() as playwright,
@@ -91,13 +95,13 @@ def _stop(page: Page, bus: Bus, config: MatchConfig) -> float:
     page.locator("#moving").focus()
     began = time.time_ns()
     page.keyboard.press("Space")
-    told = max(_told(sight, began) for sight in sights.values())
+    last = max(_stopped_at(sight, began) for sight in sights.values())
     for sight in sights.values():
         sight.close()
-    return (told - began) / 1e6
+    return (last - began) / 1e6
 
 
-def _told(sights: Subscription, began: int) -> int:
+def _stopped_at(sights: Subscription, began: int) -> int:
     """Wall time in ns of a robot's first sight of the stopped game, as the host sent it."""
     while (received := sights.receive(10.0)) is not None:
         sent = received.stamp.sent_ns if received.stamp is not None else 0

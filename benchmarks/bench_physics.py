@@ -17,22 +17,22 @@ from dataclasses import dataclass, replace
 from rich.console import Console
 from rich.table import Table
 
-from schemas.command import Drive
+from schemas.config.profile import load_profile
+from schemas.config.robot_model import RobotModel
+from schemas.config.roster import Placement
+from schemas.config.rule_book import load_rule_book
 from schemas.frames import Pose
-from schemas.host import AppliedInput
-from schemas.profile import load_profile
-from schemas.robot_model import RobotModel
-from schemas.roster import Placement
-from schemas.rule_book import load_rule_book
+from schemas.messages.command import Drive
+from schemas.messages.host import AppliedInput
 from schemas.side import Side
-from sim_host.radio import RadioAir
+from sim_host.match.radio import RadioAir
+from sim_host.match.sights import Sights
+from sim_host.match.world import World
+from sim_host.physics.engine import Engine
 from sim_host.referee.core import Referee
 from sim_host.sensing.perception import Perception
-from sim_host.sensing.streams import Streams
-from sim_host.sights import Sights
+from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster, Snapshot
-from sim_host.world.engine import Engine
-from sim_host.world.world import World
 
 SIZES = (2, 6, 10, 22, 100)
 PROFILES = ("msl", "omni")
@@ -64,7 +64,7 @@ def roster_of(count: int, model: RobotModel) -> Roster:
     return Roster(names, sides, {side: f"{side.value}1" for side in Side}, (model,) * len(names))
 
 
-class Hall:
+class TickRig:
     """A pitch full of robots, and everything of a host that is not network."""
 
     def __init__(self, profile_name: str, count: int) -> None:
@@ -73,8 +73,8 @@ class Hall:
         self.world = World(profile, self.roster)
         self.raw = Engine(profile, self.roster)
         self.world.place(self._spread())
-        self.world.rebuild()
-        streams = Streams(1)
+        self.world.make_checkpoint()
+        streams = RandomStreams(1)
         radio = RadioAir(profile.radio, self.roster, profile.time.tick, streams)
         perception = Perception(profile.sensing, self.roster, streams, profile.time.tick)
         self.sights = Sights(self.roster, perception, radio)
@@ -92,8 +92,8 @@ class Hall:
             starts=starts,
         )
         self.state = self.referee.begin()
-        told = AppliedInput(Drive(vx=0.4, omega=1.0), dribble=True)
-        self.inputs = dict.fromkeys(self.roster.names, told)
+        applied = AppliedInput(Drive(vx=0.4, omega=1.0), dribble=True)
+        self.inputs = dict.fromkeys(self.roster.names, applied)
         self.snapshot: Snapshot = self.world.snapshot()
 
     def close(self) -> None:
@@ -118,7 +118,7 @@ class Hall:
 
     def step_raw(self) -> None:
         """One step as any program does it."""
-        self.raw.drive(self._drives)
+        self.raw.set_velocities(self._drives)
         self.raw.step()
         self.raw.read()
 
@@ -163,15 +163,15 @@ def timed(body: Callable[[], None]) -> float:
 
 def measure(profile_name: str, count: int) -> Cost:
     """Medians over some rounds, in each of which everything has its turn."""
-    hall = Hall(profile_name, count)
-    hall.step_world()
-    steps = hall.profile.time.steps_per_tick
+    rig = TickRig(profile_name, count)
+    rig.step_world()
+    steps = rig.profile.time.steps_per_tick
     rows = []
     for _ in range(ROUNDS):
-        hall.ready()
-        tick = timed(hall.tick)
-        rows.append((timed(hall.step_raw), timed(hall.step_world) / steps, timed(hall.sense), tick))
-    hall.close()
+        rig.ready()
+        tick = timed(rig.tick)
+        rows.append((timed(rig.step_raw), timed(rig.step_world) / steps, timed(rig.sense), tick))
+    rig.close()
     raw, world, sensing, tick = (statistics.median(column) for column in zip(*rows, strict=True))
     return Cost(raw, world, sensing, tick, steps)
 

@@ -17,22 +17,22 @@ import time
 from itertools import pairwise
 from pathlib import Path
 
-from processes import HERE, field, launch
+from running_match import HERE, launch, running_match
 
-from arena.verification import verify
-from recordings.reader import open_recording
-from recordings.recovery import recover
+from recordings.editing.recovery import recover
+from recordings.reading.recording import open_recording
 from schemas.bus.contract import Subscription
-from schemas.bus.endpoint import with_port
-from schemas.bus.zenoh_bus import open_client
-from schemas.clock import WallClock
-from schemas.match_config import MatchConfig
+from schemas.bus.endpoint import with_free_port
+from schemas.bus.zenoh.bus import open_client
+from schemas.config.match_config import MatchConfig
+from schemas.process.clock import WallClock
 from schemas.topics import HEALTH, WORLD
+from touchline.verify.resimulate import verify
 
 MATCH_S = 20
-STRETCHES = 9
-STRETCH_S = 4.0
-"""Wall time in which a match is recorded, and in which it is not, in turn; many short stretches, because what else the
+INTERVALS = 9
+INTERVAL_S = 4.0
+"""Wall time in which a match is recorded, and in which it is not, in turn; many short intervals, because what else the
 machine does changes from one to the next by more than recording costs."""
 SETTLE_S = 0.5
 """Wall time in which a recorder's coming or going is forgotten."""
@@ -53,7 +53,11 @@ def cpu_seconds(process: int) -> float:
 
 def recorder_share(folder: Path) -> float:
     """CPU of a recorder of five a side in real time, as a share of one core."""
-    with field("robot_agent.teams.simple:Simple", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, _):
+    with running_match("robot_agent.teams.simple:Simple", {"duration": 3600.0, "pace": "realtime"}) as (
+        config,
+        endpoint,
+        _,
+    ):
         out = folder / "realtime.mcap"
         recorder = launch("recordings", "--connect", endpoint, "--match", config.name, "--out", str(out))
         try:
@@ -71,7 +75,7 @@ def recorder_share(folder: Path) -> float:
 
 def play(path: Path) -> None:
     """Record a lockstep match."""
-    command = [sys.executable, "-m", "arena", "match", "--duration", str(MATCH_S), "--seed", "7"]
+    command = [sys.executable, "-m", "touchline", "match", "--duration", str(MATCH_S), "--seed", "7"]
     command += ["--listen", "tcp/127.0.0.1:0", "--record", str(path)]
     subprocess.run(command, cwd=path.parent, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
 
@@ -79,7 +83,7 @@ def play(path: Path) -> None:
 def speed(healths: Subscription) -> float:
     """Ticks per wall second that a host plays just now."""
     marks = []
-    while not marks or marks[-1][0] - marks[0][0] < STRETCH_S:
+    while not marks or marks[-1][0] - marks[0][0] < INTERVAL_S:
         while healths.receive() is not None:
             pass
         received = healths.receive(PATIENCE_S)
@@ -92,10 +96,10 @@ def speed(healths: Subscription) -> float:
 def compare(folder: Path) -> list[float]:
     """How fast a lockstep match is with recording, of as fast as without: recorders come to one match, and leave again.
 
-    Each stretch with one is compared with the two stretches without around it.
+    Each interval with one is compared with the two intervals without around it.
     """
-    endpoint = with_port("tcp/127.0.0.1:0")
-    command = [sys.executable, "-m", "arena", "match", "--no-record", "--duration", "3600", "--listen", endpoint]
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    command = [sys.executable, "-m", "touchline", "match", "--no-record", "--duration", "3600", "--listen", endpoint]
     match = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
         with open_client(MatchConfig().name, WallClock(), endpoint, PATIENCE_S) as bus:
@@ -103,7 +107,7 @@ def compare(folder: Path) -> list[float]:
             while (received := healths.receive(PATIENCE_S)) is not None and received.message().tick < WARM_TICKS:
                 pass
             without, with_recorder = [speed(healths)], []
-            for _ in range(STRETCHES):
+            for _ in range(INTERVALS):
                 recorder = launch(
                     "recordings", "--connect", endpoint, "--match", bus.match, "--out", str(folder / "m.mcap")
                 )
@@ -129,7 +133,17 @@ def compare(folder: Path) -> list[float]:
 
 def replay(path: Path) -> float:
     """Simulated seconds per wall second of a replay as fast as possible, onto a bus without listeners."""
-    command = [sys.executable, "-m", "arena", "replay", str(path), "--fast", "--json", "--listen", "tcp/127.0.0.1:0"]
+    command = [
+        sys.executable,
+        "-m",
+        "touchline",
+        "replay",
+        str(path),
+        "--fast",
+        "--json",
+        "--listen",
+        "tcp/127.0.0.1:0",
+    ]
     ended = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True)
     played = json.loads(ended.stdout)
     return float((played["end"] - played["start"]) / played["wall_s"])
@@ -169,7 +183,7 @@ def main() -> None:
         ratios = compare(folder)
         print(
             f"lockstep with recording: {statistics.median(ratios):.2f} x as fast as without (at least 0.95), median of "
-            f"{STRETCHES} stretches from {ratios[0]:.2f} to {ratios[-1]:.2f}"
+            f"{INTERVALS} intervals from {ratios[0]:.2f} to {ratios[-1]:.2f}"
         )
         busy = time.process_time()
         verdict = verify(path)

@@ -10,10 +10,10 @@ import sys
 import time
 from typing import NamedTuple
 
-from arena.in_process import Table
+from schemas.config.match_config import load_match
+from schemas.config.rule_book import load_rule_book
 from schemas.game import Phase
-from schemas.match_config import load_match
-from schemas.rule_book import load_rule_book
+from touchline.play import InProcessMatch
 
 RULES = "msl"
 SEEDS = range(1, 21)
@@ -39,7 +39,7 @@ class Flow(NamedTuple):
 
 def flow_of(seed: int) -> Flow:
     """Play one match in this process."""
-    table = Table(load_match(None, {"seed": seed, "rules": RULES, "duration": DURATION_S}))
+    table = InProcessMatch(load_match(None, {"seed": seed, "rules": RULES, "duration": DURATION_S}))
     simulation = table.simulation
     judge, judging = simulation.referee.step, 0.0
 

@@ -11,11 +11,11 @@ from collections.abc import Callable
 
 from bench_host_step import commands
 
-from schemas.match_config import load_match
+from schemas.config.match_config import load_match
+from sim_host.match.simulation import Simulation
+from sim_host.physics.engine import Engine
 from sim_host.sensing.perception import Perception
-from sim_host.sensing.streams import Streams
-from sim_host.simulation import Simulation
-from sim_host.world.engine import Engine
+from sim_host.sensing.random_streams import RandomStreams
 
 ROUNDS = 8
 TICKS = 256
@@ -41,13 +41,13 @@ def main() -> None:
     """Print the median cost of each in a tick."""
     simulation = Simulation(load_match(None, {"duration": 86_400}))
     profile, roster = simulation.profile, simulation.roster
-    perception = Perception(profile.sensing, roster, Streams(2), profile.time.tick)
+    perception = Perception(profile.sensing, roster, RandomStreams(2), profile.time.tick)
     raw = Engine(profile, roster)
     drives = [(0.3, 0.1 * place, 0.3) for place in range(len(roster.names))]
 
     def physics() -> None:
         for _ in range(profile.time.steps_per_tick):
-            raw.drive(drives)
+            raw.set_velocities(drives)
             raw.step()
             raw.read()
 
@@ -55,13 +55,13 @@ def main() -> None:
     for _ in range(ROUNDS):
         raw.rebuild(simulation.world.snapshot().robots, simulation.world.snapshot().ball)
         sense, bare = Timed(perception.at), Timed(physics)
-        write, advance = Timed(simulation._crew.sights.at), Timed(simulation.world.advance)
-        simulation._crew.sights.at, simulation.world.advance = write, advance  # type: ignore[method-assign, assignment]
+        write, advance = Timed(simulation._subsystems.sights.at), Timed(simulation.world.advance)
+        simulation._subsystems.sights.at, simulation.world.advance = write, advance  # type: ignore[method-assign, assignment]
         for _ in range(TICKS):
             simulation.step(commands(simulation, simulation.now.tick))
             sense(simulation.world.snapshot(), simulation.state.cyan_attacks)
             bare()
-        del simulation._crew.sights.at, simulation.world.advance
+        del simulation._subsystems.sights.at, simulation.world.advance
         rows.append([timed.seconds / TICKS * 1e6 for timed in (sense, write, bare, advance)])
     sensing, sights, physics_us, world = (statistics.median(column) for column in zip(*rows, strict=True))
     print(

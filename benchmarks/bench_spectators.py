@@ -13,13 +13,13 @@ import sys
 import time
 from pathlib import Path
 
-from processes import HERE, field, launch
+from running_match import HERE, launch, running_match
 
-from coach_gateway.web.listening import free_port
+from coach_gateway.web.listener import free_port
 from schemas.bus.contract import Subscription
-from schemas.bus.zenoh_bus import open_client
-from schemas.clock import WallClock
-from schemas.host import Health
+from schemas.bus.zenoh.bus import open_client
+from schemas.messages.host import Health
+from schemas.process.clock import WallClock
 from schemas.topics import HEALTH
 
 PAGES = 200
@@ -70,7 +70,7 @@ def with_pages(port: int, host: int, server: int, healths: Subscription) -> tupl
 def main() -> None:
     """Print host and server with and without spectators."""
     with (
-        field("still_brain:act", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, host),
+        running_match("idle_brain:act", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, host),
         open_client(config.name, WallClock(), endpoint, 60.0) as bus,
     ):
         port = free_port("127.0.0.1", 0)

@@ -9,12 +9,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 from coach_gateway import refbox
+from coach_gateway.access.tokens import Tokens, tokens_of
 from coach_gateway.bridges import NO_BRIDGES, Bridges, bridges_of, services_of
-from coach_gateway.lines import plain
-from coach_gateway.refbox.framing import Protocol
+from coach_gateway.match.change_log import log_changes
+from coach_gateway.match.lines import printable
+from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.service import Service
 from coach_gateway.service import run as run_services
-from coach_gateway.watching import watch
 from coach_gateway.web.settings import (
     DEFAULT_PAGES,
     DEFAULT_PAGES_EACH,
@@ -24,12 +25,11 @@ from coach_gateway.web.settings import (
     WebSettings,
     need_web,
 )
-from coach_gateway.web.tokens import Tokens, tokens_of
 from schemas.bus.contract import Bus
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
-from schemas.bus.zenoh_bus import open_client
-from schemas.clock import WallClock
+from schemas.bus.zenoh.bus import open_client
 from schemas.errors import TouchlineError
+from schemas.process.clock import WallClock
 from schemas.side import Side
 
 
@@ -43,7 +43,7 @@ def run(connect: str, match: str, patience: float = 3.0) -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
     with open_client(match, WallClock(), connect, patience) as bus:
-        watch(bus, say, stop)
+        log_changes(bus, log, stop)
 
 
 def serve(
@@ -58,28 +58,28 @@ def serve(
     """
     bridges.try_ports()
     known = tokens_of(web.tokens if web is not None else tokens)
-    page, lobby = _page(web, known, match) if web is not None else (None, None)
+    page, waiting_page = _page(web, known, match) if web is not None else (None, None)
     if page is None and bridges.udp is not None:
         for line in [f"tokens: {tokens}"] if tokens is not None else known.lines():
-            say(line)
+            log(line)
 
     def services(bus: Bus) -> list[Service]:
-        return [*([page(bus)] if page is not None else []), *services_of(bus, bridges, known, say)]
+        return [*([page(bus)] if page is not None else []), *services_of(bus, bridges, known, log)]
 
-    run_services(connect, match, services, say, lobby)
+    run_services(connect, match, services, log, waiting_page)
 
 
 def _page(settings: WebSettings, tokens: Tokens, match: str) -> tuple[Callable[[Bus], Service], Service]:
     """What serves the page once there is a match, and what does before; where it is, is said at once."""
     need_web()
-    from coach_gateway.web.entrance import open_entrance
-    from coach_gateway.web.lobby import Lobby
+    from coach_gateway.web.binding import bind_page
     from coach_gateway.web.server import WebServer
+    from coach_gateway.web.waiting_page import WaitingPage
 
-    entrance = open_entrance(settings, tokens)
-    for line in entrance.lines():
-        say(line)
-    return (lambda bus: WebServer(bus, entrance, say)), Lobby(entrance, match)
+    binding = bind_page(settings, tokens)
+    for line in binding.lines():
+        log(line)
+    return (lambda bus: WebServer(bus, binding, log)), WaitingPage(binding, match)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -102,7 +102,7 @@ def main(arguments: list[str] | None = None) -> int:
             refbox_at=options.refbox,
             teams=options.team,
             protocol=options.refbox_protocol,
-            doors=options.refbox_server,
+            server_addresses=options.refbox_server,
             audience=options.audience,
             listen=options.listen_bridges,
         )
@@ -155,7 +155,11 @@ def _add_bridges(bridges: argparse._ArgumentGroup) -> None:
         "--team", type=Side, choices=list(Side), action="append", default=[], help="whose base station; may be repeated"
     )
     bridges.add_argument(
-        "--refbox-protocol", type=Protocol, choices=list(Protocol), default=Protocol.AUTO, help="how that box speaks"
+        "--refbox-protocol",
+        type=BoxProtocol,
+        choices=list(BoxProtocol),
+        default=BoxProtocol.AUTO,
+        help="how that box speaks",
     )
     bridges.add_argument(
         "--refbox-server",
@@ -172,9 +176,9 @@ def _add_bridges(bridges: argparse._ArgumentGroup) -> None:
     bridges.add_argument("--listen-bridges", default=LOOPBACK, help="address that programs and base stations come to")
 
 
-def say(line: str) -> None:
+def log(line: str) -> None:
     """A line on stdout, at once."""
-    sys.stdout.write(plain(line) + "\n")
+    sys.stdout.write(printable(line) + "\n")
     sys.stdout.flush()
 
 

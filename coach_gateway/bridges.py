@@ -6,17 +6,17 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 
 from coach_gateway import refbox
-from coach_gateway.live import Live
+from coach_gateway.access.rights import COACHES
+from coach_gateway.access.tokens import Tokens
+from coach_gateway.match.live import LiveMatch
 from coach_gateway.ports import port_tried
 from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
-from coach_gateway.refbox.framing import Protocol
-from coach_gateway.refbox.server import Door, RefBoxServer
+from coach_gateway.refbox.framing import BoxProtocol
+from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from coach_gateway.service import Service
-from coach_gateway.udp.server import UdpCoaches
-from coach_gateway.web.access import COACHES
+from coach_gateway.udp.server import UdpServer
 from coach_gateway.web.settings import LOOPBACK
-from coach_gateway.web.tokens import Tokens
 from schemas.bus.contract import Bus
 from schemas.errors import TouchlineError
 from schemas.side import Side
@@ -30,7 +30,7 @@ class Bridges:
     """Port for coach programs; 0 takes a free one."""
     boxes: tuple[BoxAddress, ...] = ()
     """Referee boxes of the league, one for each team that we are a base station of."""
-    doors: tuple[Door, ...] = ()
+    server_addresses: tuple[ServerAddress, ...] = ()
     """Where our referee is met as a referee box."""
     audience: tuple[tuple[str, int], ...] = ()
     """Who is sent the audience feed."""
@@ -40,7 +40,7 @@ class Bridges:
     @property
     def wanted(self) -> bool:
         """There is any."""
-        return self.udp is not None or bool(self.boxes or self.doors or self.audience)
+        return self.udp is not None or bool(self.boxes or self.server_addresses or self.audience)
 
     def try_ports(self) -> None:
         """Make sure that whoever is to come can be listened for, all of them beside each other.
@@ -51,8 +51,8 @@ class Bridges:
         with ExitStack() as stack:
             if self.udp is not None:
                 stack.enter_context(port_tried("--udp", self.listen, self.udp, socket.SOCK_DGRAM))
-            for door in self.doors:
-                stack.enter_context(port_tried("--refbox-server", door.host, door.port, socket.SOCK_STREAM))
+            for address in self.server_addresses:
+                stack.enter_context(port_tried("--refbox-server", address.host, address.port, socket.SOCK_STREAM))
 
 
 NO_BRIDGES = Bridges()
@@ -64,8 +64,8 @@ def bridges_of(
     udp: int | None,
     refbox_at: str | None,
     teams: Sequence[Side],
-    protocol: Protocol,
-    doors: Sequence[str],
+    protocol: BoxProtocol,
+    server_addresses: Sequence[str],
     audience: Sequence[str],
     listen: str,
 ) -> Bridges:
@@ -84,28 +84,28 @@ def bridges_of(
     return Bridges(
         udp,
         tuple(BoxAddress(team, *box, protocol) for team in teams) if box is not None else (),
-        tuple(_door(word, listen) for word in doors),
+        tuple(_server_address(word, listen) for word in server_addresses),
         tuple(_address("--audience", word, None) for word in audience),
         listen,
     )
 
 
-def services_of(bus: Bus, wanted: Bridges, tokens: Tokens, say: Callable[[str], None]) -> list[Service]:
+def services_of(bus: Bus, wanted: Bridges, tokens: Tokens, log: Callable[[str], None]) -> list[Service]:
     """The services of these bridges: first the one that follows the match for all of them."""
     if not wanted.wanted:
         return []
-    live = Live(bus)
+    live = LiveMatch(bus)
     services: list[Service] = [live]
     if wanted.udp is not None:
-        services.append(UdpCoaches(live, tokens.role_of, say, wanted.udp, wanted.listen))
-    services += [RefBoxClient(live, box, say) for box in wanted.boxes]
-    views = None
-    if wanted.doors:
-        box = RefBoxServer(live, wanted.doors, say, lambda token: _side_of(tokens, token))
-        views = box.views
+        services.append(UdpServer(live, tokens.role_of, log, wanted.udp, wanted.listen))
+    services += [RefBoxClient(live, box, log) for box in wanted.boxes]
+    team_states = None
+    if wanted.server_addresses:
+        box = RefBoxServer(live, wanted.server_addresses, log, lambda token: _side_of(tokens, token))
+        team_states = box.team_states
         services.append(box)
     if wanted.audience:
-        services.append(AudienceFeed(live, wanted.audience, say, views))
+        services.append(AudienceFeed(live, wanted.audience, log, team_states))
     return services
 
 
@@ -132,10 +132,10 @@ def _is_name(host: str) -> bool:
     return not host.endswith(":")
 
 
-def _door(word: str, listen: str) -> Door:
+def _server_address(word: str, listen: str) -> ServerAddress:
     """PORT, or SIDE:PORT for a door of one team's own."""
     side, _, port = word.rpartition(":")
     known = [known.value for known in Side]
     if port.isascii() and port.isdigit() and int(port) <= _LAST_PORT and (not side or side in known):
-        return Door(int(port), Side(side) if side else None, listen)
+        return ServerAddress(int(port), Side(side) if side else None, listen)
     raise TouchlineError(f'--refbox-server is "{word}"; it is PORT, or cyan:PORT or magenta:PORT for one team alone')

@@ -10,8 +10,8 @@ from typing import Protocol
 
 from schemas.bus.contract import Bus, BusError
 from schemas.bus.endpoint import parse_endpoint
-from schemas.bus.zenoh_bus import open_client
-from schemas.clock import WallClock
+from schemas.bus.zenoh.bus import open_client
+from schemas.process.clock import WallClock
 
 _LOOK_S = 1.0
 """s of wall time that one attempt to find a host lasts."""
@@ -32,46 +32,46 @@ def run(
     connect: str,
     match: str,
     make: Callable[[Bus], Sequence[Service]],
-    say: Callable[[str], None],
-    lobby: Service | None = None,
+    log: Callable[[str], None],
+    waiting_page: Service | None = None,
 ) -> None:
-    """Meet the host and run the services until SIGINT or SIGTERM comes; meanwhile `lobby` attends to those who wait.
+    """Meet the host and run the services until SIGINT or SIGTERM comes; meanwhile `waiting_page` serves those who wait.
 
     Raises:
         TouchlineError: a service cannot begin.
     """
     parse_endpoint(connect)
-    asyncio.run(_run(connect, match, make, say, lobby))
+    asyncio.run(_run(connect, match, make, log, waiting_page))
 
 
 async def _run(
     connect: str,
     match: str,
     make: Callable[[Bus], Sequence[Service]],
-    say: Callable[[str], None],
-    lobby: Service | None,
+    log: Callable[[str], None],
+    waiting_page: Service | None,
 ) -> None:
     stop = asyncio.Event()
     loop = asyncio.get_running_loop()
     for number in (signal.SIGINT, signal.SIGTERM):
         loop.add_signal_handler(number, stop.set)
-    bus = await _meet(connect, match, stop)
+    bus = await _connect(connect, match, stop)
     if bus is None and not stop.is_set():
-        say(f"no host at {connect} yet; waiting for it")
-        bus = await _wait(connect, match, stop, lobby)
+        log(f"no host at {connect} yet; waiting for it")
+        bus = await _wait(connect, match, stop, waiting_page)
     if bus is not None:
         with bus:
             await together(make(bus), stop)
 
 
-async def _wait(connect: str, match: str, stop: asyncio.Event, lobby: Service | None) -> Bus | None:
+async def _wait(connect: str, match: str, stop: asyncio.Event, waiting_page: Service | None) -> Bus | None:
     """A seat in the match, however long that takes; nothing once `stop` is set."""
     met = asyncio.Event()
-    waiting = asyncio.create_task(lobby.serve(met)) if lobby is not None else None
+    waiting = asyncio.create_task(waiting_page.serve(met)) if waiting_page is not None else None
     bus = None
     try:
         while bus is None and not stop.is_set():
-            bus = await _meet(connect, match, stop)
+            bus = await _connect(connect, match, stop)
     finally:
         met.set()
         if waiting is not None:
@@ -79,7 +79,7 @@ async def _wait(connect: str, match: str, stop: asyncio.Event, lobby: Service | 
     return bus
 
 
-async def _meet(connect: str, match: str, stop: asyncio.Event) -> Bus | None:
+async def _connect(connect: str, match: str, stop: asyncio.Event) -> Bus | None:
     """A seat in the match, where it can be had soon."""
     try:
         bus: Bus = await asyncio.to_thread(open_client, match, WallClock(), connect, _LOOK_S)

@@ -13,7 +13,7 @@ import time
 from playwright.sync_api import sync_playwright
 
 PATIENCE_S = 300.0
-DRAWN = "window.touchline?.stage.world != null && window.touchline.stage.drawn > 60"
+DRAWN = "window.touchline?.pitchCanvas.world != null && window.touchline.pitchCanvas.drawn > 60"
 SAID = "(words) => ['phase', 'score', 'events'].some((id) => document.getElementById(id).textContent.includes(words))"
 
 

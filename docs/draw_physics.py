@@ -17,8 +17,8 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import physics_runs as runs
 
-from schemas.command import KickMode
-from schemas.profile import load_profile
+from schemas.config.profile import load_profile
+from schemas.messages.command import KickMode
 
 IMAGES = Path(__file__).parent / "images"
 _BLUE, _ORANGE, _GREEN, _GREY = "#1f6fb2", "#d9730d", "#2f8f4e", "#6b7570"

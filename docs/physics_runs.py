@@ -11,16 +11,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from schemas.command import Drive, Kick, KickMode
-from schemas.host import AppliedInput
-from schemas.profile import Profile, load_profile
-from schemas.robot_model import RobotModel
-from schemas.roster import Placement
+from schemas.config.profile import Profile, load_profile
+from schemas.config.robot_model import RobotModel
+from schemas.config.roster import Placement
+from schemas.messages.command import Drive, Kick, KickMode
+from schemas.messages.host import AppliedInput
 from schemas.side import Side
+from sim_host.match.world import World
 from sim_host.sensing.perception import Perception
-from sim_host.sensing.streams import Streams
+from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster, Snapshot
-from sim_host.world.world import World
 
 Floats = NDArray[np.float64]
 Told = Callable[[float], Mapping[str, AppliedInput]]
@@ -178,7 +178,7 @@ def errors(distance: float, pictures: int) -> Floats:
     roster = Roster(NAMES[:1], (Side.CYAN,), {Side.CYAN: NAMES[0]}, (RobotModel.standard(profile),))
     world = World(profile, roster)
     world.place([Placement(body="cyan1", x=0.0, y=0.0), Placement(body="ball", x=distance, y=0.0)])
-    snapshot, perception = world.snapshot(), Perception(still, roster, Streams(7), profile.time.tick)
+    snapshot, perception = world.snapshot(), Perception(still, roster, RandomStreams(7), profile.time.tick)
     seen = []
     for tick in range(10**9):
         (percept,) = perception.at(replace(snapshot, tick=tick), 1)

@@ -8,9 +8,9 @@ import re
 from pathlib import Path
 from typing import Any
 
-from schemas.profile import load_profile
-from schemas.quantity import Quantity, meanings
-from schemas.sections import SECTIONS
+from schemas.config.profile import load_profile
+from schemas.config.quantity import Quantity, meanings
+from schemas.config.sections import SECTIONS
 
 PAGE = Path(__file__).parent / "physics.md"
 SHOWN = ("msl", "paper")
@@ -28,7 +28,7 @@ def table(section: str) -> str:
     for name, meaning in meanings(SECTIONS[section]).items():
         values = [_value(getattr(getattr(profile, section), name)) for profile in profiles]
         unit = meaning.unit if isinstance(meaning, Quantity) else "word"
-        lines.append(f"| `{name}` | {unit} | {' | '.join(values)} | {meaning.says} |")
+        lines.append(f"| `{name}` | {unit} | {' | '.join(values)} | {meaning.description} |")
     return "\n".join(lines)
 
 

@@ -2,19 +2,19 @@
 
 import math
 
-from robot_agent.bodies import Body, Limits
+from robot_agent.bodies import Body, DriveLimits
 from robot_agent.contract import Briefing
 from robot_agent.skills.dribble_to import dribble_to
 from robot_agent.skills.go_to import go_to
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.shoot import best_place
-from schemas.command import Command, Drive
-from schemas.sight import Sight
+from schemas.messages.command import Command, Drive
+from schemas.messages.sight import Sight
 
 
 class FirstBrain:
     def __init__(self, briefing: Briefing) -> None:
-        self.pitch, self.limits = briefing.setup.pitch, Limits.of(briefing.setup)
+        self.pitch, self.limits = briefing.setup.pitch, DriveLimits.of(briefing.setup)
 
     def act(self, sight: Sight) -> Command:
         me, goal = Body(**dict(sight.self)), self.pitch.goal_line

@@ -4,7 +4,7 @@
     python examples/udp_coach.py --port 28090 --token TOKEN-OF-CYAN
 
 It has its team hold, play, and test: one robot drives to a point. After each order it shows which robots have
-acknowledged it, and at the end what the robots believe. Every datagram is numbered, and said again
+acknowledged it, and at the end what the robots believe. Every datagram is numbered, and sent again
 until it is answered.
 """
 
@@ -26,7 +26,7 @@ class Coach:
         self.frame: dict = {}
         """The newest."""
         self.beliefs: dict = {}
-        """Robot → what it said last."""
+        """Robot → its newest radio message."""
         self.events: list = []
         answer = self.ask("hello", token=token, name="example")
         if not answer["accepted"]:
@@ -34,19 +34,19 @@ class Coach:
         self._session = answer["session"]
         self.role = answer["role"]
 
-    def ask(self, kind: str, **words) -> dict:
-        """Say something, as often as it takes to be answered."""
+    def ask(self, kind: str, **fields) -> dict:
+        """Send a datagram until it is answered."""
         self._sequence += 1
-        said = {"kind": kind, "sequence": self._sequence, **words}
+        request = {"kind": kind, "sequence": self._sequence, **fields}
         if self._session:
-            said["session"] = self._session
+            request["session"] = self._session
         for _ in range(20):
             try:
-                self._socket.send(json.dumps(said).encode())
+                self._socket.send(json.dumps(request).encode())
             except ConnectionRefusedError:
                 time.sleep(0.1)  # the gateway is not there yet
                 continue
-            answer = self.listen(0.5, until=lambda one: one["kind"] == "ack" and one["sequence"] == said["sequence"])
+            answer = self.listen(0.5, until=lambda one: one["kind"] == "ack" and one["sequence"] == request["sequence"])
             if answer is not None:
                 return answer
         raise SystemExit("the gateway does not answer")
@@ -57,23 +57,23 @@ class Coach:
         while (left := deadline - time.monotonic()) > 0:
             self._socket.settimeout(left)
             try:
-                said = json.loads(self._socket.recv(65536))
+                datagram = json.loads(self._socket.recv(65536))
             except (TimeoutError, ConnectionRefusedError):
                 return None
-            self._take(said)
-            if until is not None and until(said):
-                return said
+            self._handle(datagram)
+            if until is not None and until(datagram):
+                return datagram
         return None
 
-    def _take(self, said: dict) -> None:
-        if said["kind"] == "frame":
-            self.frame = said
-        elif said["kind"] == "belief":
-            self.beliefs[said["belief"]["robot"]] = said["belief"]["radio"]
-        elif said["kind"] == "event":
-            self.events.append(said["event"]["text"])
-        elif said["kind"] == "bye":
-            raise SystemExit(f"the session is over: {said['reason']}")
+    def _handle(self, datagram: dict) -> None:
+        if datagram["kind"] == "frame":
+            self.frame = datagram
+        elif datagram["kind"] == "belief":
+            self.beliefs[datagram["belief"]["robot"]] = datagram["belief"]["radio"]
+        elif datagram["kind"] == "event":
+            self.events.append(datagram["event"]["text"])
+        elif datagram["kind"] == "bye":
+            raise SystemExit(f"the session is over: {datagram['reason']}")
 
     def order(self, **order) -> None:
         """Give an order, and wait until every robot has acknowledged it."""
@@ -116,10 +116,10 @@ def main() -> int:
     while time.monotonic() < deadline:
         coach.listen(0.5)
         coach.ask("alive")
-    for robot, said in sorted(coach.beliefs.items()):
-        place = said.get("self")
+    for robot, radio in sorted(coach.beliefs.items()):
+        place = radio.get("self")
         where = f"at {place['x']:.2f}, {place['y']:.2f}" if place else "does not say where it is"
-        print(f"{robot} {where}, {said.get('intention') or said.get('role') or 'says no more'}")
+        print(f"{robot} {where}, {radio.get('intention') or radio.get('role') or 'says no more'}")
     print(f"{len(coach.events)} events, the match mode is {coach.frame['match_mode'][coach.role]}")
     coach.order(mode="play")
     coach.leave()

@@ -7,24 +7,24 @@ import sys
 import threading
 from pathlib import Path
 
-from recordings.output import Limits
-from recordings.record import read_config, record
-from recordings.recorder import RecordingSummary
-from recordings.selection import Selection
+from recordings.container.key_selection import KeySelection
+from recordings.recorder.record import read_config, record
+from recordings.recorder.recorder import RecordingSummary
+from recordings.recorder.sink import FileLimits
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.errors import TouchlineError
-from schemas.turns import take_turns
+from schemas.process.scheduling import use_batch_scheduling
 
-_SELDOM = 100_000
+_GC_THRESHOLD = 100_000
 """Objects made until Python looks for garbage in cycles: messages come by the thousand, and are in none."""
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Record; the exit status is 0, or 2 when something has to be mended first."""
     options = _parser().parse_args(arguments)
-    take_turns()  # what has come waits for it; nobody else has to
+    use_batch_scheduling()  # what has come waits for it; nobody else has to
     gc.freeze()
-    gc.set_threshold(_SELDOM)
+    gc.set_threshold(_GC_THRESHOLD)
     stop = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())
@@ -35,8 +35,8 @@ def main(arguments: list[str] | None = None) -> int:
             options.out,
             name=options.name,
             sights=options.sights,
-            selection=Selection(tuple(options.include), tuple(options.exclude)),
-            limits=Limits(
+            selection=KeySelection(tuple(options.include), tuple(options.exclude)),
+            limits=FileLimits(
                 size=round(options.split_size * 1e6) if options.split_size is not None else None,
                 duration=options.split_duration,
                 keep=options.keep,
@@ -45,7 +45,7 @@ def main(arguments: list[str] | None = None) -> int:
             config=read_config(options.config) if options.config is not None else None,
             viz=options.viz,
             patience=options.patience,
-            told_to_stop=stop.is_set,
+            should_stop=stop.is_set,
         )
     except TouchlineError as error:
         sys.stderr.write(f"touchline: {error}\n")

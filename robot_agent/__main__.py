@@ -15,12 +15,12 @@ from types import FrameType
 from robot_agent.contract import Brain, Briefing, load_brain
 from robot_agent.runner import serve
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
-from schemas.bus.zenoh_bus import open_client
-from schemas.clock import WallClock
+from schemas.bus.zenoh.bus import open_client
+from schemas.config.match_config import LOCKSTEP
 from schemas.errors import TouchlineError
-from schemas.host import Setup
-from schemas.match_config import LOCKSTEP
-from schemas.turns import take_turns
+from schemas.messages.host import Setup
+from schemas.process.clock import WallClock
+from schemas.process.scheduling import use_batch_scheduling
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -31,7 +31,7 @@ def main(arguments: list[str] | None = None) -> int:
         with open_client(options.match, WallClock(), options.connect, options.patience) as bus:
 
             def build(setup: Setup) -> Brain:
-                take_turns(setup.pace == LOCKSTEP)
+                use_batch_scheduling(setup.pace == LOCKSTEP)
                 return load_brain(options.brain, Briefing.of(options.robot, setup))
 
             return serve(bus, build, options.robot, options.patience)

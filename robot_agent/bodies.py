@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from schemas.host import Setup
+from schemas.messages.host import Setup
 
 
 class Body(NamedTuple):
@@ -45,7 +45,7 @@ class Ball(NamedTuple):
         return Ball(x + vx * way, y + vy * way, vx * kept, vy * kept)
 
 
-class Limits(NamedTuple):
+class DriveLimits(NamedTuple):
     """What the drive can do, and how late a demand acts."""
 
     speed: float
@@ -56,7 +56,7 @@ class Limits(NamedTuple):
     tick: float
 
     @classmethod
-    def of(cls, setup: Setup) -> "Limits":
+    def of(cls, setup: Setup) -> "DriveLimits":
         """Those of the robot whose numbers the setup has: a briefing's has its own."""
         drive = setup.drive
         return cls(
@@ -68,9 +68,9 @@ class Limits(NamedTuple):
             setup.time.tick,
         )
 
-    def capped(self, speed: float | None = None, turn_rate: float | None = None) -> "Limits":
+    def capped(self, speed: float | None = None, turn_rate: float | None = None) -> "DriveLimits":
         """The same drive, told to be slower."""
-        return Limits(
+        return DriveLimits(
             self.speed if speed is None else min(self.speed, speed),
             self.turn_rate if turn_rate is None else min(self.turn_rate, turn_rate),
             self.acceleration,

@@ -11,12 +11,12 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Protocol
 
-from schemas.command import Command
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.host import Setup
-from schemas.light import light_form, light_reader
+from schemas.messages.command import Command
+from schemas.messages.host import Setup
+from schemas.messages.light import light_form, light_reader
+from schemas.messages.sight import Sight
 from schemas.side import Side
-from schemas.sight import Sight
 
 read_sight = light_reader(Sight)
 """A sight as brains get it, from its payload: plain structs with the fields of `Sight`.
@@ -61,14 +61,14 @@ class Briefing:
         for side, team in setup.teams.items():
             if robot in team.robots:
                 mates = tuple(name for name in team.robots if name != robot)
-                return cls(robot, side, team.robots.index(robot) + 1, mates, setup.seen_by(robot))
+                return cls(robot, side, team.robots.index(robot) + 1, mates, setup.for_robot(robot))
         names = [name for team in setup.teams.values() for name in team.robots]
         raise TouchlineError(
             f'robot is "{robot}", who does not play in match "{setup.match}"; {did_you_mean(robot, names)}'
         )
 
 
-class _Function:
+class _FunctionBrain:
     """A brain that is a plain function."""
 
     def __init__(self, function: Callable[[Sight], Command]) -> None:
@@ -100,7 +100,7 @@ def load_brain(spec: str, briefing: Briefing) -> Brain:
     if not isinstance(found, type):
         if not callable(found):
             raise TouchlineError(f'brain is "{spec}"; {name} is {found!r}; name a class or a function act(sight)')
-        return _Function(found)
+        return _FunctionBrain(found)
     return _build(spec, found, briefing)
 
 
@@ -110,7 +110,7 @@ def _build(spec: str, cls: type, briefing: Briefing) -> Brain:
     try:
         brain: Brain = cls(briefing)
     except Exception as error:
-        raise TouchlineError(f'brain is "{spec}"; {cls.__name__}(briefing) raised {_said(error)}') from error
+        raise TouchlineError(f'brain is "{spec}"; {cls.__name__}(briefing) raised {_one_line(error)}') from error
     return brain
 
 
@@ -129,7 +129,7 @@ def _import(spec: str, module_name: str) -> ModuleType:
             f'brain is "{spec}"; there is no module {missing}; {did_you_mean(last, _modules_in(parent))}'
         ) from None
     except Exception as error:
-        raise TouchlineError(f'brain is "{spec}"; importing {module_name} raised {_said(error)}') from error
+        raise TouchlineError(f'brain is "{spec}"; importing {module_name} raised {_one_line(error)}') from error
 
 
 def _modules_in(package: str) -> list[str]:
@@ -141,7 +141,7 @@ def _modules_in(package: str) -> list[str]:
     return [module.name for module in pkgutil.iter_modules(places or [])]
 
 
-def _said(error: Exception) -> str:
+def _one_line(error: Exception) -> str:
     """An exception in one line, with the place in the brain's own code."""
     if isinstance(error, SyntaxError):
         return f"SyntaxError: {error.msg} ({error.filename}, line {error.lineno})"

@@ -8,13 +8,13 @@ from typing import NamedTuple
 
 from robot_agent.bodies import Body
 from robot_agent.skills.take_ball import HAS_IT
-from robot_agent.world_model import Scene
+from robot_agent.world_model import WorldBelief
 from schemas.game import TeamPhase
-from schemas.host import Setup
+from schemas.messages.host import Setup
 
 Point = tuple[float, float]
 
-MOMENT = 2.0
+SHORT_STAY = 2.0
 """s; a shorter time is none to leave an area in."""
 HALFWAY = 0.25
 """m beyond the halfway line where the other half begins for sure."""
@@ -24,7 +24,7 @@ _ROLL_MARGIN = 0.3
 """m more than the rule book's free roll, for noise."""
 
 
-class Asked(NamedTuple):
+class RuleLimits(NamedTuple):
     """The rule book's demands."""
 
     circle: float
@@ -48,7 +48,7 @@ class Asked(NamedTuple):
         return math.isfinite(self.circle) or math.isfinite(self.backward)
 
     @classmethod
-    def of(cls, setup: Setup) -> "Asked":
+    def of(cls, setup: Setup) -> "RuleLimits":
         """Those of the match."""
         fouls, handling, scoring = setup.fouls, setup.handling, setup.scoring
         if fouls is None or handling is None or scoring is None:
@@ -58,7 +58,7 @@ class Asked(NamedTuple):
             backward=handling.backward_once if fouls.backward != "off" else math.inf,
             keeps_out=fouls.goal_area != "off",
             takes_turns=fouls.penalty_area != "off",
-            at_once=setup.areas is not None and setup.areas.penalty_area_duration < MOMENT,
+            at_once=setup.areas is not None and setup.areas.penalty_area_duration < SHORT_STAY,
             passes_first=fouls.own_half_goal != "off",
             roll=scoring.pass_roll,
         )
@@ -75,19 +75,19 @@ class Carry(NamedTuple):
     """m driven backward with it."""
 
 
-def carried(before: Carry | None, scene: Scene) -> Carry | None:
+def carry_after(before: Carry | None, belief: WorldBelief) -> Carry | None:
     """The carry after one more sight; it ends with the hold."""
-    if not scene.holding or scene.ball is None:
+    if not belief.holding or belief.ball is None:
         return None
-    ball = scene.ball.now[:2]
+    ball = belief.ball.now[:2]
     if before is None:
         return Carry(ball)
-    along = _along(scene.me)
-    back = -along * scene.dt if along < GOES_BACK else 0.0
+    along = _along(belief.me)
+    back = -along * belief.dt if along < GOES_BACK else 0.0
     return Carry(before.caught, math.dist(before.caught, ball), before.backward + back)
 
 
-class Control(NamedTuple):
+class Possession(NamedTuple):
     """Which side has the ball, as far as one robot can tell."""
 
     ours: bool | None = None
@@ -106,31 +106,31 @@ class Control(NamedTuple):
         return self.left[0] > HALFWAY and (self.won_ahead or self.received)
 
 
-def control_after(before: Control, scene: Scene, name: str, roll: float) -> Control:
+def possession_after(before: Possession, belief: WorldBelief, name: str, roll: float) -> Possession:
     """Who has the ball after one more sight; `roll` in m makes a pass."""
-    if scene.ball is None:
+    if belief.ball is None:
         return before
-    ball, phase = scene.ball.now[:2], scene.game.phase
+    ball, phase = belief.ball.now[:2], belief.game.phase
     if phase is not TeamPhase.PLAY and (phase.ours or phase.theirs):
-        return Control(phase.ours, ball[0] > HALFWAY, holder=None, left=ball)
-    ours = _nearest_of_us(scene, ball, name)
-    theirs = min([math.dist(ball, opponent) for opponent in scene.opponents], default=math.inf) < HAS_IT
+        return Possession(phase.ours, ball[0] > HALFWAY, holder=None, left=ball)
+    ours = _nearest_of_us(belief, ball, name)
+    theirs = min([math.dist(ball, opponent) for opponent in belief.opponents], default=math.inf) < HAS_IT
     if ours is None:
         return before._replace(ours=False, holder=None) if theirs else before
-    if theirs and not scene.holding:
+    if theirs and not belief.holding:
         return before
     if not before.ours:
-        return Control(True, ball[0] > HALFWAY, holder=ours, left=ball)
+        return Possession(True, ball[0] > HALFWAY, holder=ours, left=ball)
     passed = before.holder not in (None, ours) and math.dist(before.left, ball) > roll + _ROLL_MARGIN
     received = before.received or (passed and ball[0] > HALFWAY)
     return before._replace(received=received, holder=ours, left=ball)
 
 
-def _nearest_of_us(scene: Scene, ball: Point, name: str) -> str | None:
+def _nearest_of_us(belief: WorldBelief, ball: Point, name: str) -> str | None:
     """Who of us has the ball."""
-    if scene.holding:
+    if belief.holding:
         return name
-    bodies = [(scene.me, name), *[(mate.body, other) for other, mate in scene.mates.items()]]
+    bodies = [(belief.me, name), *[(mate.body, other) for other, mate in belief.mates.items()]]
     have_it = [(away, one) for body, one in bodies if (away := math.dist(ball, body[:2])) < HAS_IT]
     return min(have_it)[1] if have_it else None
 

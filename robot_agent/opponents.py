@@ -41,7 +41,7 @@ class Opponents:
         self._pictured = -math.inf
         """s; when the newest picture was taken."""
 
-    def awaits(self, pictured: float) -> bool:
+    def is_newer(self, pictured: float) -> bool:
         """Whether a picture that was taken at that time, s, is newer than what was taken in."""
         return pictured > self._pictured + 1e-6
 
@@ -49,7 +49,7 @@ class Opponents:
         """Where they are `age` s after the newest picture."""
         return _after(self._tracks, age)
 
-    def take_in(self, seen: Sequence[Point], pictured: float) -> None:
+    def update(self, seen: Sequence[Point], pictured: float) -> None:
         """The opponents of a new picture, taken at that time, in its order; then those that are remembered."""
         dt = pictured - self._pictured
         self._pictured = pictured

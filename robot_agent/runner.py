@@ -6,11 +6,11 @@ import traceback
 from collections.abc import Callable
 
 from robot_agent.contract import COMMANDS, Brain, read_sight
-from schemas.bus.contract import Bus, NoAnswerError
+from schemas.bus.contract import Bus, NoReplyError
 from schemas.errors import TouchlineError
-from schemas.host import Setup, SetupRequest
 from schemas.message import BadMessageError
-from schemas.sight import Sight
+from schemas.messages.host import Setup, SetupRequest
+from schemas.messages.sight import Sight
 from schemas.topics import COMMAND, SETUP, SIGHT
 
 KIND = "agent"
@@ -90,7 +90,7 @@ class Runner:
             self.answered += 1
         self._commands.put_payload(self._last_answer)
 
-    def forget(self, brain: Brain) -> None:
+    def restart(self, brain: Brain) -> None:
         """Begin anew with a new brain: the next sight is of another match, whose ticks begin at 0 again."""
         self.brain = brain
         self._last_tick = None
@@ -120,8 +120,8 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
     deadline = clock.now() + patience
     while True:
         try:
-            setup: Setup = bus.ask(SETUP, SetupRequest(), timeout=_ASK).result(_ASK + 0.5)
-        except NoAnswerError as error:
+            setup: Setup = bus.query(SETUP, SetupRequest(), timeout=_ASK).result(_ASK + 0.5)
+        except NoReplyError as error:
             if clock.now() >= deadline:
                 raise TouchlineError(
                     f"match {bus.match}: no host told the setup for {patience:g} s ({error}); "
@@ -159,7 +159,7 @@ def serve(bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float
         elif host.there():
             gone_since = None
             if is_new_match:
-                runner.forget(build(ask_setup(bus, patience)))
+                runner.restart(build(ask_setup(bus, patience)))
                 is_new_match = False
         elif gone_since is None:
             gone_since, is_new_match = bus.clock.now(), True
@@ -174,7 +174,7 @@ class _HostWatch:
     def __init__(self, bus: Bus) -> None:
         self._bus = bus
         self._watch = bus.watch_alive()
-        self._is_quiet = self._watch.is_quiet
+        self._is_quiet = self._watch.is_empty
         self._hosts: dict[str, bool] = {}
 
     def left(self) -> bool:

@@ -12,10 +12,10 @@ from typing import NamedTuple
 from robot_agent.bodies import Ball, Body
 from robot_agent.contract import Briefing
 from robot_agent.opponents import Opponents
-from schemas.command import Motion
 from schemas.frames import wrap
 from schemas.game import GameView
-from schemas.sight import BallSight, Heard, Sight
+from schemas.messages.command import Motion
+from schemas.messages.sight import BallSight, ReceivedRadio, Sight
 
 FRESH = 0.2
 """s; a ball seen longer ago than this by the robot itself may have been seen later by a teammate."""
@@ -34,7 +34,7 @@ _JUMP_SPEED = 0.8
 """m/s; likewise for the ball's velocity."""
 
 
-class Mate(NamedTuple):
+class Teammate(NamedTuple):
     """A teammate as last heard, moved on to now."""
 
     body: Body
@@ -50,7 +50,7 @@ class SeenBall(NamedTuple):
     age: float
 
 
-class Scene(NamedTuple):
+class WorldBelief(NamedTuple):
     """Everything a robot believes at one tick."""
 
     tick: int
@@ -59,7 +59,7 @@ class Scene(NamedTuple):
     me: Body
     holding: bool
     ball: SeenBall | None
-    mates: dict[str, Mate]
+    mates: dict[str, Teammate]
     """Teammates heard of lately, in the order of the team."""
     opponents: list[tuple[float, float]]
     game: GameView
@@ -71,7 +71,7 @@ class Scene(NamedTuple):
         return [*self.opponents, *[mate.body[:2] for mate in self.mates.values()]]
 
 
-def places_of(mates: Mapping[str, Mate]) -> dict[str, tuple[float, float]]:
+def places_of(mates: Mapping[str, Teammate]) -> dict[str, tuple[float, float]]:
     """Where each teammate is."""
     return {name: mate.body[:2] for name, mate in mates.items()}
 
@@ -90,7 +90,7 @@ class WorldModel:
         """s; when the picture was taken that the ball was last seen in."""
         self._opponents = Opponents()
 
-    def take_in(self, sight: Sight) -> Scene:
+    def update(self, sight: Sight) -> WorldBelief:
         """The scene after one more sight."""
         dt = sight.time - self._time if self._time is not None else 0.0
         self._time = sight.time
@@ -98,23 +98,25 @@ class WorldModel:
         mates = self._mates(sight.radio, sight.game)
         ball = self._believed_ball(sight, me, dt)
         age, opponents = sight.obstacles_age, self._opponents
-        if opponents.awaits(sight.time - age):
-            opponents.take_in(_opponents(sight, mates), sight.time - age)
-        return Scene(sight.tick, dt, me, sight.holding, ball, mates, opponents.now(age), sight.game, sight.kicker_ready)
+        if opponents.is_newer(sight.time - age):
+            opponents.update(_opponents(sight, mates), sight.time - age)
+        return WorldBelief(
+            sight.tick, dt, me, sight.holding, ball, mates, opponents.now(age), sight.game, sight.kicker_ready
+        )
 
-    def _mates(self, radio: dict[str, Heard], game: GameView) -> dict[str, Mate]:
+    def _mates(self, radio: dict[str, ReceivedRadio], game: GameView) -> dict[str, Teammate]:
         """Those who were heard lately and are on the field."""
         mates = {}
         standings = game.robots
         for name in self._teammates:
             if name in standings and standings[name].off_field is not None:
                 continue
-            word = radio.get(name)
-            if word is None or (age := word.age) > STALE or (motion := word.self) is None:
+            heard = radio.get(name)
+            if heard is None or (age := heard.age) > STALE or (motion := heard.self) is None:
                 continue
             vx, vy, omega = motion.vx, motion.vy, motion.omega
             body = Body(motion.x + vx * age, motion.y + vy * age, motion.heading + omega * age, vx, vy, omega)
-            mates[name] = Mate(body, word.role or "", word.intention or "", word.pass_to)
+            mates[name] = Teammate(body, heard.role or "", heard.intention or "", heard.pass_to)
         return mates
 
     def _believed_ball(self, sight: Sight, me: Body, dt: float) -> SeenBall | None:
@@ -134,7 +136,7 @@ class WorldModel:
                 return SeenBall(Ball(spot.x, spot.y), 0.0)
         return last if last is not None and last.age <= LOST else None
 
-    def _freshest(self, own: BallSight | None, radio: dict[str, Heard]) -> SeenBall | None:
+    def _freshest(self, own: BallSight | None, radio: dict[str, ReceivedRadio]) -> SeenBall | None:
         """The ball that was seen last, by the robot or a teammate, rolled on to now.
 
         A teammate says where it believed the ball to be when it spoke.
@@ -143,12 +145,12 @@ class WorldModel:
         if own is not None:
             found = own.age, own.age, Ball(own.x, own.y, own.vx, own.vy)
         for name in self._teammates:
-            word = radio.get(name)
-            if word is None or word.ball is None:
+            heard = radio.get(name)
+            if heard is None or heard.ball is None:
                 continue
-            age = word.age + word.ball.age
+            age = heard.age + heard.ball.age
             if found is None or age < found[0]:
-                found = age, word.age, Ball(word.ball.x, word.ball.y, word.ball.vx, word.ball.vy)
+                found = age, heard.age, Ball(heard.ball.x, heard.ball.y, heard.ball.vx, heard.ball.vy)
         if found is None:
             return None
         age, time, ball = found
@@ -192,7 +194,7 @@ def _smooth_body(before: Body | None, seen: Motion, dt: float) -> Body:
     return Body(x + _TRUST * dx, y + _TRUST * dy, wrap(seen.heading - (1.0 - _TRUST) * turned), vx, vy, omega)
 
 
-def _opponents(sight: Sight, mates: dict[str, Mate]) -> list[tuple[float, float]]:
+def _opponents(sight: Sight, mates: dict[str, Teammate]) -> list[tuple[float, float]]:
     """The obstacles that are no teammate: each teammate accounts for the one nearest to it, if near enough."""
     left = [(obstacle.x, obstacle.y) for obstacle in sight.obstacles]
     for mate in mates.values():

@@ -1,1 +1,1 @@
-"""The contract: messages, topics, field and rules as data, frames, the bus and the clock. Knows no process."""
+"""What all processes share: configuration, messages, the table of topics, the bus, and the process's clock."""

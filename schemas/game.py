@@ -27,7 +27,7 @@ class Phase(StrEnum):
     FULL_TIME = "full_time"
 
 
-class Stage(StrEnum):
+class GameStage(StrEnum):
     """Which part of the match is being played."""
 
     REGULAR = "regular"
@@ -35,7 +35,7 @@ class Stage(StrEnum):
     SHOOT_OUT = "shoot_out"
 
 
-class Mode(StrEnum):
+class OfficiatingMode(StrEnum):
     """Who decides: the referee, people alone, or the referee with people who may overrule it."""
 
     AUTOMATIC = "automatic"
@@ -132,7 +132,7 @@ class Score(Part):
         return Score(**{other.value: self.of(other) for other in Side} | added)
 
 
-class Standing(Part):
+class DisciplinaryRecord(Part):
     """How one robot stands with the referee."""
 
     yellow: Annotated[int, Field(ge=0)] = 0
@@ -156,7 +156,7 @@ class GameState(Message):
     """START was given; before that, robots take their positions and nobody may play the ball."""
     half: Annotated[int, Field(ge=1)] = 1
     """Counts on through extra time."""
-    stage: Stage = Stage.REGULAR
+    stage: GameStage = GameStage.REGULAR
     clock: float = 0.0
     """Game clock in s: playing time of this half and those before it."""
     effective: float = 0.0
@@ -170,7 +170,7 @@ class GameState(Message):
     """Where the ball is placed for the restart."""
     left: float | None = None
     """s until the limit of what is going on: START, ball in play, end of a break or of a shoot-out's attempt."""
-    robots: dict[Name, Standing] = Field(default_factory=dict)
+    robots: dict[Name, DisciplinaryRecord] = Field(default_factory=dict)
     """Robots with a card, or off the field; all others are there and unpunished."""
     proposal: str | None = None
     """Mixed officiating: what the referee has proposed and not yet carried out."""
@@ -188,10 +188,10 @@ class GameView(Part):
     our_score: int
     their_score: int
     spot: Point | None = None
-    stage: Stage = Stage.REGULAR
+    stage: GameStage = GameStage.REGULAR
     left: float | None = None
     """s until the limit of what is going on: START, ball in play, end of a break or of a shoot-out's attempt."""
-    robots: dict[Name, Standing] = Field(default_factory=dict)
+    robots: dict[Name, DisciplinaryRecord] = Field(default_factory=dict)
     """Our robots with a card, or off the field; all others are there and unpunished."""
     episode: int = 1
     """Another number than before: the world was set up anew, and what was believed of it is void."""

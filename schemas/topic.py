@@ -50,9 +50,9 @@ class Topic:
     rate: str
     delivery: Delivery
     recorded: bool
-    says: str
+    description: str
     reply: type[Message] | None = None
-    kept: int = 1500
+    cache_size: int = 1500
     """Messages of a `recovered` topic that a writer keeps of a key: 30 s of ticks in real time."""
 
     @property

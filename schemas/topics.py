@@ -4,19 +4,19 @@ Access rules, the recorder, `docs/protocol.md` and the tests are derived from th
 All keys stand below `touchline/{match}/`.
 """
 
-from schemas.coach import CoachOrder, StandingOrder
-from schemas.command import Command
-from schemas.control import RecorderReply, RecorderRequest
+from schemas.config.scene import SceneReply, SceneRequest
 from schemas.game import ActionReply, GameEvent, GameState, RefereeAction
-from schemas.hand import HandDrive
-from schemas.host import Applied, Belief, Health, Invalid, RecorderProgress, Setup, SetupRequest
-from schemas.minutes import Minutes
-from schemas.parameters import ParametersReply, ParametersRequest
-from schemas.replay import ReplayReply, ReplayRequest
-from schemas.scene import SceneReply, SceneRequest
-from schemas.sight import Sight
+from schemas.messages.coach import ActiveOrder, CoachOrder
+from schemas.messages.command import Command
+from schemas.messages.host import Applied, Belief, Health, Invalid, RecorderProgress, Setup, SetupRequest
+from schemas.messages.manual import ManualDrive
+from schemas.messages.parameters import ParametersReply, ParametersRequest
+from schemas.messages.record_batch import RecordBatch
+from schemas.messages.recorder import RecorderReply, RecorderRequest
+from schemas.messages.replay import ReplayReply, ReplayRequest
+from schemas.messages.sight import Sight
+from schemas.messages.world import BallFrame, RobotFrame, World
 from schemas.topic import Delivery, Party, Topic
-from schemas.world import BallFrame, RobotFrame, World
 
 _WATCHERS = (Party.COACH, Party.REFEREE, Party.RECORDER, Party.VIEWER)
 _ALL = (Party.ROBOT, *_WATCHERS)
@@ -73,9 +73,9 @@ COMMAND = Topic(
     True,
     "what this robot does",
 )
-HAND = Topic(
-    "robot/{robot}/hand",
-    HandDrive,
+MANUAL = Topic(
+    "robot/{robot}/manual",
+    ManualDrive,
     Party.OPERATOR,
     (Party.HOST,),
     "20 Hz of wall time while somebody drives",
@@ -103,9 +103,9 @@ ORDER = Topic(
     True,
     "the coach's standing order",
 )
-STANDING_ORDER = Topic(
+ACTIVE_ORDER = Topic(
     "team/{side}/standing",
-    StandingOrder,
+    ActiveOrder,
     Party.HOST,
     (Party.COACH, Party.RECORDER),
     "on change, and once a second, while an order stands",
@@ -207,18 +207,18 @@ INVALID = Topic(
     True,
     "a payload that was no valid message, and why",
 )
-MINUTES = Topic(
-    "host/minutes",
-    Minutes,
+RECORD_BATCH = Topic(
+    "host/record_batch",
+    RecordBatch,
     Party.HOST,
     (Party.RECORDER,),
     "every 8 ticks, or 0.15 s of wall time",
     Delivery.RECOVERED,
     False,
     "all that is recorded, as the host said it and took it in; recorders record it on its own keys from here",
-    kept=300,
+    cache_size=300,
 )
-PROGRESS = Topic(
+RECORDER_PROGRESS = Topic(
     "record/{name}/progress",
     RecorderProgress,
     Party.RECORDER,
@@ -228,7 +228,7 @@ PROGRESS = Topic(
     False,
     "how far a recorder has come",
 )
-CONTROL = Topic(
+RECORDER_CONTROL = Topic(
     "record/{name}/control",
     RecorderRequest,
     Party.OPERATOR,
@@ -239,7 +239,7 @@ CONTROL = Topic(
     "pause, resume, split, snapshot, status of a recorder; refused with the reason",
     reply=RecorderReply,
 )
-REPLAY = Topic(
+REPLAY_CONTROL = Topic(
     "replay/control",
     ReplayRequest,
     Party.OPERATOR,
@@ -267,10 +267,10 @@ TOPICS: dict[str, Topic] = {
     "world_ball": WORLD_BALL,
     "sight": SIGHT,
     "command": COMMAND,
-    "hand": HAND,
+    "manual": MANUAL,
     "belief": BELIEF,
     "order": ORDER,
-    "standing_order": STANDING_ORDER,
+    "standing_order": ACTIVE_ORDER,
     "state": STATE,
     "event": EVENT,
     "action": ACTION,
@@ -280,15 +280,15 @@ TOPICS: dict[str, Topic] = {
     "applied": APPLIED,
     "health": HEALTH,
     "invalid": INVALID,
-    "minutes": MINUTES,
-    "progress": PROGRESS,
-    "control": CONTROL,
-    "replay": REPLAY,
+    "record_batch": RECORD_BATCH,
+    "recorder_progress": RECORDER_PROGRESS,
+    "recorder_control": RECORDER_CONTROL,
+    "replay_control": REPLAY_CONTROL,
     "alive": ALIVE,
 }
 """Topic name → its row."""
 
 
-def root(match: str) -> str:
+def key_prefix(match: str) -> str:
     """What stands before every key of a match."""
     return f"touchline/{match}/"

@@ -1,4 +1,5 @@
-"""The simulation host: the loop, the world, bodies, actuation, sensing, radio, referee.
+"""The simulation host: server, match, referee, sensing, actuation and physics of one match.
 
-Knows nothing of teams' code, of coaches or of files: it takes commands and actions, and gives sights, truth and events.
+Knows nothing of teams' code, of coaches or of files: it receives commands and actions, and
+publishes sights, truth and events.
 """

@@ -6,12 +6,12 @@ import signal
 import sys
 from pathlib import Path
 
-from schemas.bus.endpoint import DEFAULT_ENDPOINT, is_loopback, with_port
-from schemas.bus.zenoh_bus import open_host
-from schemas.clock import WallClock
+from schemas.bus.endpoint import DEFAULT_ENDPOINT, is_loopback, with_free_port
+from schemas.bus.zenoh.bus import open_host
+from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
-from schemas.match_config import MatchConfig
-from schemas.turns import take_turns
+from schemas.process.clock import WallClock
+from schemas.process.scheduling import use_batch_scheduling
 
 log = logging.getLogger("sim_host")
 
@@ -23,7 +23,7 @@ def serve(config: MatchConfig, listen: str, *, insecure: bool = False) -> None:
         TouchlineError: PyBullet is missing, the endpoint cannot be listened on, or is open to others unguarded.
     """
     try:
-        from sim_host.host import Host
+        from sim_host.server.host import Host
     except ModuleNotFoundError as error:
         if error.name != "pybullet":
             raise
@@ -32,14 +32,14 @@ def serve(config: MatchConfig, listen: str, *, insecure: bool = False) -> None:
         ) from None
     if not insecure and not is_loopback(listen):
         raise TouchlineError(f"--listen {listen} can be reached by others; say --insecure if that is what you want")
-    take_turns(config.speed is None)
-    with open_host(config.name, WallClock(), with_port(listen)) as bus:
+    use_batch_scheduling(config.speed is None)
+    with open_host(config.name, WallClock(), with_free_port(listen)) as bus:
         log.info("match %s on %s, pace %s, seed %d", config.name, listen, config.pace, config.seed)
         host = Host(config, bus)
         for number in (signal.SIGTERM, signal.SIGINT):
-            signal.signal(number, lambda *_: host.leave())
+            signal.signal(number, lambda *_: host.stop())
         host.run()
-        how = "left before the match was over," if host.leaving else "match over"
+        how = "stopped before the match was over," if host.stopping else "match over"
         log.info("%s at tick %d", how, host.simulation.now.tick)
 
 
@@ -51,7 +51,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--insecure", action="store_true", help="listen beyond this machine without credentials")
     options = parser.parse_args(arguments)
     logging.basicConfig(level=logging.INFO, stream=sys.stderr, format="%(asctime)s %(name)s: %(message)s")
-    signal.signal(signal.SIGTERM, _leave)
+    signal.signal(signal.SIGTERM, _interrupt)
     try:
         config = MatchConfig.model_validate_json(options.config.read_bytes()) if options.config else MatchConfig()
         serve(config, options.listen, insecure=options.insecure)
@@ -63,7 +63,7 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-def _leave(signum: int, frame: object) -> None:
+def _interrupt(signum: int, frame: object) -> None:
     del signum, frame
     raise KeyboardInterrupt
 

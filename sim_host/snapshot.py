@@ -8,11 +8,11 @@ from typing import NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from schemas.match_config import MatchConfig
-from schemas.obstacle import Shape, StaticObstacle
-from schemas.profile import Profile
-from schemas.robot_model import RobotModel, models_of
-from schemas.roster import RosterEntry
+from schemas.config.match_config import MatchConfig
+from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.config.profile import Profile
+from schemas.config.robot_model import RobotModel, models_of
+from schemas.config.roster import RosterEntry
 from schemas.side import Side
 
 
@@ -32,10 +32,10 @@ class RobotState(NamedTuple):
 _ROBOT_NUMBERS = len(RobotState._fields)
 
 
-class Motions(NamedTuple):
+class RobotMotions(NamedTuple):
     """The true motions of all robots, in the field frame, in the order of the roster."""
 
-    place: NDArray[np.complex128]
+    position: NDArray[np.complex128]
     """m."""
     heading: NDArray[np.float64]
     """rad."""
@@ -48,20 +48,20 @@ class Motions(NamedTuple):
     def of(cls, robots: Sequence[RobotState]) -> Self:
         """Those of these robots."""
         numbers = np.fromiter(chain.from_iterable(robots), float, _ROBOT_NUMBERS * len(robots))
-        place, height_heading, velocity, omega_holding = numbers.view(complex).reshape(-1, _ROBOT_NUMBERS // 2).T
-        return cls(place, height_heading.imag, velocity, omega_holding.real)
+        position, height_heading, velocity, omega_holding = numbers.view(complex).reshape(-1, _ROBOT_NUMBERS // 2).T
+        return cls(position, height_heading.imag, velocity, omega_holding.real)
 
 
-class Robots(tuple[RobotState, ...]):
+class RobotStates(tuple[RobotState, ...]):
     """All robots, in the order of the roster."""
 
-    motions: Motions
+    motions: RobotMotions
     """The same as arrays, made once for all who work with them; never changed."""
 
     def __new__(cls, robots: Iterable[RobotState]) -> Self:
         """These robots."""
         self = super().__new__(cls, robots)
-        self.motions = Motions.of(self)
+        self.motions = RobotMotions.of(self)
         return self
 
 
@@ -127,7 +127,7 @@ class Roster:
         )
 
     @classmethod
-    def cast(cls, robots: Sequence[RosterEntry], types: Mapping[str, RobotModel]) -> "Roster":
+    def of_entries(cls, robots: Sequence[RosterEntry], types: Mapping[str, RobotModel]) -> "Roster":
         """These robots, in this order, with the models of their types."""
         return cls(
             names=tuple(entry.name for entry in robots),
@@ -149,7 +149,7 @@ class Snapshot:
     tick: int
     time: float
     roster: Roster
-    robots: Robots
+    robots: RobotStates
     ball: BallState
     possession: str | None
     """The robot that holds the ball."""

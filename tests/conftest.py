@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import pytest
 from hypothesis import HealthCheck, settings
 
-from schemas.bus.endpoint import with_port
-from schemas.bus.zenoh_bus import open_host
-from schemas.clock import WallClock
-from schemas.host import Applied, noted
-from schemas.match_config import MatchConfig
-from sim_host.resimulation import InForce, Resimulation
-from sim_host.tuning import Tuning
+from schemas.bus.endpoint import with_free_port
+from schemas.bus.zenoh.bus import open_host
+from schemas.config.match_config import MatchConfig
+from schemas.messages.host import Applied, without_chain
+from schemas.process.clock import WallClock
+from sim_host.match.live_parameters import LiveParameters
+from sim_host.match.resimulation import Conditions, Resimulation
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -27,7 +27,7 @@ settings.load_profile("steady")
 
 def pytest_configure() -> None:
     """Zenoh chooses its threads when the first session of a process is opened."""
-    open_host("first", WallClock(), with_port("tcp/127.0.0.1:0")).close()
+    open_host("first", WallClock(), with_free_port("tcp/127.0.0.1:0")).close()
 
 
 @pytest.fixture(scope="session")
@@ -35,8 +35,8 @@ def simulated_again() -> Callable[[MatchConfig, Sequence[bytes]], list[str]]:
     """Gives the hash chain of every tick of a match, from what a recording keeps of it alone."""
 
     def simulate(config: MatchConfig, recorded: Sequence[bytes]) -> list[str]:
-        again = Resimulation(InForce(Tuning.of(config)))
-        chains = [again.step(Applied.decode(payload), noted(payload)).chain for payload in recorded]
+        again = Resimulation(Conditions(LiveParameters.of(config)))
+        chains = [again.step(Applied.decode(payload), without_chain(payload)).chain for payload in recorded]
         again.close()
         return chains
 

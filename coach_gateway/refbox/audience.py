@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import Any
 
-from schemas.game import GameState, OffField, Phase, Stage, Standing
-from schemas.host import Setup
+from schemas.game import DisciplinaryRecord, GameStage, GameState, OffField, Phase
 from schemas.league.calls import Call
+from schemas.messages.host import Setup
 from schemas.side import Side
 
 VERSION = "1.2.0"
@@ -32,7 +32,7 @@ def state_number(state: GameState) -> int:
         return 0
     if state.phase is Phase.FULL_TIME:
         return 14
-    if state.stage is Stage.SHOOT_OUT:
+    if state.stage is GameStage.SHOOT_OUT:
         return 13 if state.running else 12
     half = min(state.half, 4)
     if state.phase in _BREAKS:
@@ -70,7 +70,7 @@ def event(call: Call, setup: Setup, numbers: Mapping[str, int]) -> dict[str, Any
     return {
         "type": "event",
         "eventCode": call.signal.name,
-        "eventDesc": call.signal.says,
+        "eventDesc": call.signal.description,
         "team": setup.teams[call.side].name if call.side is not None else "",
         "robotID": numbers.get(call.robot or "", -1),
     }
@@ -78,8 +78,8 @@ def event(call: Call, setup: Setup, numbers: Mapping[str, int]) -> dict[str, Any
 
 def _team(side: Side, state: GameState, setup: Setup, worlds: Mapping[Side, Mapping[str, Any]]) -> dict[str, Any]:
     team = setup.teams[side]
-    standings = [state.robots.get(name, Standing()) for name in team.robots[:_ROBOTS]]
-    standings += [Standing()] * (_ROBOTS - len(standings))
+    standings = [state.robots.get(name, DisciplinaryRecord()) for name in team.robots[:_ROBOTS]]
+    standings += [DisciplinaryRecord()] * (_ROBOTS - len(standings))
     return {
         "color": _COLOURS[side],
         "shortName": team.name[:_SHORT],
@@ -91,7 +91,7 @@ def _team(side: Side, state: GameState, setup: Setup, worlds: Mapping[Side, Mapp
     }
 
 
-def _word(standing: Standing) -> str:
+def _word(standing: DisciplinaryRecord) -> str:
     """Who is off the field for any other reason is in repair, as far as the box has words."""
     if standing.off_field is not None:
         return _WORDS.get(standing.off_field, "repair")

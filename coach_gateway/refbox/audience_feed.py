@@ -6,14 +6,14 @@ import socket
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from coach_gateway.live import Live, pause
+from coach_gateway.match.live import LiveMatch, pause
 from coach_gateway.refbox.audience import Audience, event
-from coach_gateway.refbox.narration import Narrator
-from coach_gateway.refbox.own_view import own_view
-from coach_gateway.refbox.team_view import TeamView
+from coach_gateway.refbox.call_generator import CallGenerator
+from coach_gateway.refbox.own_world_state import own_world_state
+from coach_gateway.refbox.team_world_state import TeamWorldState
 from schemas.errors import TouchlineError
 from schemas.game import GameState
-from schemas.league.numbers import numbers_of
+from schemas.league.robot_numbers import numbers_of
 from schemas.side import Side
 
 EVERY_S = 0.05
@@ -31,22 +31,22 @@ class AudienceFeed:
 
     def __init__(
         self,
-        live: Live,
+        live: LiveMatch,
         addresses: Sequence[tuple[str, int]],
-        say: Callable[[str], None],
-        views: Mapping[Side, TeamView] | None = None,
+        log: Callable[[str], None],
+        team_states: Mapping[Side, TeamWorldState] | None = None,
     ) -> None:
-        """`views` is what base stations tell of the world, where there are some."""
+        """`team_states` is what base stations tell of the world, where there are some."""
         self._live = live
         self._addresses = addresses
-        self._say = say
-        self._views = views if views is not None else {}
+        self._log = log
+        self._team_states = team_states if team_states is not None else {}
         self._targets: list[tuple[Any, ...]] = []
         self._audience = Audience()
-        self._narrator = Narrator()
+        self._call_generator = CallGenerator()
         self._transport: asyncio.DatagramTransport | None = None
-        self._complained = False
-        live.follow(self._narrate)
+        self._warned = False
+        live.on_state(self._send_calls)
 
     async def serve(self, stop: asyncio.Event) -> None:
         """Send until `stop` is set.
@@ -63,36 +63,36 @@ class AudienceFeed:
             self._transport, _ = await loop.create_datagram_endpoint(asyncio.DatagramProtocol, family=family)
         except OSError as error:
             raise TouchlineError(f"--audience: nothing can be sent there ({error}); name other addresses") from None
-        self._say(f"audience feed to {', '.join(f'{host}:{port}' for host, port in self._addresses)}")
+        self._log(f"audience feed to {', '.join(f'{host}:{port}' for host, port in self._addresses)}")
         due = self._live.now
         try:
             while not stop.is_set():
-                self._tell()
+                self._send_state()
                 due = max(due + EVERY_S, self._live.now)
                 await pause(stop, due - self._live.now)
         finally:
             self._transport.close()
 
-    def _narrate(self, state: GameState) -> None:
+    def _send_calls(self, state: GameState) -> None:
         setup = self._live.setup
         numbers = numbers_of(self._live.sides)
-        for call in self._narrator.take(state, self._live.sides):
+        for call in self._call_generator.next_calls(state, self._live.sides):
             if setup is not None:
                 self._send(event(call, setup, numbers))
 
-    def _tell(self) -> None:
+    def _send_state(self) -> None:
         state, setup = self._live.state, self._live.setup
         if state is None or setup is None:
             return
         if self._send(self._audience.teams(state, setup, {side: self._world(side) for side in Side})):
             return
-        if not self._complained:
-            self._complained = True
-            self._say("audience feed: a base station tells more than a datagram holds; what our robots say stands in")
+        if not self._warned:
+            self._warned = True
+            self._log("audience feed: a base station tells more than a datagram holds; what our robots say stands in")
         self._send(self._audience.teams(state, setup, {side: self._own(side) for side in Side}))
 
     def _world(self, side: Side) -> Mapping[str, Any]:
-        live, view = self._live, self._views.get(side)
+        live, view = self._live, self._team_states.get(side)
         if view is not None and view.newest is not None and live.now - view.newest_at < _OLD_S:
             return view.newest
         return self._own(side)
@@ -102,7 +102,7 @@ class AudienceFeed:
         world, setup = live.world, live.setup
         if world is None or setup is None:
             return {}
-        return own_view(side, setup, live.sides, live.state, world, live.beliefs([side]))
+        return own_world_state(side, setup, live.sides, live.state, world, live.beliefs([side]))
 
     def _send(self, content: Mapping[str, Any]) -> bool:
         """Send it to everybody; whether it is small enough for that."""

@@ -11,17 +11,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from coach_gateway.allowance import Allowance
-from coach_gateway.live import Live, pause
+from coach_gateway.access.rate_limit import TokenBucket
+from coach_gateway.match.live import LiveMatch, pause
 from coach_gateway.refbox import DEFAULT_PORT, characters, commands
-from coach_gateway.refbox.forwarding import WAITS_FOR_START, Deeds, deeds, is_ours, speaks_for
-from coach_gateway.refbox.framing import Framer, Protocol
-from coach_gateway.refbox.own_view import own_view
-from schemas.coach import CoachMode
+from coach_gateway.refbox.forwarding import WAITS_FOR_START, SignalResponse, is_ours, response_to, speaks_for
+from coach_gateway.refbox.framing import BoxProtocol, Framer
+from coach_gateway.refbox.own_world_state import own_world_state
 from schemas.errors import TouchlineError
-from schemas.game import Mode, RefereeAction
-from schemas.league.numbers import numbers_of
+from schemas.game import OfficiatingMode, RefereeAction
+from schemas.league.robot_numbers import numbers_of
 from schemas.league.signals import Signal
+from schemas.messages.coach import CoachMode
 from schemas.side import Side
 
 UPLOAD_S = 0.05
@@ -33,7 +33,7 @@ _CONNECT_S = 5.0
 """s of wall time that one attempt to reach the box lasts at most."""
 _UNREAD = 262_144
 """Bytes of world states that wait for a box that does not read; then newer ones are left out."""
-_DEAF_S = 10.0
+_UNREAD_S = 10.0
 """s of wall time that a box may go without reading before the link is given up."""
 _MOST_WAITING = 500
 """Commands that wait until the match can be officiated; of more the newest count."""
@@ -50,21 +50,21 @@ class BoxAddress:
     team: Side
     host: str
     port: int = DEFAULT_PORT
-    protocol: Protocol = Protocol.AUTO
+    protocol: BoxProtocol = BoxProtocol.AUTO
 
 
 class RefBoxClient:
     """One base station."""
 
-    def __init__(self, live: Live, box: BoxAddress, say: Callable[[str], None]) -> None:
-        """`say` is given a line whenever people should know something."""
+    def __init__(self, live: LiveMatch, box: BoxAddress, log: Callable[[str], None]) -> None:
+        """`log` is given a line whenever people should know something."""
         self._live = live
         self._box = box
-        self._say = say
+        self._log = log
         self._target: str | None = None
         """By what the box calls this team; it says so in WELCOME."""
         self._parked = False
-        self._complaints = Allowance(1.0, 5.0, live.now)
+        self._error_notices = TokenBucket(1.0, 5.0, live.now)
         """How often people are told that something cannot be read."""
         self._signals: asyncio.Queue[tuple[Signal, Side | None, int | None]] = asyncio.Queue()
         self.connected = False
@@ -82,12 +82,12 @@ class RefBoxClient:
             except OSError as error:
                 if not (told or stop.is_set()):
                     told = True
-                    self._say(f"referee box {self._box.host}:{self._box.port} is not there ({error}); trying on")
+                    self._log(f"referee box {self._box.host}:{self._box.port} is not there ({error}); trying on")
                 await pause(stop, wait)
                 wait = min(2 * wait, _LONGEST_PAUSE_S)
                 continue
             told, heard = False, self.counts["heard"]
-            await self._meet(reader, writer, stop)
+            await self._run_connection(reader, writer, stop)
             if self.counts["heard"] > heard:
                 wait = _FIRST_PAUSE_S
             await pause(stop, wait)
@@ -109,15 +109,20 @@ class RefBoxClient:
             raise TimeoutError(f"no answer within {_CONNECT_S:g} s")
         return reached.result()
 
-    async def _meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, stop: asyncio.Event) -> None:
+    async def _run_connection(
+        self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, stop: asyncio.Event
+    ) -> None:
         """One connection, from its beginning to its end."""
         self.counts["connections"] += 1
         self._target = None
         self._signals = asyncio.Queue()
         self._set_connected(True)
-        self._say(f"{self._box.team} is connected to the referee box {self._box.host}:{self._box.port}")
+        self._log(f"{self._box.team} is connected to the referee box {self._box.host}:{self._box.port}")
         stopped = asyncio.create_task(stop.wait())
-        tasks = [stopped, *(asyncio.create_task(one) for one in (self._hear(reader), self._obey(), self._tell(writer)))]
+        tasks = [
+            stopped,
+            *(asyncio.create_task(one) for one in (self._read(reader), self._forward(), self._upload_states(writer))),
+        ]
         try:
             await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         finally:
@@ -130,7 +135,7 @@ class RefBoxClient:
             if isinstance(end, Exception) and not isinstance(end, OSError):
                 raise end
         if not stop.is_set():
-            self._say(f"the referee box is gone; {self.summary()}")
+            self._log(f"the referee box is gone; {self.summary()}")
 
     def summary(self) -> str:
         """What came of it so far, in words."""
@@ -140,15 +145,15 @@ class RefBoxClient:
         self.connected = connected
         self._live.connect_refbox(self._box.team, connected=connected)
 
-    async def _hear(self, reader: asyncio.StreamReader) -> None:
+    async def _read(self, reader: asyncio.StreamReader) -> None:
         framer = Framer(self._box.protocol)
         while data := await reader.read(4096):
             for message in framer.feed(data):
-                self._take(message)
+                self._read_message(message)
             self.counts["unreadable"] += framer.garbage
             framer.garbage = 0
 
-    def _take(self, message: dict[str, Any] | str) -> None:
+    def _read_message(self, message: dict[str, Any] | str) -> None:
         """Note a signal; which team is meant is told apart here, in the order the box said it."""
         if isinstance(message, str):
             signal, side = characters.read(message)
@@ -158,8 +163,8 @@ class RefBoxClient:
             command = commands.read(message)
         except commands.NoCommandError as error:
             self.counts["unreadable"] += 1
-            if self._complaints.take(self._live.now):
-                self._say(f"referee box: {error}")
+            if self._error_notices.allow(self._live.now):
+                self._log(f"referee box: {error}")
             return
         if command.signal.name == "WELCOME" and command.target:
             self._target = command.target
@@ -184,20 +189,20 @@ class RefBoxClient:
             names = {team.name.lower(): side for side, team in self._live.setup.teams.items()} | names
         return names.get(target.lower())
 
-    async def _obey(self) -> None:
+    async def _forward(self) -> None:
         """Pass on the signals, one after the other, once there is a match that can be officiated."""
         while self._live.state is None or self._live.setup is None:
             await asyncio.sleep(UPLOAD_S)
-        if self._live.setup.officiating not in (Mode.MANUAL, None):
-            self._say("our own referee goes on deciding beside the box; start the match with --referee manual")
+        if self._live.setup.officiating not in (OfficiatingMode.MANUAL, None):
+            self._log("our own referee goes on deciding beside the box; start the match with --referee manual")
         while True:
             signal, side, number = await self._signals.get()
             if not is_ours(signal, side, self._box.team, self._live.refboxes):
                 continue
-            wanted = deeds(signal, side, self._robot(side, number), self._live.state)
+            wanted = response_to(signal, side, self._robot(side, number), self._live.state)
             if wanted.reason:
                 self.counts["untold"] += 1
-                self._say(f"referee box: {wanted.reason}")
+                self._log(f"referee box: {wanted.reason}")
             await self._order(wanted.order, signal)
             await self._act(wanted)
 
@@ -206,7 +211,7 @@ class RefBoxClient:
         numbers = numbers_of(sides)
         return next((name for name, its in numbers.items() if its == number and sides[name] is side), None)
 
-    async def _act(self, wanted: Deeds) -> None:
+    async def _act(self, wanted: SignalResponse) -> None:
         """Ask for the actions; those after one that is refused are asked for all the same, as the box did."""
         for action in wanted.actions:
             if wanted.until_running and action is wanted.actions[-1]:
@@ -218,7 +223,7 @@ class RefBoxClient:
         reply = await self._live.act(action)
         self.counts["forwarded" if reply.accepted else "refused"] += 1
         if not reply.accepted:
-            self._say(f"referee box: {reply.reason}")
+            self._log(f"referee box: {reply.reason}")
 
     async def _start(self, action: RefereeAction) -> None:
         """Bring the game on until it runs, unless the box says something else meanwhile."""
@@ -231,7 +236,7 @@ class RefBoxClient:
         lost = bool(reason) and self._waits_for_start()
         self.counts["refused" if lost else "forwarded"] += 1
         if lost:
-            self._say(f"referee box: {reason}")
+            self._log(f"referee box: {reason}")
 
     def _waits_for_start(self) -> bool:
         state = self._live.state
@@ -250,9 +255,9 @@ class RefBoxClient:
                 self.counts["forwarded"] += 1
             except TouchlineError as error:
                 self.counts["refused"] += 1
-                self._say(f"referee box: {error}")
+                self._log(f"referee box: {error}")
 
-    async def _tell(self, writer: asyncio.StreamWriter) -> None:
+    async def _upload_states(self, writer: asyncio.StreamWriter) -> None:
         """Send the newest world state at a steady rate; a box that does not read misses some, and at last the link."""
         due = read_at = self._live.now
         while True:
@@ -260,7 +265,7 @@ class RefBoxClient:
             if waiting < _UNREAD:
                 read_at = self._live.now
                 self._upload(writer)
-            elif self._live.now - read_at > _DEAF_S:
+            elif self._live.now - read_at > _UNREAD_S:
                 return
             else:
                 self.counts["left out"] += 1
@@ -272,6 +277,6 @@ class RefBoxClient:
         world, setup = live.world, live.setup
         if world is None or setup is None:
             return
-        view = own_view(team, setup, live.sides, live.state, world, live.beliefs([team]))
+        view = own_world_state(team, setup, live.sides, live.state, world, live.beliefs([team]))
         writer.write(json.dumps(view, separators=(",", ":")).encode() + b"\x00")
         self.counts["uploaded"] += 1

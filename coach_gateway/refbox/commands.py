@@ -27,7 +27,7 @@ _BY_WORD: dict[str, Signal] = {
 }
 
 
-class Command(NamedTuple):
+class BoxCommand(NamedTuple):
     """One command as the box says it."""
 
     signal: Signal
@@ -40,7 +40,7 @@ class NoCommandError(ValueError):
     """An object that is no command; the sentence says why."""
 
 
-def read(said: dict[str, Any]) -> Command:
+def read(said: dict[str, Any]) -> BoxCommand:
     """The command in an object; letters' case, underscores and hyphens do not matter, nor do further fields.
 
     Raises:
@@ -54,10 +54,10 @@ def read(said: dict[str, Any]) -> Command:
     if signal is None:
         raise NoCommandError(f'"{word[:40]}" is no command of the referee box')
     target = fields.get("TARGETTEAM")
-    return Command(signal, target.strip() if isinstance(target, str) else "", _robot(fields.get("ROBOTID")))
+    return BoxCommand(signal, target.strip() if isinstance(target, str) else "", _robot(fields.get("ROBOTID")))
 
 
-def write(command: Command) -> bytes:
+def write(command: BoxCommand) -> bytes:
     """The command as it goes over the wire."""
     said: dict[str, Any] = {"command": command.signal.name, "targetTeam": command.target}
     if command.robot is not None:

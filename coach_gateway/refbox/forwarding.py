@@ -7,9 +7,9 @@ for both.
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
-from schemas.coach import CoachMode
-from schemas.game import REFBOX, RESTARTS, ActionName, EventKind, GameState, Phase, RefereeAction, Stage
+from schemas.game import REFBOX, RESTARTS, ActionName, EventKind, GameStage, GameState, Phase, RefereeAction
 from schemas.league.signals import SIGNALS, Signal
+from schemas.messages.coach import CoachMode
 from schemas.side import Side
 
 BREAKS = (Phase.HALF_TIME, Phase.PARKING)
@@ -19,7 +19,7 @@ WAITS_FOR_START = RESTARTS | {Phase.PRE_GAME, Phase.STOPPED, *BREAKS}
 
 
 @dataclass(frozen=True, slots=True)
-class Deeds:
+class SignalResponse:
     """What is to be done about one signal."""
 
     actions: tuple[RefereeAction, ...] = ()
@@ -33,8 +33,8 @@ class Deeds:
     """Why nothing is done, where our game has no word for it."""
 
 
-_NOTHING = Deeds()
-_Rule = Callable[[Signal, "Side | None", "str | None", GameState], Deeds]
+_NOTHING = SignalResponse()
+_Rule = Callable[[Signal, "Side | None", "str | None", GameState], SignalResponse]
 
 
 def _action(name: ActionName, side: Side | None = None, robot: str | None = None) -> RefereeAction:
@@ -42,56 +42,56 @@ def _action(name: ActionName, side: Side | None = None, robot: str | None = None
 
 
 def _plain(name: ActionName) -> _Rule:
-    return lambda _signal, side, _robot, _state: Deeds((_action(name, side),))
+    return lambda _signal, side, _robot, _state: SignalResponse((_action(name, side),))
 
 
 def _for_robot(name: ActionName) -> _Rule:
-    def rule(signal: Signal, side: Side | None, robot: str | None, _state: GameState) -> Deeds:
+    def rule(signal: Signal, side: Side | None, robot: str | None, _state: GameState) -> SignalResponse:
         if robot is None:
-            return Deeds(reason=f"{signal.name} for {side} names no robot that plays")
-        return Deeds((_action(name, robot=robot),))
+            return SignalResponse(reason=f"{signal.name} for {side} names no robot that plays")
+        return SignalResponse((_action(name, robot=robot),))
 
     return rule
 
 
-def _start(_signal: Signal, _side: Side | None, _robot: str | None, state: GameState) -> Deeds:
+def _start(_signal: Signal, _side: Side | None, _robot: str | None, state: GameState) -> SignalResponse:
     waits = state.phase in WAITS_FOR_START and not state.running
-    return Deeds((_action(ActionName.START),), until_running=waits)
+    return SignalResponse((_action(ActionName.START),), until_running=waits)
 
 
-def _restart(signal: Signal, side: Side | None, _robot: str | None, state: GameState) -> Deeds:
+def _restart(signal: Signal, side: Side | None, _robot: str | None, state: GameState) -> SignalResponse:
     """The restart itself; after a break the half has to begin first, which signals the kick-off of the right side."""
     if signal.phase is None or (state.phase, state.side, state.running) == (signal.phase, side, False):
         return _NOTHING
     wanted = _action(ActionName(signal.phase.value), side)
-    return Deeds((_action(ActionName.START), wanted) if state.phase in BREAKS else (wanted,))
+    return SignalResponse((_action(ActionName.START), wanted) if state.phase in BREAKS else (wanted,))
 
 
-def _next_half(_signal: Signal, _side: Side | None, _robot: str | None, state: GameState) -> Deeds:
-    return Deeds((_action(ActionName.START),)) if state.phase in BREAKS else _NOTHING
+def _next_half(_signal: Signal, _side: Side | None, _robot: str | None, state: GameState) -> SignalResponse:
+    return SignalResponse((_action(ActionName.START),)) if state.phase in BREAKS else _NOTHING
 
 
-def _end(_signal: Signal, _side: Side | None, _robot: str | None, state: GameState) -> Deeds:
+def _end(_signal: Signal, _side: Side | None, _robot: str | None, state: GameState) -> SignalResponse:
     """The box ends the second half with it, and overtime may follow."""
-    goes_on = state.half > 1 and state.stage is not Stage.SHOOT_OUT
-    return Deeds((_action(ActionName.END_HALF if goes_on else ActionName.END_GAME),))
+    goes_on = state.half > 1 and state.stage is not GameStage.SHOOT_OUT
+    return SignalResponse((_action(ActionName.END_HALF if goes_on else ActionName.END_GAME),))
 
 
-def _park(_signal: Signal, _side: Side | None, _robot: str | None, _state: GameState) -> Deeds:
-    return Deeds(order=CoachMode.PARK)
+def _park(_signal: Signal, _side: Side | None, _robot: str | None, _state: GameState) -> SignalResponse:
+    return SignalResponse(order=CoachMode.PARK)
 
 
-def _known(_signal: Signal, _side: Side | None, _robot: str | None, _state: GameState) -> Deeds:
+def _known(_signal: Signal, _side: Side | None, _robot: str | None, _state: GameState) -> SignalResponse:
     """Our game need not be told."""
     return _NOTHING
 
 
-def _untold(why: str) -> _Rule:
-    return lambda signal, _side, _robot, _state: Deeds(reason=f"{signal.name} {why}")
+def _unsupported(why: str) -> _Rule:
+    return lambda signal, _side, _robot, _state: SignalResponse(reason=f"{signal.name} {why}")
 
 
-_TEAM_MATTER = _untold("has no action of our referee; coaches give orders in test mode")
-_OLD = _untold("belongs to a protocol older than the league's rules here")
+_TEAM_MATTER = _unsupported("has no action of our referee; coaches give orders in test mode")
+_OLD = _unsupported("belongs to a protocol older than the league's rules here")
 
 FORWARD: Mapping[str, _Rule] = {
     **{signal.name: _restart for signal in SIGNALS if signal.kind is EventKind.RESTART},
@@ -117,7 +117,7 @@ FORWARD: Mapping[str, _Rule] = {
     "PARK": _park,
     "WELCOME": _known,
     "IS_ALIVE": _known,
-    "RESET": _untold("would begin the simulation anew; touchline scene reset does"),
+    "RESET": _unsupported("would begin the simulation anew; touchline scene reset does"),
     "TESTMODE_ON": _TEAM_MATTER,
     "TESTMODE_OFF": _TEAM_MATTER,
     "READY": _OLD,
@@ -127,10 +127,10 @@ FORWARD: Mapping[str, _Rule] = {
 """Name of each signal → what it leads to."""
 
 
-def deeds(signal: Signal, side: Side | None, robot: str | None, state: GameState) -> Deeds:
+def response_to(signal: Signal, side: Side | None, robot: str | None, state: GameState) -> SignalResponse:
     """What a signal leads to: `side` is whom it is meant for, `robot` the name of the robot, if it names one."""
     if signal.sided and side is None:
-        return Deeds(reason=f"{signal.name} does not tell which team is meant")
+        return SignalResponse(reason=f"{signal.name} does not tell which team is meant")
     return FORWARD[signal.name](signal, side, robot, state)
 
 

@@ -19,7 +19,7 @@ _SILENT = b"\x00\r\n"
 _DECODER = json.JSONDecoder(strict=False)
 
 
-class Protocol(StrEnum):
+class BoxProtocol(StrEnum):
     """How a referee box speaks."""
 
     AUTO = "auto"
@@ -31,12 +31,12 @@ class Protocol(StrEnum):
 class Framer:
     """Takes one connection's bytes."""
 
-    def __init__(self, protocol: Protocol = Protocol.AUTO, limit: int = LIMIT) -> None:
+    def __init__(self, protocol: BoxProtocol = BoxProtocol.AUTO, limit: int = LIMIT) -> None:
         self.protocol = protocol
         """How the sender speaks, as far as that is known."""
         self.garbage = 0
         """Pieces that were no message; of characters each, of JSON each that had to be passed over."""
-        self._may_change = protocol is Protocol.AUTO
+        self._may_change = protocol is BoxProtocol.AUTO
         self._limit = limit
         self._piece = bytearray()
         self._passing_over = False
@@ -46,7 +46,7 @@ class Framer:
         messages: list[dict[str, Any] | str] = []
         at = 0
         while at < len(data):
-            if self.protocol is Protocol.JSON or self._passing_over:
+            if self.protocol is BoxProtocol.JSON or self._passing_over:
                 at = self._json(data, at, messages)
             else:
                 at = self._character(data, at, messages)
@@ -57,14 +57,14 @@ class Framer:
         byte = data[at : at + 1]
         if byte == b"{":
             if self._may_change:
-                self.protocol = Protocol.JSON
+                self.protocol = BoxProtocol.JSON
             else:
                 self.garbage += 1
                 self._passing_over = True
             return at
         character = byte.decode("latin-1")
-        if character in BY_CHARACTER and (self.protocol is Protocol.CHARACTERS or character != " "):
-            self.protocol = Protocol.CHARACTERS
+        if character in BY_CHARACTER and (self.protocol is BoxProtocol.CHARACTERS or character != " "):
+            self.protocol = BoxProtocol.CHARACTERS
             messages.append(character)
         elif byte not in (_SILENT[:1], _SILENT[1:2], _SILENT[2:], b" "):
             self.garbage += 1

@@ -22,7 +22,7 @@ class Identity(NamedTuple):
     address: str | None = None
 
 
-class StrangerError(ValueError):
+class UnknownTeamError(ValueError):
     """It says who it is, and is not; the sentence tells why."""
 
 
@@ -40,7 +40,7 @@ def identify(
     """Who says this; nothing where that does not tell.
 
     Raises:
-        StrangerError: a name that no team has, or a token that is nobody's.
+        UnknownTeamError: a name that no team has, or a token that is nobody's.
     """
     if said.get("type") != HELLO:
         team = said.get("teamName")
@@ -52,12 +52,12 @@ def identify(
     if isinstance(token, str) and token:
         side = of_token(token)
         if side is None:
-            raise StrangerError("the token is nobody's")
+            raise UnknownTeamError("the token is nobody's")
         return Identity(side, called)
     side = _by_name(team, names) if isinstance(team, str) else None
     if side is None:
         known = [side.value for side in Side] + list(names.values())
-        raise StrangerError(f'no team is called "{str(team)[:_MAX_WORD]}"; {did_you_mean(str(team), known)}')
+        raise UnknownTeamError(f'no team is called "{str(team)[:_MAX_WORD]}"; {did_you_mean(str(team), known)}')
     return Identity(side, called)
 
 

@@ -10,17 +10,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from coach_gateway.live import Live
+from coach_gateway.match.live import LiveMatch
 from coach_gateway.ports import cannot_listen
 from coach_gateway.refbox import DEFAULT_PORT, commands
-from coach_gateway.refbox.commands import Command
-from coach_gateway.refbox.framing import Framer, Protocol
-from coach_gateway.refbox.identity import Identity, StrangerError, identify, targets
-from coach_gateway.refbox.narration import Narrator
-from coach_gateway.refbox.team_view import TeamView
+from coach_gateway.refbox.call_generator import CallGenerator
+from coach_gateway.refbox.commands import BoxCommand
+from coach_gateway.refbox.framing import BoxProtocol, Framer
+from coach_gateway.refbox.identity import Identity, UnknownTeamError, identify, targets
+from coach_gateway.refbox.team_world_state import TeamWorldState
 from schemas.game import GameState
 from schemas.league.calls import Call
-from schemas.league.numbers import numbers_of
+from schemas.league.robot_numbers import numbers_of
 from schemas.league.signals import BY_NAME, START, STOP
 from schemas.side import Side
 
@@ -35,7 +35,7 @@ _WELCOME = BY_NAME["WELCOME"]
 
 
 @dataclass(frozen=True, slots=True)
-class Door:
+class ServerAddress:
     """Where to listen; whoever comes to the door of one side belongs to it."""
 
     port: int = DEFAULT_PORT
@@ -50,7 +50,7 @@ class _Peer:
     writer: asyncio.StreamWriter
     name: str
     side: Side | None = None
-    framer: Framer = field(default_factory=lambda: Framer(Protocol.JSON))
+    framer: Framer = field(default_factory=lambda: Framer(BoxProtocol.JSON))
 
 
 class RefBoxServer:
@@ -58,24 +58,24 @@ class RefBoxServer:
 
     def __init__(
         self,
-        live: Live,
-        doors: Sequence[Door],
-        say: Callable[[str], None],
+        live: LiveMatch,
+        server_addresses: Sequence[ServerAddress],
+        log: Callable[[str], None],
         of_token: Callable[[str], Side | None] = lambda _token: None,
     ) -> None:
-        """`say` is given a line whenever people should know something; `of_token` tells whose coach has a token."""
+        """`log` is given a line whenever people should know something; `of_token` tells whose coach has a token."""
         self._live = live
-        self._doors = doors
-        self._say = say
+        self._server_addresses = server_addresses
+        self._log = log
         self._of_token = of_token
-        self._narrator = Narrator()
+        self._call_generator = CallGenerator()
         self._addresses: dict[Side, str] = {}
         self._peers: list[_Peer] = []
         self.ports: list[int] = []
         """Where it listens, once it does."""
-        self.views: dict[Side, TeamView] = {side: TeamView() for side in Side}
+        self.team_states: dict[Side, TeamWorldState] = {side: TeamWorldState() for side in Side}
         """What each team tells of the world."""
-        live.follow(self._narrate)
+        live.on_state(self._send_calls)
 
     async def serve(self, stop: asyncio.Event) -> None:
         """Listen until `stop` is set.
@@ -84,37 +84,39 @@ class RefBoxServer:
             TouchlineError: a port is taken.
         """
         async with contextlib.AsyncExitStack() as stack:
-            for door in self._doors:
-                server = await stack.enter_async_context(await self._open(door))
+            for address in self._server_addresses:
+                server = await stack.enter_async_context(await self._open(address))
                 self.ports.append(server.sockets[0].getsockname()[1])
-                whom = f"{door.side}'s base station" if door.side is not None else "base stations"
-                self._say(f"referee box for {whom} on {door.host}:{self.ports[-1]}")
+                whom = f"{address.side}'s base station" if address.side is not None else "base stations"
+                self._log(f"referee box for {whom} on {address.host}:{self.ports[-1]}")
             await stop.wait()
             for peer in self._peers:
                 peer.writer.transport.abort()
 
-    async def _open(self, door: Door) -> asyncio.Server:
+    async def _open(self, address: ServerAddress) -> asyncio.Server:
         try:
-            return await asyncio.start_server(lambda r, w: self._meet(r, w, door), door.host, door.port)
+            return await asyncio.start_server(
+                lambda r, w: self._run_connection(r, w, address), address.host, address.port
+            )
         except OSError as error:
-            raise cannot_listen("--refbox-server", door.host, door.port, error) from None
+            raise cannot_listen("--refbox-server", address.host, address.port, error) from None
 
-    def tell(self, calls: Sequence[Call]) -> None:
+    def send(self, calls: Sequence[Call]) -> None:
         """Send these commands to everybody."""
         if calls and self._live.setup is not None:
             called = self._targets()
             numbers = numbers_of(self._live.sides)
             text = b"".join(
                 commands.write(
-                    Command(call.signal, called[call.side] if call.side else "", numbers.get(call.robot or ""))
+                    BoxCommand(call.signal, called[call.side] if call.side else "", numbers.get(call.robot or ""))
                 )
                 for call in calls
             )
             for peer in tuple(self._peers):
                 self._send(peer, text)
 
-    def _narrate(self, state: GameState) -> None:
-        self.tell(self._narrator.take(state, self._live.sides))
+    def _send_calls(self, state: GameState) -> None:
+        self.send(self._call_generator.next_calls(state, self._live.sides))
 
     def _targets(self) -> dict[Side, str]:
         return targets(self._names(), self._addresses)
@@ -123,55 +125,57 @@ class RefBoxServer:
         setup = self._live.setup
         return {side: setup.teams[side].name if setup is not None else side.value for side in Side}
 
-    async def _meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, door: Door) -> None:
+    async def _run_connection(
+        self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, address: ServerAddress
+    ) -> None:
         """One connection, from its beginning to its end."""
         host, port = (writer.get_extra_info("peername") or ("gone", 0))[:2]
         peer = _Peer(writer, f"{host}:{port}")
         if len(self._peers) >= MOST and not self._make_room():
-            self._say(f"base station {peer.name} turned away: {MOST} are connected")
+            self._log(f"base station {peer.name} turned away: {MOST} are connected")
             writer.transport.abort()
             return
         self._peers.append(peer)
-        late = asyncio.get_running_loop().call_later(_SILENCE_S, self._welcome_stranger, peer)
+        late = asyncio.get_running_loop().call_later(_SILENCE_S, self._welcome_unidentified, peer)
         try:
-            if door.side is not None:
-                self._settle(peer, Identity(door.side))
+            if address.side is not None:
+                self._settle(peer, Identity(address.side))
             while data := await reader.read(16_384):
                 for said in peer.framer.feed(data):
                     if isinstance(said, dict):
-                        self._take(peer, said)
-        except (OSError, StrangerError) as error:
-            self._say(f"base station {peer.name}: {error}")
+                        self._read_object(peer, said)
+        except (OSError, UnknownTeamError) as error:
+            self._log(f"base station {peer.name}: {error}")
         finally:
             late.cancel()
             self._forget(peer)
 
     def _make_room(self) -> bool:
         """Whether somebody gives way: whoever came first of those who have not said who they are."""
-        stranger = next((peer for peer in self._peers if peer.side is None), None)
-        if stranger is None:
+        unidentified = next((peer for peer in self._peers if peer.side is None), None)
+        if unidentified is None:
             return False
-        self._say(f"base station {stranger.name} gives way: it has not said who it is, and {MOST} are connected")
-        self._drop(stranger)
+        self._log(f"base station {unidentified.name} gives way: it has not said who it is, and {MOST} are connected")
+        self._drop(unidentified)
         return True
 
-    def _take(self, peer: _Peer, said: dict[str, Any]) -> None:
+    def _read_object(self, peer: _Peer, said: dict[str, Any]) -> None:
         """One object of a base station: who it is, or how it sees the world.
 
         Raises:
-            StrangerError: it says that it is somebody whom nobody knows.
+            UnknownTeamError: it says that it is somebody whom nobody knows.
         """
         if peer.side is None or said.get("type") == "hello":
             identity = identify(said, self._names(), self._of_token)
             if identity is not None:
                 self._settle(peer, identity)
         if peer.side is not None and said.get("type") != "hello":
-            self.views[peer.side].take(said, self._live.now)
+            self.team_states[peer.side].update(said, self._live.now)
 
     def _settle(self, peer: _Peer, identity: Identity) -> None:
         """It is known who this is; one who was there for the team is replaced, and each team is told its address."""
         for other in [other for other in self._peers if other is not peer and other.side is identity.side]:
-            self._say(f"{identity.side}'s base station {other.name} is replaced by {peer.name}")
+            self._log(f"{identity.side}'s base station {other.name} is replaced by {peer.name}")
             self._drop(other)
         changed = peer.side is not identity.side
         peer.side = identity.side
@@ -179,10 +183,10 @@ class RefBoxServer:
             changed = changed or self._addresses.get(peer.side) != identity.address
             self._addresses[peer.side] = identity.address
         if changed:
-            self._say(f"{peer.side}'s base station has come from {peer.name}")
+            self._log(f"{peer.side}'s base station has come from {peer.name}")
             self._welcome(peer)
 
-    def _welcome_stranger(self, peer: _Peer) -> None:
+    def _welcome_unidentified(self, peer: _Peer) -> None:
         if peer.side is None:
             self._welcome(peer)
 
@@ -191,7 +195,7 @@ class RefBoxServer:
         address = self._targets()[peer.side] if peer.side is not None else ""
         state = self._live.state
         stands = START if state is not None and state.running else STOP
-        self._send(peer, commands.write(Command(_WELCOME, address)) + commands.write(Command(stands)))
+        self._send(peer, commands.write(BoxCommand(_WELCOME, address)) + commands.write(BoxCommand(stands)))
 
     def _send(self, peer: _Peer, text: bytes) -> None:
         transport = peer.writer.transport
@@ -199,7 +203,7 @@ class RefBoxServer:
             return
         peer.writer.write(text)
         if transport.get_write_buffer_size() > UNREAD:
-            self._say(f"base station {peer.name} does not read and is dropped")
+            self._log(f"base station {peer.name} does not read and is dropped")
             self._drop(peer)
 
     def _drop(self, peer: _Peer) -> None:
@@ -210,6 +214,6 @@ class RefBoxServer:
     def _forget(self, peer: _Peer) -> None:
         self._drop(peer)
         who = f"{peer.side}'s base station {peer.name}" if peer.side is not None else f"base station {peer.name}"
-        told = f"; {self.views[peer.side].summary()}" if peer.side is not None else ""
+        told = f"; {self.team_states[peer.side].summary()}" if peer.side is not None else ""
         odd = f"; {peer.framer.garbage} pieces that were no message" if peer.framer.garbage else ""
-        self._say(f"{who} is gone{told}{odd}")
+        self._log(f"{who} is gone{told}{odd}")

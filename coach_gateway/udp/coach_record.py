@@ -7,8 +7,8 @@ ball is brought along and what is in the way avoided.
 from enum import StrEnum
 from typing import NamedTuple
 
-from schemas.coach import CoachMode, CoachTest
 from schemas.game import ActionName, TeamPhase
+from schemas.messages.coach import CoachMode, CoachTest
 from schemas.side import Side
 
 

@@ -11,8 +11,8 @@ from pydantic import Field, StringConstraints, TypeAdapter
 from coach_gateway.udp.coach_record import MatchMode
 from coach_gateway.web.protocol import OrderContent, Role
 from schemas.game import GameEvent, GameState, RefereeAction
-from schemas.host import Belief
 from schemas.message import Name, Part
+from schemas.messages.host import Belief
 from schemas.side import Side
 
 MAX_BYTES = 8192
@@ -21,19 +21,19 @@ DEFAULT_RATE, MAX_RATE = 20.0, 50.0
 """Frames a second."""
 
 
-class _Ask(Part):
+class _NumberedRequest(Part):
     """What every datagram of a coach has."""
 
     sequence: Annotated[int, Field(ge=1, lt=2**53, strict=True)]
     """Larger than that of every datagram before it in this session."""
 
 
-class _InSession(_Ask):
+class _InSession(_NumberedRequest):
     session: Annotated[str, StringConstraints(max_length=64)]
     """As the answer to `hello` gave it."""
 
 
-class Hello(_Ask):
+class Hello(_NumberedRequest):
     """Begins a session; said again from the same address, another."""
 
     kind: Literal["hello"]
@@ -45,7 +45,7 @@ class Hello(_Ask):
     """Frames a second, of wall time."""
 
 
-class AskOrder(_InSession):
+class ProgramOrder(_InSession):
     """Gives a side its new standing order."""
 
     kind: Literal["order"]
@@ -57,7 +57,7 @@ class AskOrder(_InSession):
     """The paper's number of a test, in place of `mode`, `test`, `with_ball` and `avoid` in the order."""
 
 
-class AskMatchMode(_InSession):
+class ProgramMatchMode(_InSession):
     """Says what is to be played, in the words or numbers of the paper's coach record."""
 
     kind: Literal["match_mode"]
@@ -66,14 +66,14 @@ class AskMatchMode(_InSession):
     """From whose point of view; a coach's own when left out, cyan's for the referee."""
 
 
-class AskAction(_InSession):
+class ProgramAction(_InSession):
     """Asks the referee for an action."""
 
     kind: Literal["action"]
     action: RefereeAction
 
 
-class AskEvents(_InSession):
+class ProgramEvents(_InSession):
     """Asks for events once more, of which one was lost."""
 
     kind: Literal["events"]
@@ -81,7 +81,7 @@ class AskEvents(_InSession):
     """Number of the first one wanted."""
 
 
-class StayAlive(_InSession):
+class KeepAlive(_InSession):
     """Says that the program is still there; any other datagram does as well."""
 
     kind: Literal["alive"]
@@ -93,8 +93,11 @@ class Bye(_InSession):
     kind: Literal["bye"]
 
 
-Ask = Annotated[Hello | AskOrder | AskMatchMode | AskAction | AskEvents | StayAlive | Bye, Field(discriminator="kind")]
-ASK: TypeAdapter[Ask] = TypeAdapter(Ask)
+ProgramRequest = Annotated[
+    Hello | ProgramOrder | ProgramMatchMode | ProgramAction | ProgramEvents | KeepAlive | Bye,
+    Field(discriminator="kind"),
+]
+PROGRAM_REQUEST: TypeAdapter[ProgramRequest] = TypeAdapter(ProgramRequest)
 """Reads a datagram of a coach."""
 
 
@@ -147,7 +150,7 @@ class Frame(Part):
     """Of the coach's own side; of both for the referee."""
 
 
-class BeliefNews(Part):
+class BeliefUpdate(Part):
     """What a robot said last, after each frame, for every robot that said something new."""
 
     kind: Literal["belief"] = "belief"
@@ -158,7 +161,7 @@ class BeliefNews(Part):
     """In its team's frame."""
 
 
-class EventNews(Part):
+class EventUpdate(Part):
     """Something that happened, once; `events` asks for one that was lost."""
 
     kind: Literal["event"] = "event"
@@ -167,7 +170,7 @@ class EventNews(Part):
     event: GameEvent
 
 
-class Farewell(Part):
+class SessionEnd(Part):
     """The session is over."""
 
     kind: Literal["bye"] = "bye"

@@ -4,14 +4,14 @@ import asyncio
 from collections.abc import Callable
 from typing import Any
 
-from coach_gateway.live import Live, pause
+from coach_gateway.access.rights import sides_shown
+from coach_gateway.match.live import LiveMatch, pause
 from coach_gateway.ports import cannot_listen
 from coach_gateway.udp import DEFAULT_PORT
+from coach_gateway.udp.coach_programs import Address, CoachPrograms, PendingRequest
 from coach_gateway.udp.coach_record import MatchMode
-from coach_gateway.udp.coaches import Address, Coaches, Deed
-from coach_gateway.udp.protocol import Ack, BeliefNews, EventNews, Farewell, Frame, SideOrder
+from coach_gateway.udp.protocol import Ack, BeliefUpdate, EventUpdate, Frame, SessionEnd, SideOrder
 from coach_gateway.udp.session import SILENCE_S, Session
-from coach_gateway.web.access import sides_shown
 from coach_gateway.web.protocol import Role
 from schemas.errors import TouchlineError
 from schemas.game import TeamPhase
@@ -24,26 +24,26 @@ _EVENTS_AT_ONCE = 50
 """Told at most with one frame, or for one datagram that asks for them: more would be lost in a full buffer."""
 
 
-class UdpCoaches(asyncio.DatagramProtocol):
+class UdpServer(asyncio.DatagramProtocol):
     """All coach programs of a match."""
 
     def __init__(
         self,
-        live: Live,
+        live: LiveMatch,
         role_of: Callable[[str], Role | None],
-        say: Callable[[str], None],
+        log: Callable[[str], None],
         port: int = DEFAULT_PORT,
         host: str = "127.0.0.1",
     ) -> None:
-        """`role_of` tells whom a token stands for; `say` is given a line whenever people should know something."""
+        """`role_of` tells whom a token stands for; `log` is given a line whenever people should know something."""
         self._live = live
-        self._say = say
+        self._log = log
         self._at = (host, port)
-        self._coaches = Coaches(role_of, live.now)
+        self._coaches = CoachPrograms(role_of, live.now)
         self._transport: asyncio.DatagramTransport | None = None
         self._full = False
         """The socket takes no more just now: frames are left out."""
-        self._doing: dict[asyncio.Task[None], None] = {}
+        self._tasks: dict[asyncio.Task[None], None] = {}
         self.port = 0
         """Where it listens, once it does."""
 
@@ -60,31 +60,33 @@ class UdpCoaches(asyncio.DatagramProtocol):
             raise cannot_listen("--udp", *self._at, error) from None
         self._transport = transport
         self.port = transport.get_extra_info("sockname")[1]
-        self._say(f"coach programs over UDP on {self._at[0]}:{self.port}")
+        self._log(f"coach programs over UDP on {self._at[0]}:{self.port}")
         try:
             while not await pause(stop, _LOOK_S):
-                self._tell()
+                self._send_due()
         finally:
-            for task in tuple(self._doing):
+            for task in tuple(self._tasks):
                 task.cancel()
             for address in self._coaches.sessions:
-                self._send(Farewell(reason="the gateway ends"), address)
+                self._send(SessionEnd(reason="the gateway ends"), address)
             transport.close()
 
     def datagram_received(self, data: bytes, addr: Address) -> None:
         """A datagram came."""
-        heard = self._coaches.hear(data, addr, self._live.now, self._live.sides)
-        if heard.ack is not None:
-            self._send(heard.ack, addr)
-            if heard.ack.of == "hello" and heard.ack.accepted and not heard.ack.duplicate:
-                self._say(f"{heard.ack.role} program from {addr[0]}:{addr[1]}")
-        if heard.events_since is not None:
-            for number in range(heard.events_since, min(len(self._live.events), heard.events_since + _EVENTS_AT_ONCE)):
-                self._tell_event(number, addr)
-        if heard.deed is not None:
-            task = asyncio.get_running_loop().create_task(self._do(heard.deed))
-            self._doing[task] = None
-            task.add_done_callback(lambda done: self._doing.pop(done, None))
+        result = self._coaches.handle(data, addr, self._live.now, self._live.sides)
+        if result.ack is not None:
+            self._send(result.ack, addr)
+            if result.ack.of == "hello" and result.ack.accepted and not result.ack.duplicate:
+                self._log(f"{result.ack.role} program from {addr[0]}:{addr[1]}")
+        if result.events_since is not None:
+            for number in range(
+                result.events_since, min(len(self._live.events), result.events_since + _EVENTS_AT_ONCE)
+            ):
+                self._send_event(number, addr)
+        if result.request is not None:
+            task = asyncio.get_running_loop().create_task(self._do(result.request))
+            self._tasks[task] = None
+            task.add_done_callback(lambda done: self._tasks.pop(done, None))
 
     def pause_writing(self) -> None:
         """The socket is full."""
@@ -97,44 +99,44 @@ class UdpCoaches(asyncio.DatagramProtocol):
     def error_received(self, exc: Exception) -> None:
         """A program's port is closed: its session ends by its silence."""
 
-    async def _do(self, deed: Deed) -> None:
+    async def _do(self, request: PendingRequest) -> None:
         """Ask the referee or give an order, and answer."""
-        ack: dict[str, Any] = {"sequence": deed.sequence, "of": deed.kind}
-        if deed.action is not None:
-            reply = await self._live.act(deed.action)
+        ack: dict[str, Any] = {"sequence": request.sequence, "of": request.kind}
+        if request.action is not None:
+            reply = await self._live.act(request.action)
             answer = Ack(**ack, accepted=reply.accepted, reason=reply.reason)
         else:
-            answer = await self._order(deed, ack)
-        self._coaches.finish(deed, answer)
-        self._send(answer, deed.address)
+            answer = await self._order(request, ack)
+        self._coaches.finish(request, answer)
+        self._send(answer, request.address)
 
-    async def _order(self, deed: Deed, ack: dict[str, Any]) -> Ack:
+    async def _order(self, request: PendingRequest, ack: dict[str, Any]) -> Ack:
         number: int | None = None
         try:
-            for side in deed.sides:
-                order = await self._live.order(side, **(deed.order or {}))
+            for side in request.sides:
+                order = await self._live.order(side, **(request.order or {}))
                 number = order.sequence
         except TouchlineError as error:
             return Ack(**ack, accepted=False, reason=str(error))
-        receipts = [self._live.orders.book.receipt(side, number or 0) for side in deed.sides]
+        receipts = [self._live.orders.book.receipt(side, number or 0) for side in request.sides]
         had = [name for receipt in receipts for name in receipt.acknowledged]
-        robots = [name for name, its in self._live.sides.items() if its in deed.sides]
+        robots = [name for name, its in self._live.sides.items() if its in request.sides]
         missing = [name for name in robots if name not in had]
         return Ack(**ack, accepted=True, order=number, acknowledged=had, missing=missing)
 
-    def _tell(self) -> None:
+    def _send_due(self) -> None:
         """Frames to those who are due, and an end to those who have fallen silent."""
         now = self._live.now
         for address, session in tuple(self._coaches.sessions.items()):
             if session.is_over(now):
                 self._coaches.end(address)
-                self._send(Farewell(reason=f"nothing was heard for {SILENCE_S:g} s"), address)
-                self._say(f"{session.role} program {session.name} has fallen silent")
+                self._send(SessionEnd(reason=f"nothing was heard for {SILENCE_S:g} s"), address)
+                self._log(f"{session.role} program {session.name} has fallen silent")
             elif now >= session.due_at:
                 session.due_at = max(session.due_at + 1.0 / session.rate, now)
-                self._tell_one(session, address)
+                self._send_frame(session, address)
 
-    def _tell_one(self, session: Session, address: Address) -> None:
+    def _send_frame(self, session: Session, address: Address) -> None:
         if self._full:
             return
         session.frames += 1
@@ -142,14 +144,14 @@ class UdpCoaches(asyncio.DatagramProtocol):
         self._send(self._frame(session, own), address)
         for side in own:
             for robot, belief in self._live.beliefs([side]).items():
-                if session.beliefs_told.get(robot) != belief.time:
-                    session.beliefs_told[robot] = belief.time
-                    self._send(BeliefNews(number=session.frames, side=side, belief=belief), address)
-        told = min(session.events_told, len(self._live.events)) if session.hosts == self._live.hosts else 0
+                if session.beliefs_sent.get(robot) != belief.time:
+                    session.beliefs_sent[robot] = belief.time
+                    self._send(BeliefUpdate(number=session.frames, side=side, belief=belief), address)
+        told = min(session.events_sent, len(self._live.events)) if session.hosts == self._live.hosts else 0
         session.hosts = self._live.hosts
-        session.events_told = min(len(self._live.events), told + _EVENTS_AT_ONCE)
-        for number in range(told, session.events_told):
-            self._tell_event(number, address)
+        session.events_sent = min(len(self._live.events), told + _EVENTS_AT_ONCE)
+        for number in range(told, session.events_sent):
+            self._send_event(number, address)
 
     def _frame(self, session: Session, own: list[Side]) -> Frame:
         live, state = self._live, self._live.state
@@ -159,9 +161,9 @@ class UdpCoaches(asyncio.DatagramProtocol):
             modes = {side: MatchMode.of_game(phase, running=state.running) for side, phase in phases.items()}
         orders = {}
         for side in own:
-            standing = live.orders.book.standing(side)
-            if standing is not None:
-                orders[side] = SideOrder(order=standing.order.sequence, acknowledged=standing.acknowledged)
+            active = live.orders.book.active(side)
+            if active is not None:
+                orders[side] = SideOrder(order=active.order.sequence, acknowledged=active.acknowledged)
         return Frame(
             number=session.frames,
             host=live.there,
@@ -171,8 +173,8 @@ class UdpCoaches(asyncio.DatagramProtocol):
             orders=orders,
         )
 
-    def _tell_event(self, number: int, address: Address) -> None:
-        self._send(EventNews(number=number, event=self._live.events[number]), address)
+    def _send_event(self, number: int, address: Address) -> None:
+        self._send(EventUpdate(number=number, event=self._live.events[number]), address)
 
     def _send(self, message: Part, address: Address) -> None:
         if self._transport is not None and not self._transport.is_closing():

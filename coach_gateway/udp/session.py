@@ -4,7 +4,7 @@ from collections import OrderedDict
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from coach_gateway.allowance import Allowance
+from coach_gateway.access.rate_limit import TokenBucket
 from coach_gateway.udp.protocol import DEFAULT_RATE, Ack
 from coach_gateway.web.protocol import Role
 
@@ -16,7 +16,7 @@ PER_SECOND, AT_ONCE = 100.0, 200.0
 """Datagrams of one program that are read; what is more is left out."""
 
 
-class Turn(StrEnum):
+class SequenceStatus(StrEnum):
     """What a datagram's number says of it."""
 
     NEW = "new"
@@ -37,7 +37,7 @@ class Session:
     name: str
     begun_at: float
     rate: float = DEFAULT_RATE
-    allowance: Allowance = field(kw_only=True)
+    rate_limit: TokenBucket = field(kw_only=True)
     """How much is read of this address, whatever sessions it begins."""
     heard_at: float = 0.0
     newest: int = 0
@@ -45,10 +45,10 @@ class Session:
     frames: int = 0
     due_at: float = 0.0
     """When the next frame is to be sent."""
-    events_told: int = 0
+    events_sent: int = 0
     hosts: int = 0
     """Which host's events these are: they are counted anew with each."""
-    beliefs_told: dict[str, float] = field(default_factory=dict)
+    beliefs_sent: dict[str, float] = field(default_factory=dict)
     """Robot → simulated time of its word that was told last."""
     left_out: int = 0
     """Datagrams beyond what one program may say."""
@@ -62,23 +62,23 @@ class Session:
         """Datagrams that wait for their answers."""
         return sum(answer is None for answer in self._answers.values())
 
-    def may_speak(self, now: float) -> bool:
+    def is_within_limit(self, now: float) -> bool:
         """Whether a datagram is read, rather than left out."""
-        allowed = self.allowance.take(now)
+        allowed = self.rate_limit.allow(now)
         self.left_out += not allowed
         return allowed
 
-    def turn(self, sequence: int) -> Turn:
+    def check(self, sequence: int) -> SequenceStatus:
         """What a number says; a new one is expected to be answered."""
         if sequence in self._answers:
-            return Turn.UNANSWERED if self._answers[sequence] is None else Turn.ANSWERED
+            return SequenceStatus.UNANSWERED if self._answers[sequence] is None else SequenceStatus.ANSWERED
         if sequence <= self.newest:
-            return Turn.LATE
+            return SequenceStatus.LATE
         self.newest = sequence
         self._answers[sequence] = None
         while len(self._answers) > KEPT:
             self._answers.popitem(last=False)
-        return Turn.NEW
+        return SequenceStatus.NEW
 
     def answered(self, sequence: int, ack: Ack) -> None:
         """Keep an answer, in case the datagram comes again."""

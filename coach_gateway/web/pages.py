@@ -4,16 +4,16 @@ import asyncio
 from collections import Counter
 from collections.abc import Iterator
 
-from coach_gateway.allowance import Allowance
-from coach_gateway.web.outlet import Outlet
+from coach_gateway.access.rate_limit import TokenBucket
 from coach_gateway.web.protocol import Role
+from coach_gateway.web.send_queue import SendQueue
 
 MESSAGES_PER_S = 100.0
 """What a page may say; one that drives a robot says 20."""
 MESSAGES_AT_ONCE = 200.0
 STUCK_S = 5.0
 """Wall time in s after which a page that does not read is dropped."""
-_FORBEARANCE = 500
+_MOST_BAD = 500
 """Messages that could not be read or were too many, after which a page is sent away."""
 _WRONG_TOKENS = 20
 
@@ -32,36 +32,36 @@ _FAULTS = {
 class Page:
     """One open page."""
 
-    def __init__(self, origin: str | None, host: str | None, now: float, home: str | None = None) -> None:
-        """`home` is whom its room is counted for, as `coach_gateway.web.homes.home_of` has it."""
-        self.origin, self.host, self.home = origin, host, home
+    def __init__(self, origin: str | None, host: str | None, now: float, network: str | None = None) -> None:
+        """`network` is whom its room is counted for, as `coach_gateway.access.client_network.client_network` has it."""
+        self.origin, self.host, self.network = origin, host, network
         self.role = Role.SPECTATOR
-        self.outlet = Outlet()
-        self.allowance = Allowance(MESSAGES_PER_S, MESSAGES_AT_ONCE, now)
-        self.scolding = Allowance(1.0, 5.0, now)
+        self.queue = SendQueue()
+        self.rate_limit = TokenBucket(MESSAGES_PER_S, MESSAGES_AT_ONCE, now)
+        self.rate_limit_notice = TokenBucket(1.0, 5.0, now)
         """How often it is told that it says too much."""
-        self.welcomes = Allowance(1.0, 5.0, now)
-        """How often it is welcomed anew because it asks: a welcome brings the whole past with it."""
-        self.asks: set[asyncio.Task[None]] = set()
+        self.welcomes = TokenBucket(1.0, 5.0, now)
+        """How often it is welcomed anew because it pending: a welcome brings the whole past with it."""
+        self.pending: set[asyncio.Task[None]] = set()
         """What it has asked and not yet been answered."""
         self.sending_since: float | None = None
         """Wall time in s since which it has been sent one message."""
         self.leave = asyncio.Event()
         """It is sent away, or does not read."""
-        self.farewell = ""
+        self.close_reason = ""
         """Why it is sent away."""
         self._bad = 0
         self._wrong_tokens = 0
 
     def send_away(self, why: str) -> None:
         """Close it, telling it why."""
-        self.farewell = self.farewell or why
+        self.close_reason = self.close_reason or why
         self.leave.set()
 
     def note_bad(self) -> None:
         """It said what could not be read, or too much."""
         self._bad += 1
-        if self._bad > _FORBEARANCE:
+        if self._bad > _MOST_BAD:
             self.send_away("this page says too much that cannot be understood")
 
     def note_wrong_token(self) -> None:
@@ -73,7 +73,7 @@ class Page:
     def is_stuck(self, now: float) -> bool:
         """It does not read what it is sent."""
         since = self.sending_since
-        return self.outlet.overflows or (since is not None and now - since > STUCK_S)
+        return self.queue.overflows or (since is not None and now - since > STUCK_S)
 
 
 class Pages:
@@ -86,7 +86,7 @@ class Pages:
         self.counts: Counter[str] = Counter()
         """What went wrong, by kind."""
 
-    def account(self) -> str:
+    def fault_summary(self) -> str:
         """What went wrong, in words; empty where nothing did."""
         return ", ".join(f"{self.counts[kind]} {words}" for kind, words in _FAULTS.items() if self.counts[kind])
 
@@ -96,11 +96,11 @@ class Pages:
     def __iter__(self) -> Iterator[Page]:
         return iter(tuple(self._open))
 
-    def why_no_room(self, home: str | None) -> str:
-        """Why no further page of this home is let in, or nothing."""
+    def why_no_room(self, network: str | None) -> str:
+        """Why no further page of this network is let in, or nothing."""
         if len(self) >= self._most:
             return f"{len(self)} pages are open, and no more are let in; try again later"
-        if home is not None and sum(page.home == home for page in self._open) >= self._each:
+        if network is not None and sum(page.network == network for page in self._open) >= self._each:
             return f"{self._each} pages of your address are open; close one, or have more let in: --pages-per-address"
         return ""
 
@@ -117,17 +117,17 @@ class Pages:
         there = {page.role: None for page in self._open}
         return list(there)
 
-    def say(self, text: str, role: Role | None = None) -> None:
+    def send(self, text: str, role: Role | None = None) -> None:
         """Tell all pages, or those of one role."""
         for page in self._open:
             if role is None or page.role is role:
-                page.outlet.say(text)
+                page.queue.put(text)
 
-    def show(self, frame: str, role: Role) -> None:
+    def send_frame(self, frame: str, role: Role) -> None:
         """Show the pages of a role a frame, in place of one that they have not read yet."""
         for page in self._open:
             if page.role is role:
-                page.outlet.show(frame)
+                page.queue.put_frame(frame)
 
     def drop_stuck(self, now: float) -> None:
         """Drop those that do not read."""

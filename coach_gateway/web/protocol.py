@@ -13,16 +13,16 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, StringConstraints, TypeAdapter
 
-from schemas.coach import CoachOrder
+from schemas.config.scene import SceneRequest
 from schemas.game import GameEvent, GameState, RefereeAction
-from schemas.hand import HandDrive
-from schemas.host import Belief, Health, Setup
 from schemas.message import Name, Part
-from schemas.parameters import ParametersRequest
-from schemas.replay import ReplayReply, ReplayRequest
-from schemas.scene import SceneRequest
+from schemas.messages.coach import CoachOrder
+from schemas.messages.host import Belief, Health, Setup
+from schemas.messages.manual import ManualDrive
+from schemas.messages.parameters import ParametersRequest
+from schemas.messages.replay import ReplayReply, ReplayRequest
+from schemas.messages.world import World
 from schemas.side import Side
-from schemas.world import World
 
 MAX_BYTES = 65_536
 """A message of the page that is longer is refused unread."""
@@ -62,7 +62,7 @@ class Welcome(Part):
     """Scenes that can be loaded by name, and what each is for."""
 
 
-class HostNews(Part):
+class HostUpdate(Part):
     """Whether the host of the match is there."""
 
     kind: Literal["host"] = "host"
@@ -80,21 +80,21 @@ class Frame(Part):
     """What robots of the sides in `Welcome.beliefs` said last, in their team's frame."""
 
 
-class StateNews(Part):
+class StateUpdate(Part):
     """The game as the referee sees it."""
 
     kind: Literal["state"] = "state"
     state: GameState
 
 
-class EventNews(Part):
+class EventUpdate(Part):
     """Something that happened. Of a replay all events of the recording come at the beginning, and none again."""
 
     kind: Literal["event"] = "event"
     event: GameEvent
 
 
-class HealthNews(Part):
+class HealthUpdate(Part):
     """How the host is doing, and each robot's agent."""
 
     kind: Literal["health"] = "health"
@@ -109,7 +109,7 @@ class SideOrders(Part):
     """Robot of the side → it has acknowledged this order."""
 
 
-class OrdersNews(Part):
+class OrdersUpdate(Part):
     """The orders of the sides in `Welcome.orders`; nothing for the others."""
 
     kind: Literal["orders"] = "orders"
@@ -117,14 +117,14 @@ class OrdersNews(Part):
     magenta: SideOrders | None = None
 
 
-class ReplayNews(Part):
+class ReplayUpdate(Part):
     """How a replay stands, several times a second."""
 
     kind: Literal["replay"] = "replay"
     replay: ReplayReply
 
 
-class RefBoxNews(Part):
+class RefBoxUpdate(Part):
     """Whether a league's referee box officiates: while it does, all of the referee's actions but stop are locked."""
 
     kind: Literal["refbox"] = "refbox"
@@ -134,7 +134,7 @@ class RefBoxNews(Part):
 
 
 class Alive(Part):
-    """Said every second: who hears nothing for several has lost the line, though nobody closed it."""
+    """ServerMessage every second: who hears nothing for several has lost the line, though nobody closed it."""
 
     kind: Literal["alive"] = "alive"
 
@@ -159,16 +159,16 @@ class Refusal(Part):
     reason: str
 
 
-Said = (
+ServerMessage = (
     Welcome
-    | HostNews
+    | HostUpdate
     | Frame
-    | StateNews
-    | EventNews
-    | HealthNews
-    | OrdersNews
-    | ReplayNews
-    | RefBoxNews
+    | StateUpdate
+    | EventUpdate
+    | HealthUpdate
+    | OrdersUpdate
+    | ReplayUpdate
+    | RefBoxUpdate
     | Alive
     | Reply
     | Refusal
@@ -178,7 +178,7 @@ Said = (
 Token = Annotated[str, StringConstraints(max_length=200)]
 
 
-class _Ask(Part):
+class _PageRequest(Part):
     """What every message of the page has."""
 
     id: Annotated[int, Field(ge=0)]
@@ -187,7 +187,7 @@ class _Ask(Part):
     """None for a spectator."""
 
 
-class AskAction(_Ask):
+class PageAction(_PageRequest):
     """Asks the referee for an action; `source` is filled in by the server."""
 
     deed: Literal["action"]
@@ -201,7 +201,7 @@ class OrderContent(CoachOrder):
     """Filled in by the server."""
 
 
-class AskOrder(_Ask):
+class PageOrder(_PageRequest):
     """Gives a side its new standing order; points in that team's frame."""
 
     deed: Literal["order"]
@@ -209,47 +209,48 @@ class AskOrder(_Ask):
     order: OrderContent
 
 
-class AskScene(_Ask):
+class PageScene(_PageRequest):
     """Sets bodies down, adds or removes some, loads a scene, begins anew."""
 
     deed: Literal["scene"]
     request: SceneRequest
 
 
-class AskParameters(_Ask):
+class PageParameters(_PageRequest):
     """Reads, sets or resets live parameters."""
 
     deed: Literal["parameters"]
     request: ParametersRequest
 
 
-class AskDrive(_Ask):
+class PageDrive(_PageRequest):
     """Drives a robot in place of its brain, 20 times a second; answered only where it is refused."""
 
     deed: Literal["drive"]
     robot: Name
-    hand: HandDrive
+    manual: ManualDrive
 
 
-class AskReplay(_Ask):
+class PageReplay(_PageRequest):
     """Asks a replay to play, pause, step, seek."""
 
     deed: Literal["replay"]
     request: ReplayRequest
 
 
-class AskToken(_Ask):
+class PageTokenCheck(_PageRequest):
     """Asks what the token is worth: a new welcome comes, with this role; a token that is nobody's is refused."""
 
     deed: Literal["token"]
 
 
-Ask = Annotated[
-    AskAction | AskOrder | AskScene | AskParameters | AskDrive | AskReplay | AskToken, Field(discriminator="deed")
+PageRequest = Annotated[
+    PageAction | PageOrder | PageScene | PageParameters | PageDrive | PageReplay | PageTokenCheck,
+    Field(discriminator="deed"),
 ]
 """What the page says."""
 
-ASK: TypeAdapter[Ask] = TypeAdapter(Ask)
+PAGE_REQUEST: TypeAdapter[PageRequest] = TypeAdapter(PageRequest)
 """Reads a message of the page."""
-SAID: TypeAdapter[Said] = TypeAdapter(Annotated[Said, Field(discriminator="kind")])
+SERVER_MESSAGE: TypeAdapter[ServerMessage] = TypeAdapter(Annotated[ServerMessage, Field(discriminator="kind")])
 """Reads a message of the server."""

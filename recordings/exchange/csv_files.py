@@ -11,49 +11,49 @@ from enum import Enum
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from recordings.exchange.outlet import Exported, outlet
-from recordings.exchange.sides import sides_of
-from recordings.reader import Recorded, Recording
-from schemas.command import Command
+from recordings.exchange.atomic_output import ExportSummary, atomic_output
+from recordings.exchange.robot_sides import sides_of
+from recordings.reading.recording import RecordedMessage, Recording
 from schemas.game import GameEvent, GameState
+from schemas.messages.command import Command
+from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import COMMAND, EVENT, STATE, WORLD
-from schemas.world import World
 
 Row = tuple[Any, ...]
 Sides = dict[str, Side]
 
 
-class Kind(NamedTuple):
+class Table(NamedTuple):
     """One file: where its rows come from, what they are called, how a message becomes rows."""
 
     key: str
     header: tuple[str, ...]
-    rows: Callable[[Recorded, Any, Sides], Iterable[Row]]
+    rows: Callable[[RecordedMessage, Any, Sides], Iterable[Row]]
 
 
-def export(recording: Recording, out: Path) -> Exported:
-    """Write every file of `KINDS` into a folder.
+def export(recording: Recording, out: Path) -> ExportSummary:
+    """Write every file of `TABLES` into a folder.
 
     Raises:
         TouchlineError: the folder is there already or cannot be written, or the recording is damaged inside.
     """
     sides = sides_of(recording)
-    written = dict.fromkeys(KINDS, 0)
-    with outlet(out) as folder, ExitStack() as files:
+    written = dict.fromkeys(TABLES, 0)
+    with atomic_output(out) as folder, ExitStack() as files:
         folder.mkdir()
-        sheets: dict[str, list[tuple[str, Any, Kind]]] = {}
-        for name, kind in KINDS.items():
+        writers: dict[str, list[tuple[str, Any, Table]]] = {}
+        for name, table in TABLES.items():
             file = files.enter_context((folder / name).open("w", newline="", encoding="utf-8"))
-            sheet = csv.writer(file, lineterminator="\n")
-            sheet.writerow(kind.header)
-            sheets.setdefault(kind.key, []).append((name, sheet, kind))
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(table.header)
+            writers.setdefault(table.key, []).append((name, writer, table))
         for recorded, message in recording.decoded(*(topic.fill() for topic in (WORLD, STATE, EVENT, COMMAND))):
-            for name, sheet, kind in sheets[recorded.topic.key]:
-                for row in kind.rows(recorded, message, sides):
-                    sheet.writerow([_plain(value) for value in row])
+            for name, writer, table in writers[recorded.topic.key]:
+                for row in table.rows(recorded, message, sides):
+                    writer.writerow([_plain(value) for value in row])
                     written[name] += 1
-    return Exported(out, written, dict(recording.unreadable))
+    return ExportSummary(out, written, dict(recording.unreadable))
 
 
 def _plain(value: Any) -> Any:
@@ -62,18 +62,18 @@ def _plain(value: Any) -> Any:
     return value.value if isinstance(value, Enum) else value
 
 
-def _robots(_: Recorded, world: World, sides: Sides) -> Iterable[Row]:
+def _robots(_: RecordedMessage, world: World, sides: Sides) -> Iterable[Row]:
     for name, robot in world.robots.items():
         place = (robot.x, robot.y, robot.z, robot.heading, robot.vx, robot.vy, robot.omega)
         yield world.tick, world.time, name, sides.get(name), *place, robot.holding, robot.stuck, robot.off_field
 
 
-def _ball(_: Recorded, world: World, __: Sides) -> Iterable[Row]:
+def _ball(_: RecordedMessage, world: World, __: Sides) -> Iterable[Row]:
     ball = world.ball
     yield world.tick, world.time, ball.x, ball.y, ball.z, ball.vx, ball.vy, ball.vz, world.possession, world.kicked
 
 
-def _events(_: Recorded, event: GameEvent, __: Sides) -> Iterable[Row]:
+def _events(_: RecordedMessage, event: GameEvent, __: Sides) -> Iterable[Row]:
     place = (event.place.x, event.place.y) if event.place is not None else (None, None)
     score = (event.score.cyan, event.score.magenta) if event.score is not None else (None, None)
     who = (event.side, event.robot, " ".join(event.robots))
@@ -93,23 +93,23 @@ def _events(_: Recorded, event: GameEvent, __: Sides) -> Iterable[Row]:
     )
 
 
-def _states(_: Recorded, state: GameState, __: Sides) -> Iterable[Row]:
+def _states(_: RecordedMessage, state: GameState, __: Sides) -> Iterable[Row]:
     spot = (state.spot.x, state.spot.y) if state.spot is not None else (None, None)
     phase = (state.phase, state.side, state.running, state.half, state.stage)
     times = (state.clock, state.effective)
     yield state.tick, state.time, *phase, *times, state.score.cyan, state.score.magenta, state.cyan_attacks, *spot
 
 
-def _commands(recorded: Recorded, command: Command, __: Sides) -> Iterable[Row]:
+def _commands(recorded: RecordedMessage, command: Command, __: Sides) -> Iterable[Row]:
     drive, kick, radio = command.drive, command.kick, command.radio
     kicked = (kick.mode, kick.speed) if kick is not None else (None, None)
-    said = (radio.role, radio.intention, radio.pass_to) if radio is not None else (None, None, None)
+    radio_fields = (radio.role, radio.intention, radio.pass_to) if radio is not None else (None, None, None)
     moves = (drive.vx, drive.vy, drive.omega, command.dribble)
-    yield recorded.time, recorded.key.split("/")[1], command.answers_tick, *moves, *kicked, *said
+    yield recorded.time, recorded.key.split("/")[1], command.answers_tick, *moves, *kicked, *radio_fields
 
 
-KINDS: dict[str, Kind] = {
-    "robots.csv": Kind(
+TABLES: dict[str, Table] = {
+    "robots.csv": Table(
         WORLD.key,
         (
             *("tick", "time [s]", "robot", "side", "x [m]", "y [m]", "z [m]", "heading [rad]"),
@@ -117,7 +117,7 @@ KINDS: dict[str, Kind] = {
         ),
         _robots,
     ),
-    "ball.csv": Kind(
+    "ball.csv": Table(
         WORLD.key,
         (
             *("tick", "time [s]", "x [m]", "y [m]", "z [m]", "vx [m/s]", "vy [m/s]", "vz [m/s]"),
@@ -125,7 +125,7 @@ KINDS: dict[str, Kind] = {
         ),
         _ball,
     ),
-    "events.csv": Kind(
+    "events.csv": Table(
         EVENT.key,
         (
             *("tick", "time [s]", "clock [s]", "kind", "rule", "side", "robot", "robots", "x [m]", "y [m]"),
@@ -133,7 +133,7 @@ KINDS: dict[str, Kind] = {
         ),
         _events,
     ),
-    "states.csv": Kind(
+    "states.csv": Table(
         STATE.key,
         (
             *("tick", "time [s]", "phase", "side", "running", "half", "stage", "clock [s]", "effective [s]"),
@@ -141,7 +141,7 @@ KINDS: dict[str, Kind] = {
         ),
         _states,
     ),
-    "commands.csv": Kind(
+    "commands.csv": Table(
         COMMAND.key,
         (
             *("time [s]", "robot", "answers_tick", "vx [m/s]", "vy [m/s]", "omega [rad/s]", "dribble"),

@@ -5,20 +5,20 @@ from pathlib import Path
 from typing import NamedTuple
 
 from recordings.exchange import csv_files, ros2
+from recordings.exchange.atomic_output import ExportSummary
 from recordings.exchange.msl import export as msl_log
-from recordings.exchange.msl.importing import Imported, import_log
-from recordings.exchange.outlet import Exported
+from recordings.exchange.msl.import_log import ImportSummary, import_log
 from recordings.exchange.protobuf import export as protobuf
-from recordings.reader import Recording
+from recordings.reading.recording import Recording
 
 
 class Exporter(NamedTuple):
     """One format that a recording can be written in."""
 
-    export: Callable[[Recording, Path], Exported]
+    export: Callable[[Recording, Path], ExportSummary]
     suffix: str
     """In place of `.mcap` in the name of what is written."""
-    says: str
+    description: str
 
 
 EXPORTERS: dict[str, Exporter] = {
@@ -29,5 +29,5 @@ EXPORTERS: dict[str, Exporter] = {
 }
 """Format → its exporter."""
 
-IMPORTERS: dict[str, Callable[[list[Path], Path, str, str | None], Imported]] = {"msl-log": import_log}
+IMPORTERS: dict[str, Callable[[list[Path], Path, str, str | None], ImportSummary]] = {"msl-log": import_log}
 """Format → its importer: files of the log, the recording to write, the profile of the pitch, what team A is called."""

@@ -12,13 +12,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from recordings.exchange.outlet import Exported, outlet
-from recordings.reader import Recording
-from schemas.command import Command
+from recordings.exchange.atomic_output import ExportSummary, atomic_output
+from recordings.reading.recording import Recording
 from schemas.errors import TouchlineError
 from schemas.frames import to_body
+from schemas.messages.command import Command
+from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.topics import COMMAND, WORLD
-from schemas.world import BallTruth, RobotTruth, World
 
 MAP = "map"
 BALL = "ball"
@@ -26,7 +26,7 @@ _EXACT = np.zeros(36)
 """Covariance of what is known exactly."""
 
 
-class Kind(NamedTuple):
+class TopicType(NamedTuple):
     """How one kind of topic travels."""
 
     message: str
@@ -34,14 +34,14 @@ class Kind(NamedTuple):
     depth: int
 
 
-CLOCK = Kind("rosgraph_msgs/msg/Clock", False, 1)
-TF = Kind("tf2_msgs/msg/TFMessage", True, 100)
-ODOMETRY = Kind("nav_msgs/msg/Odometry", True, 10)
-TWIST = Kind("geometry_msgs/msg/Twist", True, 10)
+CLOCK = TopicType("rosgraph_msgs/msg/Clock", False, 1)
+TF = TopicType("tf2_msgs/msg/TFMessage", True, 100)
+ODOMETRY = TopicType("nav_msgs/msg/Odometry", True, 10)
+TWIST = TopicType("geometry_msgs/msg/Twist", True, 10)
 """As the nodes that usually write these topics offer them: clock best effort and newest only, the rest reliable."""
 
 
-def export(recording: Recording, out: Path) -> Exported:
+def export(recording: Recording, out: Path) -> ExportSummary:
     """Write `/clock`, `/tf`, `/<robot>/odom` and `/<robot>/cmd_vel` of every robot, and `/ball/odom`.
 
     `cmd_vel` is what the robot's program asked for, in its body frame, whatever became of it.
@@ -54,7 +54,7 @@ def export(recording: Recording, out: Path) -> Exported:
     except ModuleNotFoundError:
         raise TouchlineError("--to ros2 needs rosbags, which is not installed; pip install 'touchline[ros2]'") from None
 
-    with outlet(out) as folder:
+    with atomic_output(out) as folder:
         writer = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)
         writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
         with writer:
@@ -64,7 +64,7 @@ def export(recording: Recording, out: Path) -> Exported:
                     bag.world(recorded.log_ns, message)
                 elif isinstance(message, Command):
                     bag.command(recorded.log_ns, recorded.key.split("/")[1], message)
-    return Exported(out, bag.written, dict(recording.unreadable))
+    return ExportSummary(out, bag.written, dict(recording.unreadable))
 
 
 class _Bag:
@@ -79,41 +79,43 @@ class _Bag:
         self.written: dict[str, int] = {}
         """Topic → messages."""
 
-    def world(self, at_ns: int, world: World) -> None:
+    def world(self, log_ns: int, world: World) -> None:
         """Clock, transforms and odometry of one tick."""
-        stamp = self._make("builtin_interfaces/msg/Time", *divmod(at_ns, 1_000_000_000))
-        self._write("/clock", CLOCK, at_ns, self._make(CLOCK.message, stamp))
+        stamp = self._make("builtin_interfaces/msg/Time", *divmod(log_ns, 1_000_000_000))
+        self._write("/clock", CLOCK, log_ns, self._make(CLOCK.message, stamp))
         transforms = list(self._transforms(stamp, world))
-        self._write("/tf", TF, at_ns, self._make(TF.message, transforms))
+        self._write("/tf", TF, log_ns, self._make(TF.message, transforms))
         for name, robot in world.robots.items():
-            self._write(f"/{name}/odom", ODOMETRY, at_ns, self._odometry(stamp, name, robot))
-        self._write(f"/{BALL}/odom", ODOMETRY, at_ns, self._ball(stamp, world.ball))
+            self._write(f"/{name}/odom", ODOMETRY, log_ns, self._odometry(stamp, name, robot))
+        self._write(f"/{BALL}/odom", ODOMETRY, log_ns, self._ball(stamp, world.ball))
 
-    def command(self, at_ns: int, robot: str, command: Command) -> None:
+    def command(self, log_ns: int, robot: str, command: Command) -> None:
         """What a robot asked for."""
         drive = command.drive
-        self._write(f"/{robot}/cmd_vel", TWIST, at_ns, self._twist(drive.vx, drive.vy, 0.0, drive.omega))
+        self._write(f"/{robot}/cmd_vel", TWIST, log_ns, self._twist(drive.vx, drive.vy, 0.0, drive.omega))
 
     def _transforms(self, stamp: Any, world: World) -> Iterator[Any]:
         for name, robot in world.robots.items():
             yield self._transform(
-                stamp, _base(name), self._vector(robot.x, robot.y, robot.z), self._turn(robot.heading)
+                stamp, _base(name), self._vector(robot.x, robot.y, robot.z), self._quaternion(robot.heading)
             )
         ball = world.ball
-        yield self._transform(stamp, BALL, self._vector(ball.x, ball.y, ball.z), self._turn(0.0))
+        yield self._transform(stamp, BALL, self._vector(ball.x, ball.y, ball.z), self._quaternion(0.0))
 
-    def _transform(self, stamp: Any, child: str, place: Any, turn: Any) -> Any:
-        transform = self._make("geometry_msgs/msg/Transform", place, turn)
+    def _transform(self, stamp: Any, child: str, position: Any, rotation: Any) -> Any:
+        transform = self._make("geometry_msgs/msg/Transform", position, rotation)
         return self._make("geometry_msgs/msg/TransformStamped", self._header(stamp), child, transform)
 
     def _odometry(self, stamp: Any, name: str, robot: RobotTruth) -> Any:
         """Pose in `map`, twist in the body frame, as the message's definition asks."""
         vx, vy = to_body(robot.vx, robot.vy, robot.heading)
-        pose = self._make("geometry_msgs/msg/Pose", self._point(robot.x, robot.y, robot.z), self._turn(robot.heading))
+        pose = self._make(
+            "geometry_msgs/msg/Pose", self._point(robot.x, robot.y, robot.z), self._quaternion(robot.heading)
+        )
         return self._odometry_of(stamp, _base(name), pose, self._twist(vx, vy, 0.0, robot.omega))
 
     def _ball(self, stamp: Any, ball: BallTruth) -> Any:
-        pose = self._make("geometry_msgs/msg/Pose", self._point(ball.x, ball.y, ball.z), self._turn(0.0))
+        pose = self._make("geometry_msgs/msg/Pose", self._point(ball.x, ball.y, ball.z), self._quaternion(0.0))
         return self._odometry_of(stamp, BALL, pose, self._twist(ball.vx, ball.vy, ball.vz, 0.0))
 
     def _odometry_of(self, stamp: Any, child: str, pose: Any, twist: Any) -> Any:
@@ -137,20 +139,20 @@ class _Bag:
     def _point(self, x: float, y: float, z: float) -> Any:
         return self._make("geometry_msgs/msg/Point", x, y, z)
 
-    def _turn(self, heading: float) -> Any:
+    def _quaternion(self, heading: float) -> Any:
         return self._make("geometry_msgs/msg/Quaternion", 0.0, 0.0, math.sin(heading / 2), math.cos(heading / 2))
 
-    def _make(self, kind: str, *fields: Any) -> Any:
-        return self._store.types[kind](*fields)
+    def _make(self, topic_type: str, *fields: Any) -> Any:
+        return self._store.types[topic_type](*fields)
 
-    def _write(self, topic: str, kind: Kind, at_ns: int, message: Any) -> None:
+    def _write(self, topic: str, topic_type: TopicType, log_ns: int, message: Any) -> None:
         connection = self._connections.get(topic)
         if connection is None:
             connection = self._connections[topic] = self._writer.add_connection(
-                topic, kind.message, typestore=self._store, offered_qos_profiles=[_quality(kind)]
+                topic, topic_type.message, typestore=self._store, offered_qos_profiles=[_qos(topic_type)]
             )
             self.written[topic] = 0
-        self._writer.write(connection, at_ns, self._store.serialize_cdr(message, kind.message))
+        self._writer.write(connection, log_ns, self._store.serialize_cdr(message, topic_type.message))
         self.written[topic] += 1
 
 
@@ -158,15 +160,15 @@ def _base(robot: str) -> str:
     return f"{robot}/base_link"
 
 
-def _quality(kind: Kind) -> Any:
+def _qos(topic_type: TopicType) -> Any:
     """Quality of service, as rosbag2 keeps it beside a topic; without deadlines and leases."""
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
     never = QosTime(2147483647, 4294967295)
     return Qos(
         QosHistory.KEEP_LAST,
-        kind.depth,
-        QosReliability.RELIABLE if kind.reliable else QosReliability.BEST_EFFORT,
+        topic_type.depth,
+        QosReliability.RELIABLE if topic_type.reliable else QosReliability.BEST_EFFORT,
         QosDurability.VOLATILE,
         never,
         never,

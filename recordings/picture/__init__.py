@@ -16,17 +16,17 @@ def draw(path: Path, out: Path, times: list[float] | None = None) -> None:
     """
     _need_matplotlib()
     from recordings.picture.bodies import draw_bodies
+    from recordings.picture.picture_data import PictureData
     from recordings.picture.pitch import draw_pitch
     from recordings.picture.sheet import Sheet
-    from recordings.picture.story import Story
 
-    story = Story(path)
-    moments = [story.moment(time) for time in (times or [story.last_play()])]
-    sheet = Sheet(story, [moment.now.time for moment in moments])
-    for panel, moment in zip(sheet.panels, moments, strict=True):
-        draw_pitch(panel, story.setup.pitch)
-        draw_bodies(panel, story.setup, moment.worlds, sheet.inches_per_metre)
-    sheet.title([moment.words for moment in moments], moments[-1].score)
+    data = PictureData(path)
+    panels_data = [data.panel_data(time) for time in (times or [data.last_play()])]
+    sheet = Sheet(data, [panel_data.now.time for panel_data in panels_data])
+    for panel, panel_data in zip(sheet.panels, panels_data, strict=True):
+        draw_pitch(panel, data.setup.pitch)
+        draw_bodies(panel, data.setup, panel_data.worlds, sheet.inches_per_metre)
+    sheet.title([panel_data.caption for panel_data in panels_data], panels_data[-1].score)
     sheet.save(out)
 
 
@@ -37,19 +37,19 @@ def trace(path: Path, out: Path) -> None:
         TouchlineError: as `draw`.
     """
     _need_matplotlib()
-    from recordings.picture.heat import draw_goals, draw_heat
+    from recordings.picture.heat_map import draw_goals, draw_heat
+    from recordings.picture.picture_data import PictureData
     from recordings.picture.pitch import draw_pitch
     from recordings.picture.sheet import Sheet
-    from recordings.picture.story import Story
 
-    story = Story(path)
-    worlds = story.in_play()
-    sheet = Sheet(story, [story.end])
+    data = PictureData(path)
+    worlds = data.in_play()
+    sheet = Sheet(data, [data.end])
     (panel,) = sheet.panels
-    draw_pitch(panel, story.setup.pitch)
-    draw_heat(panel, story.setup.pitch, worlds)
-    draw_goals(panel, story.goals)
-    sheet.title([f"way of the ball in {len(worlds) * story.setup.time.tick:.0f} s of play"], story.score_at(story.end))
+    draw_pitch(panel, data.setup.pitch)
+    draw_heat(panel, data.setup.pitch, worlds)
+    draw_goals(panel, data.goals)
+    sheet.title([f"way of the ball in {len(worlds) * data.setup.time.tick:.0f} s of play"], data.score_at(data.end))
     sheet.save(out)
 
 

@@ -11,11 +11,11 @@ from matplotlib.colors import to_rgb
 from matplotlib.patches import Circle, Polygon, Rectangle
 from matplotlib.transforms import Affine2D
 
-from schemas.host import Setup
-from schemas.obstacle import Shape
-from schemas.sections import RobotBody
+from schemas.config.obstacle import Shape
+from schemas.config.sections import RobotBody
+from schemas.messages.host import Setup
+from schemas.messages.world import ObstacleTruth, World
 from schemas.side import Side
-from schemas.world import ObstacleTruth, World
 
 COLOURS = {Side.CYAN: "#22c3dd", Side.MAGENTA: "#e0389a"}
 _EDGES = {Side.CYAN: "#073b45", Side.MAGENTA: "#4a0730"}
@@ -42,7 +42,7 @@ def draw_bodies(axes: Axes, setup: Setup, worlds: Sequence[World], scale: float)
         side = sides[name]
         way = [(world.robots[name].x, world.robots[name].y) for world in worlds if name in world.robots]
         _trail(axes, way, COLOURS[side], 6.0 * scale)
-        body = setup.seen_by(name).robot
+        body = setup.for_robot(name).robot
         _robot(axes, (robot.x, robot.y), robot.heading, body, side, _number(name, setup), scale)
     _trail(axes, [(world.ball.x, world.ball.y) for world in worlds], _BALL, 7.5 * scale)
     _ball(axes, now, setup.ball.radius, scale)

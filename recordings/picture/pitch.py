@@ -3,7 +3,7 @@
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Rectangle
 
-from schemas.sections import Field
+from schemas.config.sections import Pitch
 
 _GRASS = "#2f6f4e"
 _MOWN = "#33775a"
@@ -13,7 +13,7 @@ _NET = "#d7e0da"
 _STRIPES = 11
 
 
-def draw_pitch(axes: Axes, pitch: Field) -> None:
+def draw_pitch(axes: Axes, pitch: Pitch) -> None:
     """Lay the pitch out below everything else, x to the right, y up, and frame the axes around it."""
     half_x, half_y = pitch.goal_line, pitch.touch_line
     _ground(axes, pitch)
@@ -31,7 +31,7 @@ def draw_pitch(axes: Axes, pitch: Field) -> None:
     axes.set_axis_off()
 
 
-def _ground(axes: Axes, pitch: Field) -> None:
+def _ground(axes: Axes, pitch: Pitch) -> None:
     wide, high = pitch.length + 4 * pitch.border, pitch.width + 4 * pitch.border
     axes.add_patch(Rectangle((-wide / 2, -high / 2), wide, high, color=_SURROUND, lw=0, zorder=0))
     stripe = pitch.length / _STRIPES
@@ -48,7 +48,7 @@ def _ground(axes: Axes, pitch: Field) -> None:
         )
 
 
-def _end(axes: Axes, pitch: Field, sign: int) -> None:
+def _end(axes: Axes, pitch: Pitch, sign: int) -> None:
     """One end of the pitch: areas, corner arcs, goal."""
     line = sign * pitch.goal_line
     for depth, width in (
@@ -62,7 +62,7 @@ def _end(axes: Axes, pitch: Field, sign: int) -> None:
     _goal(axes, pitch, sign)
 
 
-def _goal(axes: Axes, pitch: Field, sign: int) -> None:
+def _goal(axes: Axes, pitch: Pitch, sign: int) -> None:
     line, half = sign * pitch.goal_line, pitch.goal_width / 2
     axes.add_patch(
         Rectangle(

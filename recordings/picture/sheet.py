@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from recordings.picture.bodies import COLOURS
-from recordings.picture.story import Story
+from recordings.picture.picture_data import PictureData
 from schemas.errors import TouchlineError
 from schemas.game import Score
 from schemas.side import Side
@@ -28,10 +28,10 @@ _GAP = 0.08
 class Sheet:
     """One sheet: a panel for each time, two in a row when there are several."""
 
-    def __init__(self, story: Story, times: Sequence[float]) -> None:
-        self._story = story
+    def __init__(self, data: PictureData, times: Sequence[float]) -> None:
+        self._data = data
         self._times = times
-        pitch = story.setup.pitch
+        pitch = data.setup.pitch
         several = len(times) > 1
         wide, high = pitch.length + 2 * pitch.border, pitch.width + 2 * pitch.border
         width = _WIDTH / 2 - 1.5 * _GAP if several else _WIDTH
@@ -45,19 +45,19 @@ class Sheet:
             bottom = self._height - _HEAD - (number // 2 + 1) * row + (_GAP if several else 0.0)
             self.panels.append(self._add_axes(left, bottom, width, width * high / wide))
 
-    def title(self, words: Sequence[str], score: Score | None) -> None:
+    def title(self, caption: Sequence[str], score: Score | None) -> None:
         """Write teams and score above all, and words above each panel."""
         goals = f"{score.cyan} : {score.magenta}" if score is not None else "–"
         self._text(0.5, 0.28, goals, 19, _INK, "center", bold=True)
         for side, away in ((Side.CYAN, -1), (Side.MAGENTA, 1)):
             self._text(0.5 + 0.055 * away, 0.28, "●", 13, COLOURS[side], "center")
-            name = self._story.setup.teams[side].name or side.value
+            name = self._data.setup.teams[side].name or side.value
             self._text(0.5 + 0.07 * away, 0.28, name, 15, _INK, "right" if away < 0 else "left")
-        if len(words) == 1:
-            self._text(0.5, 0.55, words[0], 9.5, _FAINT, "center")
+        if len(caption) == 1:
+            self._text(0.5, 0.55, caption[0], 9.5, _FAINT, "center")
         else:
-            for panel, said in zip(self.panels, words, strict=True):
-                panel.set_title(said, fontsize=9.5, color=_FAINT, pad=4)
+            for panel, messages in zip(self.panels, caption, strict=True):
+                panel.set_title(messages, fontsize=9.5, color=_FAINT, pad=4)
         self._time_line()
 
     def save(self, out: Path) -> None:
@@ -77,14 +77,14 @@ class Sheet:
     def _time_line(self) -> None:
         """The whole match as a line, filled up to the last time shown, with a dot for each time and each goal."""
         line = self._add_axes(0.25 * _WIDTH, self._height - _HEAD + 0.04, 0.5 * _WIDTH, 0.16)
-        start, end = self._story.start, max(self._story.end, self._story.start + 1e-9)
+        start, end = self._data.start, max(self._data.end, self._data.start + 1e-9)
         line.set_xlim(start - 0.01 * (end - start), end + 0.01 * (end - start))
         line.set_ylim(-1, 1)
         line.set_axis_off()
         line.plot([start, end], [0, 0], color=_LINE, lw=3, solid_capstyle="round", zorder=1)
         line.plot([start, max(self._times)], [0, 0], color=_FAINT, lw=3, solid_capstyle="round", zorder=2)
         line.plot(self._times, [0] * len(self._times), "o", color=_INK, ms=5, zorder=3)
-        for goal in self._story.goals:
+        for goal in self._data.goals:
             colour = COLOURS[goal.side] if goal.side is not None else _INK
             line.plot([goal.time], [0], "D", color=colour, mec=_PAPER, mew=0.8, ms=6, zorder=4)
 

@@ -1,1 +1,1 @@
-"""Recordings back onto the bus: a tape that is wound, a player with its controls, and a host that speaks for it."""
+"""Recordings back onto the bus: a cursor that seeks, a player with its controls, and a host that speaks for it."""

@@ -4,26 +4,26 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from recordings.reader import Recorded
+from recordings.reading.recording import RecordedMessage
 from recordings.replay.listeners import Listeners
 from recordings.replay.player import Player
-from schemas.bus.contract import Bus, Publisher, Received, Server, Stamp
-from schemas.bus.minutes import MinuteKeeper
+from schemas.bus.batch_publisher import BatchPublisher
+from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Server, Stamp
+from schemas.config.scene import SceneReply
 from schemas.game import ActionReply
-from schemas.host import Setup
 from schemas.message import BadMessageError, Message
-from schemas.parameters import ParametersReply
-from schemas.replay import ReplayReply, ReplayRequest
-from schemas.scene import SceneReply
+from schemas.messages.host import Setup
+from schemas.messages.parameters import ParametersReply
+from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.topic import Party, Topic
-from schemas.topics import ACTION, PARAMETERS, REPLAY, SCENE, SETUP
+from schemas.topics import ACTION, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
 
-_STILL_S = 1.0
+_REPEAT_S = 1.0
 """Wall time after which a replay that stands still says again how things stand: who has come since must know."""
-_NAP_S = 0.02
+_SLEEP_S = 0.02
 """Longest wall time between two looks for questions."""
-_LEAST_NAP_S = 0.001
-_PARTING_S = 5.0
+_MIN_SLEEP_S = 0.001
+_RECORDER_PATIENCE_S = 5.0
 """Wall time that recorders are given at the end to take in the last message."""
 _UNCHANGEABLE = "this is a replay: what is recorded cannot be changed"
 
@@ -39,22 +39,22 @@ class ReplayHost:
     """Stands in for the host of a match that was recorded."""
 
     def __init__(self, bus: Bus, setup: Setup | None, make_player: Callable[..., Player]) -> None:
-        """`make_player` is given `say` and `has_room`; `setup` is the recorded one, nothing where there is none."""
+        """`make_player` is given `publish` and `can_publish`; `setup` is the recorded one, None where there is none."""
         self._bus = bus
         self._clock = bus.clock
         self._setup = setup.model_copy(update={"match": bus.match}) if setup is not None else None
-        self._writers: dict[str, Publisher | None] = {}
-        self._setups, self._controls = bus.serve(SETUP), bus.serve(REPLAY)
+        self._publishers: dict[str, Publisher | None] = {}
+        self._setups, self._controls = bus.serve(SETUP), bus.serve(REPLAY_CONTROL)
         self._refused: list[tuple[Server, Callable[[], Message]]] = [
             (bus.serve(topic), refusal) for topic, refusal in _REFUSALS.items()
         ]
-        self._minutes = MinuteKeeper(bus)
+        self._batches = BatchPublisher(bus)
         self._tick_ns = setup.time.tick * 1e9 if setup is not None else math.inf
         self._listeners = Listeners(bus, self._tick_ns)
-        self.player = make_player(say=self._say, has_room=self._listeners.have_room)
-        self.foreign = 0
+        self.player = make_player(publish=self._publish, can_publish=self._listeners.can_publish)
+        self.unknown_keys = 0
         """Messages on keys that no topic has; left out."""
-        self._told_at = -math.inf
+        self._published_at = -math.inf
         bus.declare_alive("host", "host")
         bus.declare_alive("replay", "replay")
 
@@ -65,83 +65,83 @@ class ReplayHost:
             TouchlineError: the recording is damaged inside.
         """
         while not self.player.ended:
-            said = self.pump()
+            published = self.pump()
             meanwhile(self.player)
-            if not said:
+            if not published:
                 now = self._clock.now()
-                self._clock.sleep_until(now + max(_LEAST_NAP_S, min(_NAP_S, self.player.wait())))
-        self.part()
+                self._clock.sleep_until(now + max(_MIN_SLEEP_S, min(_SLEEP_S, self.player.wait())))
+        self.wait_for_recorders()
 
     def pump(self) -> int:
         """Answer who asks, say what is due; returns how many messages were said."""
         self._answer()
-        newcomers = self._listeners.update()
-        said = self.player.pump()
-        self._minutes.send_if_due()
+        has_newcomers = self._listeners.update()
+        published = self.player.pump()
+        self._batches.send_if_due()
         now = self._clock.now()
-        if said:
-            self._told_at = now
-        elif self._may_repeat() and (newcomers or now - self._told_at > _STILL_S):
-            self._told_at = now
-            self.player.tell_standing()
-        return said
+        if published:
+            self._published_at = now
+        elif self._may_repeat() and (has_newcomers or now - self._published_at > _REPEAT_S):
+            self._published_at = now
+            self.player.republish_latched()
+        return published
 
     def _may_repeat(self) -> bool:
         """A recorder would have it twice; and before the first message is played nothing stands yet."""
-        return self.player.paused and self.player.said > 0 and not self._listeners.recorders
+        return self.player.paused and self.player.published > 0 and not self._listeners.recorders
 
-    def part(self) -> None:
+    def wait_for_recorders(self) -> None:
         """Give the recorders time to take in the last message."""
-        self._minutes.end_tick(self._tick())
-        self._minutes.send()
-        deadline = self._clock.now() + _PARTING_S
-        while self._listeners.behind() and self._clock.now() < deadline:
-            self._clock.sleep_until(self._clock.now() + _NAP_S)
+        self._batches.end_tick(self._tick())
+        self._batches.send()
+        deadline = self._clock.now() + _RECORDER_PATIENCE_S
+        while self._listeners.any_behind() and self._clock.now() < deadline:
+            self._clock.sleep_until(self._clock.now() + _SLEEP_S)
             self._answer()
             self._listeners.update()
 
-    def _say(self, recorded: Recorded) -> None:
+    def _publish(self, recorded: RecordedMessage) -> None:
         if recorded.log_ns != self._clock.sim_ns:
-            self._minutes.end_tick(self._tick())
+            self._batches.end_tick(self._tick())
             self._clock.sim_ns = recorded.log_ns
         try:
-            writer = self._writers[recorded.key]
+            publisher = self._publishers[recorded.key]
         except KeyError:
-            writer = self._writers[recorded.key] = self._writer(recorded)
-        if writer is None:
-            self.foreign += 1
+            publisher = self._publishers[recorded.key] = self._open_publisher(recorded)
+        if publisher is None:
+            self.unknown_keys += 1
         else:
-            stamp = writer.put_payload(recorded.payload)
+            stamp = publisher.put_payload(recorded.payload)
             if recorded.topic.writer is not Party.HOST:
                 stamp = Stamp(stamp.sequence, recorded.sent_ns, recorded.log_ns)
-                self._minutes.note(Received(recorded.topic, recorded.key, recorded.payload, stamp))
-            self._listeners.said(recorded)
+                self._batches.add_received(ReceivedMessage(recorded.topic, recorded.key, recorded.payload, stamp))
+            self._listeners.note_published(recorded)
 
     def _tick(self) -> int:
-        """The tick of the moment that is said."""
+        """The tick that is said."""
         return round(max(0, self._clock.sim_ns) / self._tick_ns)
 
-    def _writer(self, recorded: Recorded) -> Publisher | None:
+    def _open_publisher(self, recorded: RecordedMessage) -> Publisher | None:
         chunks = recorded.topic.match(recorded.key)
         if chunks is None:
             return None
-        seat = self._minutes if recorded.topic.writer is Party.HOST else self._bus
+        seat = self._batches if recorded.topic.writer is Party.HOST else self._bus
         return seat.publisher(recorded.topic, **chunks)
 
     def _answer(self) -> None:
-        while (question := self._setups.receive()) is not None:
+        while (query := self._setups.receive()) is not None:
             if self._setup is not None:
-                question.answer(self._setup)
+                query.reply(self._setup)
             else:
-                question.fail("the recording does not say how its match was set up")
-        while (question := self._controls.receive()) is not None:
+                query.fail("the recording does not say how its match was set up")
+        while (query := self._controls.receive()) is not None:
             try:
-                request: ReplayRequest = question.message()
+                request: ReplayRequest = query.message()
             except BadMessageError as error:
-                question.fail(str(error))
+                query.fail(str(error))
             else:
                 reply: ReplayReply = self.player.control(request)
-                question.answer(reply)
+                query.reply(reply)
         for server, refusal in self._refused:
-            while (question := server.receive()) is not None:
-                question.answer(refusal())
+            while (query := server.receive()) is not None:
+                query.reply(refusal())

@@ -1,9 +1,9 @@
 """Who listens to a replay: recorders, which it does not run away from, and others, whom it tells how things stand."""
 
-from recordings.reader import Recorded
+from recordings.reading.recording import RecordedMessage
 from schemas.bus.contract import Bus
 from schemas.message import BadMessageError
-from schemas.topics import APPLIED, PROGRESS
+from schemas.topics import APPLIED, RECORDER_PROGRESS
 
 WINDOW = 250
 """Ticks that a recorder may be behind: well within what a writer keeps for recovery."""
@@ -16,9 +16,9 @@ class _Recorder:
 
     def __init__(self, now: float) -> None:
         self.tick = -1
-        self.heard_at = now
-        self.given_up = False
-        self.told: list[int] = []
+        self.confirmed_at = now
+        self.is_given_up = False
+        self.unconfirmed: list[int] = []
         """Ticks that it was told and has not confirmed."""
 
 
@@ -30,7 +30,7 @@ class Listeners:
         self._clock = bus.clock
         self._tick_ns = tick_ns
         self._watch = bus.watch_alive()
-        self._progress = bus.subscribe(PROGRESS)
+        self._progress = bus.subscribe(RECORDER_PROGRESS)
         self.recorders: dict[str, _Recorder] = {}
 
     def update(self) -> bool:
@@ -51,35 +51,35 @@ class Listeners:
                     continue  # it counts as silence
         return came
 
-    def said(self, recorded: Recorded) -> None:
+    def note_published(self, recorded: RecordedMessage) -> None:
         """A message was said; the inputs of a tick are what recorders confirm."""
         if recorded.topic is APPLIED and self.recorders:
             tick = round(recorded.log_ns / self._tick_ns)
-            for recorder in [one for one in self.recorders.values() if not one.given_up]:
-                if not recorder.told:
-                    recorder.heard_at = self._clock.now()
-                recorder.told.append(tick)
+            for recorder in [one for one in self.recorders.values() if not one.is_given_up]:
+                if not recorder.unconfirmed:
+                    recorder.confirmed_at = self._clock.now()
+                recorder.unconfirmed.append(tick)
 
-    def have_room(self) -> bool:
-        """Whether another moment may be said, without running away from a recorder that is still heard of."""
-        late = [recorder for recorder in self.recorders.values() if len(recorder.told) > WINDOW]
+    def can_publish(self) -> bool:
+        """Whether another tick may be said, without running away from a recorder that is still heard of."""
+        late = [recorder for recorder in self.recorders.values() if len(recorder.unconfirmed) > WINDOW]
         if not late:
             return True
         self.update()
-        return not any(len(recorder.told) > WINDOW and self._is_waited_for(recorder) for recorder in late)
+        return not any(len(recorder.unconfirmed) > WINDOW and self._is_waited_for(recorder) for recorder in late)
 
-    def behind(self) -> bool:
+    def any_behind(self) -> bool:
         """Whether a recorder that is still heard of has not confirmed everything."""
-        return any(recorder.told and self._is_waited_for(recorder) for recorder in self.recorders.values())
+        return any(recorder.unconfirmed and self._is_waited_for(recorder) for recorder in self.recorders.values())
 
     def _confirm(self, recorder: _Recorder, tick: int) -> None:
-        if tick in recorder.told:
-            del recorder.told[: recorder.told.index(tick) + 1]
+        if tick in recorder.unconfirmed:
+            del recorder.unconfirmed[: recorder.unconfirmed.index(tick) + 1]
         if tick != recorder.tick:
-            recorder.tick, recorder.heard_at, recorder.given_up = tick, self._clock.now(), False
+            recorder.tick, recorder.confirmed_at, recorder.is_given_up = tick, self._clock.now(), False
 
     def _is_waited_for(self, recorder: _Recorder) -> bool:
-        if self._clock.now() - recorder.heard_at > _PATIENCE_S and not recorder.given_up:
-            recorder.given_up = True
-            recorder.told.clear()
-        return not recorder.given_up
+        if self._clock.now() - recorder.confirmed_at > _PATIENCE_S and not recorder.is_given_up:
+            recorder.is_given_up = True
+            recorder.unconfirmed.clear()
+        return not recorder.is_given_up

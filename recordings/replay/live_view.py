@@ -1,6 +1,6 @@
 """A live view for Foxglove and Lichtblick: what a replay says, and what viewers draw of it, over a WebSocket.
 
-The only door to foxglove-sdk. Its server has threads of its own; what they hear waits in queues until `attend`.
+The only door to foxglove-sdk. Its server has threads of its own; what they hear waits in queues until `update`.
 """
 
 import importlib.util
@@ -9,14 +9,14 @@ from queue import SimpleQueue
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
-from recordings.json_schema import flat_schema
-from recordings.reader import Recorded
+from recordings.container.json_schema import flat_schema
+from recordings.reading.recording import RecordedMessage
 from recordings.replay.player import Player
 from recordings.viz.drawing import SCHEMAS, Drawing
 from recordings.viz.foxglove import descriptors
 from schemas.errors import TouchlineError
-from schemas.host import Setup
-from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
+from schemas.messages.host import Setup
+from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.topics import WORLD
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 DEFAULT_PORT = 8765
 """Where Foxglove and Lichtblick look unless they are told otherwise."""
 _LOOPBACK = "127.0.0.1"
-_FASTEST = 1000.0
+_MAX_SPEED = 1000.0
 """The speed that is told for `as fast as possible`, which viewers have no word for."""
 
 
@@ -57,16 +57,16 @@ class LiveView:
         self._channels: dict[str, Channel] = {}
         self._newest: dict[str, tuple[bytes, int]] = {}
         self._world_ns = -1
-        self._told: tuple[bool, float, bool] | None = None
-        self._wishes: SimpleQueue[PlaybackControlRequest] = SimpleQueue()
-        self._newcomers: SimpleQueue[str] = SimpleQueue()
+        self._announced: tuple[bool, float, bool] | None = None
+        self._requests: SimpleQueue[PlaybackControlRequest] = SimpleQueue()
+        self._new_subscriptions: SimpleQueue[str] = SimpleQueue()
         try:
             self._server = foxglove.start_server(
                 name=name,
                 host=_LOOPBACK,
                 port=port,
                 capabilities=[foxglove.Capability.Time],
-                server_listener=_listener(self._wishes, self._newcomers),
+                server_listener=_listener(self._requests, self._new_subscriptions),
                 context=self._context,
                 playback_time_range=extent_ns,
             )
@@ -83,30 +83,30 @@ class LiveView:
         """What viewers are told to open."""
         return f"ws://{_LOOPBACK}:{self._server.port}"
 
-    def say(self, recorded: Recorded) -> None:
+    def publish(self, recorded: RecordedMessage) -> None:
         """The replay says this."""
         if recorded.topic is WORLD:
             if recorded.log_ns < self._world_ns:
-                self._begin_anew()
+                self._restart_session()
             self._world_ns = recorded.log_ns
         if recorded.key not in self._channels:
             self._open(recorded.key, "json", self._schema_of(recorded))
         self._send(recorded.key, recorded.payload, recorded.log_ns)
         if self._drawing is not None:
-            for topic, payload in self._drawing.take(recorded.received(), recorded.log_ns):
+            for topic, payload in self._drawing.draw(recorded.received(), recorded.log_ns):
                 self._send(topic, payload, recorded.log_ns)
 
-    def attend(self, player: Player) -> None:
+    def update(self, player: Player) -> None:
         """Do what viewers wish, give newcomers what was said last, and tell everybody the time."""
-        while not self._newcomers.empty():
-            topic = self._newcomers.get()
-            self._told = None
+        while not self._new_subscriptions.empty():
+            topic = self._new_subscriptions.get()
+            self._announced = None
             if topic in self._newest:
                 self._channels[topic].log(self._newest[topic][0], log_time=self._newest[topic][1])
-        while not self._wishes.empty():
-            self._fulfil(self._wishes.get(), player)
+        while not self._requests.empty():
+            self._apply(self._requests.get(), player)
         self._server.broadcast_time(player.position_ns)
-        self._tell(player)
+        self._announce(player)
 
     def __enter__(self) -> Self:
         return self
@@ -121,7 +121,7 @@ class LiveView:
 
         self._channels[topic] = Channel(topic, message_encoding=encoding, schema=schema, context=self._context)
 
-    def _schema_of(self, recorded: Recorded) -> "Schema":
+    def _schema_of(self, recorded: RecordedMessage) -> "Schema":
         from foxglove import Schema
 
         model = recorded.topic.message
@@ -135,48 +135,50 @@ class LiveView:
         if channel.has_sinks():
             channel.log(payload, log_time=log_ns)
 
-    def _begin_anew(self) -> None:
+    def _restart_session(self) -> None:
         """It was wound back: viewers forget what they have, and what is drawn is drawn from here."""
         self._newest.clear()
         self._server.clear_session()
         if self._setup is not None:
             self._drawing = Drawing(self._setup)
 
-    def _fulfil(self, wish: "PlaybackControlRequest", player: Player) -> None:
+    def _apply(self, request: "PlaybackControlRequest", player: Player) -> None:
         from foxglove.websocket import PlaybackCommand
 
-        if wish.seek_time is not None:
-            player.control(ReplayRequest(deed=ReplayDeed.SEEK, to=str(wish.seek_time / 1e9)))
-        if wish.playback_speed > 0.0 and wish.playback_speed != _speed(player.status()):
-            player.control(ReplayRequest(deed=ReplayDeed.RATE, rate=wish.playback_speed))
-        wants_play = wish.playback_command == PlaybackCommand.Play
+        if request.seek_time is not None:
+            player.control(ReplayRequest(operation=ReplayOperation.SEEK, to=str(request.seek_time / 1e9)))
+        if request.playback_speed > 0.0 and request.playback_speed != _speed(player.status()):
+            player.control(ReplayRequest(operation=ReplayOperation.RATE, rate=request.playback_speed))
+        wants_play = request.playback_command == PlaybackCommand.Play
         if wants_play == player.paused:
-            player.control(ReplayRequest(deed=ReplayDeed.PLAY if wants_play else ReplayDeed.PAUSE))
-        self._told = None
-        self._tell(player, wish.request_id, did_seek=wish.seek_time is not None)
+            player.control(ReplayRequest(operation=ReplayOperation.PLAY if wants_play else ReplayOperation.PAUSE))
+        self._announced = None
+        self._announce(player, request.request_id, did_seek=request.seek_time is not None)
 
-    def _tell(self, player: Player, request: str | None = None, *, did_seek: bool = False) -> None:
+    def _announce(self, player: Player, request_id: str | None = None, *, did_seek: bool = False) -> None:
         """How the replay stands, where that has changed."""
         from foxglove.websocket import PlaybackState, PlaybackStatus
 
         speed = _speed(player.status())
-        stands = player.paused, speed, player.ended
-        if stands == self._told:
+        state = player.paused, speed, player.ended
+        if state == self._announced:
             return
-        self._told = stands
+        self._announced = state
         status = PlaybackStatus.Playing
         if player.ended:
             status = PlaybackStatus.Ended
         elif player.paused:
             status = PlaybackStatus.Paused
-        self._server.broadcast_playback_state(PlaybackState(status, player.position_ns, speed, did_seek, request))
+        self._server.broadcast_playback_state(PlaybackState(status, player.position_ns, speed, did_seek, request_id))
 
 
 def _speed(status: ReplayReply) -> float:
-    return _FASTEST if status.rate is None else status.rate
+    return _MAX_SPEED if status.rate is None else status.rate
 
 
-def _listener(wishes: "SimpleQueue[PlaybackControlRequest]", newcomers: "SimpleQueue[str]") -> "ServerListener":
+def _listener(
+    requests: "SimpleQueue[PlaybackControlRequest]", new_subscriptions: "SimpleQueue[str]"
+) -> "ServerListener":
     """What the server's threads call."""
     from foxglove.websocket import ChannelView, Client, ServerListener
 
@@ -186,10 +188,10 @@ def _listener(wishes: "SimpleQueue[PlaybackControlRequest]", newcomers: "SimpleQ
         def on_subscribe(self, client: Client, channel: ChannelView) -> None:
             """A viewer wants to see this."""
             del client
-            newcomers.put(channel.topic)
+            new_subscriptions.put(channel.topic)
 
         def on_playback_control_request(self, playback_control_request: "PlaybackControlRequest") -> None:
             """A viewer wants something else; it is told when that is done."""
-            wishes.put(playback_control_request)
+            requests.put(playback_control_request)
 
     return Listener()

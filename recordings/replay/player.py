@@ -1,56 +1,57 @@
-"""The player: a pure core over messages, clock and controls. It says the messages of a tape when their time has come.
+"""The player: a pure core over messages, clock and controls. It publishes recorded messages when they are due.
 
-At any rate the order is that of the tape. It knows neither bus nor file: whoever owns it gives it a tape and an ear.
+At any rate the order is that of the recording. It knows neither bus nor file: its owner gives it a cursor to read
+from and a function that publishes.
 """
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from recordings.reader import Recorded
-from recordings.reel import Reel
-from recordings.replay.transport import AS_FAST_AS_POSSIBLE, Transport
-from recordings.tape import Tape
-from schemas.clock import Clock
+from recordings.reading.cursor import Cursor
+from recordings.reading.recording import RecordedMessage
+from recordings.reading.split_cursor import SplitCursor
+from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE, PlaybackClock
 from schemas.errors import TouchlineError
 from schemas.game import GameEvent
-from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
+from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
+from schemas.process.clock import Clock
 from schemas.topic import Topic
-from schemas.topics import APPLIED, BELIEF, COMMAND, HEALTH, ORDER, SIGHT, STANDING_ORDER, STATE, WORLD
+from schemas.topics import ACTIVE_ORDER, APPLIED, BELIEF, COMMAND, HEALTH, ORDER, SIGHT, STATE, WORLD
 
-STANDING = frozenset(
-    topic.key for topic in (WORLD, STATE, APPLIED, HEALTH, COMMAND, SIGHT, BELIEF, ORDER, STANDING_ORDER)
+LATCHED_TOPICS = frozenset(
+    topic.key for topic in (WORLD, STATE, APPLIED, HEALTH, COMMAND, SIGHT, BELIEF, ORDER, ACTIVE_ORDER)
 )
 """Topics whose newest message says how things stand; events and complaints have happened, and do not stand."""
-_AT_ONCE = 500
+_MAX_AT_ONCE = 500
 """Messages after which controls are looked at again."""
-_LOOK_S = 0.1
+_CHECK_S = 0.1
 """Wall time between two looks for what a recorder has added."""
 
 
 @dataclass(frozen=True, slots=True)
-class Span:
-    """What of a tape is played; simulated time in ns."""
+class PlaybackRange:
+    """What of a recording is played; simulated time in ns."""
 
     start_ns: int
     end_ns: int | None = None
-    """Up to and with this; to the end of the tape when not given."""
+    """Up to and with this; to the end of the recording when not given."""
 
 
-def stands(topic: Topic) -> bool:
+def is_latched(topic: Topic) -> bool:
     """Whether the newest message of this topic says how things stand."""
-    return topic.key in STANDING
+    return topic.key in LATCHED_TOPICS
 
 
 class Player:
-    """A tape that is played."""
+    """Plays what a cursor reads."""
 
     def __init__(
         self,
-        tape: Tape | Reel,
+        cursor: Cursor | SplitCursor,
         clock: Clock,
-        say: Callable[[Recorded], None],
-        span: Span | None = None,
+        publish: Callable[[RecordedMessage], None],
+        span: PlaybackRange | None = None,
         *,
         rate: float = 1.0,
         paused: bool = False,
@@ -59,54 +60,54 @@ class Player:
         follow: bool = False,
         time_of: Callable[[str], float] = float,
         events: Callable[[], list[GameEvent]] = list,
-        has_room: Callable[[], bool] = lambda: True,
+        can_publish: Callable[[], bool] = lambda: True,
     ) -> None:
         """Stand at the beginning of `span`, with nothing said yet.
 
         `stay` pauses at the end instead of ending, `follow` waits there for what a recorder adds. `time_of` gives the
-        simulated time in s that words name, `events` all that happens in the recording. Nothing of a new moment is said
-        before there is room for it, as `has_room` says.
+        simulated time in s that words name, `events` all that happens in the recording. Nothing of a new tick is said
+        before there is room for it, as `can_publish` says.
         """
-        self._tape, self._clock, self._say = tape, clock, say
-        self._span = span or Span(tape.start_ns)
+        self._cursor, self._clock, self._publish = cursor, clock, publish
+        self._span = span or PlaybackRange(cursor.start_ns)
         self._stay, self._follow, self._loop = stay, follow, loop
-        self._time_of, self._events, self._has_room = time_of, events, has_room
-        self._standing: dict[str, Recorded] = {}
-        self._transport = Transport(self._span.start_ns, clock.now(), rate, paused)
+        self._time_of, self._events, self._can_publish = time_of, events, can_publish
+        self._latched: dict[str, RecordedMessage] = {}
+        self._playback = PlaybackClock(self._span.start_ns, clock.now(), rate, paused)
         self._position_ns = self._span.start_ns
         self._open_ns: int | None = None
         self._steps = 0
-        self._looked_at = -math.inf
-        self._said = 0
+        self._checked_at = -math.inf
+        self._published = 0
         self._has_begun = self._is_at_start = False
         self.ended = False
         """Nothing more will be said."""
-        self._wind(self._span.start_ns)
+        self._seek_to(self._span.start_ns)
 
     @property
     def position_ns(self) -> int:
         """Where it is, ns of simulated time."""
-        if self.paused or math.isinf(self._transport.rate):
+        if self.paused or math.isinf(self._playback.rate):
             return self._position_ns
         message = self._next()
         ahead = message.log_ns if message is not None else self._position_ns
-        return max(self._position_ns, min(round(self._transport.due_ns(self._clock.now())), ahead))
+        return max(self._position_ns, min(round(self._playback.due_ns(self._clock.now())), ahead))
 
     @property
     def end_ns(self) -> int:
         """Where it ends, or how far it can be played by now, ns of simulated time."""
         end_ns = self._span.end_ns
-        return self._tape.end_ns if end_ns is None else min(end_ns, self._tape.end_ns)
+        return self._cursor.end_ns if end_ns is None else min(end_ns, self._cursor.end_ns)
 
     @property
     def paused(self) -> bool:
         """It stands still."""
-        return self._transport.paused
+        return self._playback.paused
 
     @property
-    def said(self) -> int:
+    def published(self) -> int:
         """Messages said so far."""
-        return self._said
+        return self._published
 
     def pump(self) -> int:
         """Say what is due; returns how many messages that were.
@@ -116,47 +117,47 @@ class Player:
         """
         if not self._has_begun:
             self._has_begun = True
-            for standing in self._tape.standing(self._span.start_ns, stands):
-                self._tell(standing)
-        before = self._said
-        while self._said - before < _AT_ONCE and not self.ended:
+            for latched in self._cursor.latched(self._span.start_ns, is_latched):
+                self._emit(latched)
+        before = self._published
+        while self._published - before < _MAX_AT_ONCE and not self.ended:
             message = self._next()
             if message is None:
-                self._at_the_end()
+                self._at_end()
                 break
             if message.log_ns != self._open_ns and not self._open(message.log_ns):
                 break
-            self._standing[message.key] = message
-            self._tell(message)
-            self._tape.skip()
+            self._latched[message.key] = message
+            self._emit(message)
+            self._cursor.skip()
             self._is_at_start = False
-        return self._said - before
+        return self._published - before
 
     def wait(self) -> float:
         """Wall time in s until something is due; for ever while it stands still."""
         if self._steps or self.ended:
             return 0.0
         message = self._next()
-        return _LOOK_S if message is None else self._transport.wait(message.log_ns, self._clock.now())
+        return _CHECK_S if message is None else self._playback.wait(message.log_ns, self._clock.now())
 
-    def tell_standing(self) -> None:
+    def republish_latched(self) -> None:
         """Say again how things stand, for those who came late."""
-        for message in self._standing.values():
-            if stands(message.topic):
-                self._tell(message)
+        for message in self._latched.values():
+            if is_latched(message.topic):
+                self._emit(message)
 
     def control(self, request: ReplayRequest) -> ReplayReply:
         """Do what is asked, or say why not."""
         try:
-            _DEEDS[request.deed](self, request)
+            _ACTIONS[request.operation](self, request)
         except TouchlineError as error:
             return self.status(accepted=False, reason=str(error))
-        told = self._events() if request.deed is ReplayDeed.EVENTS else []
-        return self.status().model_copy(update={"events": told})
+        events = self._events() if request.operation is ReplayOperation.EVENTS else []
+        return self.status().model_copy(update={"events": events})
 
     def status(self, *, accepted: bool = True, reason: str = "") -> ReplayReply:
         """How it stands."""
-        rate = self._transport.rate
+        rate = self._playback.rate
         return ReplayReply(
             accepted=accepted,
             reason=reason,
@@ -166,62 +167,62 @@ class Player:
             rate=None if math.isinf(rate) else rate,
             paused=self.paused,
             loop=self._loop,
-            messages=self._said,
+            messages=self._published,
         )
 
-    def _tell(self, message: Recorded) -> None:
-        self._say(message)
-        self._said += 1
+    def _emit(self, message: RecordedMessage) -> None:
+        self._publish(message)
+        self._published += 1
 
-    def _next(self) -> Recorded | None:
+    def _next(self) -> RecordedMessage | None:
         """The message that comes next; nothing at the end of what is played."""
-        message, end_ns = self._tape.peek(), self._span.end_ns
+        message, end_ns = self._cursor.peek(), self._span.end_ns
         return message if message is not None and (end_ns is None or message.log_ns <= end_ns) else None
 
     def _open(self, ns: int) -> bool:
-        """Whether messages of this simulated time may be said now; those of one moment are said together."""
-        if not self._steps and (self.paused or ns > self._transport.due_ns(self._clock.now())):
+        """Whether messages of this simulated time may be said now; those of one tick are said together."""
+        if not self._steps and (self.paused or ns > self._playback.due_ns(self._clock.now())):
             return False
-        if not self._has_room():
+        if not self._can_publish():
             return False
         self._steps = max(0, self._steps - 1)
         self._open_ns = self._position_ns = ns
         return True
 
-    def _at_the_end(self) -> None:
+    def _at_end(self) -> None:
         """Wait for more, begin again, stay, or end."""
         self._steps = 0
         now = self._clock.now()
-        if self._follow and not self._tape.finished and self._tape.peek() is None:
-            if now - self._looked_at >= _LOOK_S:
-                self._looked_at = now
-                self._tape.grow()
-            self._transport = self._transport.moved(self._position_ns, now)
+        if self._follow and not self._cursor.finished and self._cursor.peek() is None:
+            if now - self._checked_at >= _CHECK_S:
+                self._checked_at = now
+                self._cursor.grow()
+            self._playback = self._playback.moved(self._position_ns, now)
         elif self.paused:
             return
         elif self._loop and not self._is_at_start:
-            self._go_to(self._span.start_ns)
+            self._jump_to(self._span.start_ns)
         elif self._stay:
-            self._transport = self._transport.changed(self._position_ns, now, paused=True)
+            self._playback = self._playback.changed(self._position_ns, now, paused=True)
         else:
             self.ended = True
 
-    def _wind(self, ns: int) -> None:
+    def _seek_to(self, ns: int) -> None:
         """Stand before the first message at this simulated time or later, and know how things stand there."""
-        self._tape.seek(ns)
-        self._standing = {message.key: message for message in self._tape.standing(ns + 1, stands)}
+        self._cursor.seek(ns)
+        self._latched = {message.key: message for message in self._cursor.latched(ns + 1, is_latched)}
         self._position_ns, self._open_ns, self._steps = ns, None, 0
-        self._transport = self._transport.moved(ns, self._clock.now())
+        self._playback = self._playback.moved(ns, self._clock.now())
         self._is_at_start = ns == self._span.start_ns
 
-    def _go_to(self, ns: int) -> None:
+    def _jump_to(self, ns: int) -> None:
         """Go on from there; everybody is told how things stand there."""
-        self._wind(ns)
-        self.tell_standing()
+        self._seek_to(ns)
+        self.republish_latched()
 
     def _change(self, *, rate: float | None = None, paused: bool | None = None) -> None:
         now, here = self._clock.now(), self.position_ns
-        self._transport = self._transport.changed(here, now, rate=rate, paused=paused)
+        self._playback = self._playback.changed(here, now, rate=rate, paused=paused)
         self._position_ns = here
 
     def _play(self, request: ReplayRequest) -> None:
@@ -245,7 +246,7 @@ class Player:
         else:
             ns = self.position_ns + round((request.by or 0.0) * 1e9)
         self._has_begun = True
-        self._go_to(max(self._span.start_ns, min(ns, self.end_ns)))
+        self._jump_to(max(self._span.start_ns, min(ns, self.end_ns)))
 
     def _rate(self, request: ReplayRequest) -> None:
         self._change(rate=AS_FAST_AS_POSSIBLE if request.rate is None else request.rate)
@@ -258,19 +259,19 @@ class Player:
         del request
         self.ended = True
 
-    def _say_status(self, request: ReplayRequest) -> None:
+    def _do_nothing(self, request: ReplayRequest) -> None:
         """Nothing is to be done."""
 
 
-_DEEDS: dict[ReplayDeed, Callable[[Player, ReplayRequest], None]] = {
-    ReplayDeed.STATUS: Player._say_status,
-    ReplayDeed.EVENTS: Player._say_status,
-    ReplayDeed.PLAY: Player._play,
-    ReplayDeed.PAUSE: Player._pause,
-    ReplayDeed.STEP: Player._step,
-    ReplayDeed.SEEK: Player._seek,
-    ReplayDeed.RATE: Player._rate,
-    ReplayDeed.LOOP: Player._switch_loop,
-    ReplayDeed.LEAVE: Player._leave,
+_ACTIONS: dict[ReplayOperation, Callable[[Player, ReplayRequest], None]] = {
+    ReplayOperation.STATUS: Player._do_nothing,
+    ReplayOperation.EVENTS: Player._do_nothing,
+    ReplayOperation.PLAY: Player._play,
+    ReplayOperation.PAUSE: Player._pause,
+    ReplayOperation.STEP: Player._step,
+    ReplayOperation.SEEK: Player._seek,
+    ReplayOperation.RATE: Player._rate,
+    ReplayOperation.LOOP: Player._switch_loop,
+    ReplayOperation.LEAVE: Player._leave,
 }
 """Deed → what the player does."""

@@ -3,12 +3,12 @@
 import math
 from enum import Enum, auto
 
-from schemas.host import Setup
-from schemas.world import BallTruth
+from schemas.messages.host import Setup
+from schemas.messages.world import BallTruth
 
 GRAVITY = 9.81
 """m/s²."""
-BESIDE = 1.0
+NEAR_MISS_M = 1.0
 """m; ours: a ball that would pass a post at no more than this, or fly over the bar, was meant for the goal."""
 
 
@@ -18,7 +18,7 @@ class Aim(Enum):
     AT_GOAL = auto()
     """Between the posts and below the bar."""
     PAST_GOAL = auto()
-    """Over the bar, or up to `BESIDE` beside a post."""
+    """Over the bar, or up to `NEAR_MISS_M` beside a post."""
     ELSEWHERE = auto()
 
 
@@ -38,7 +38,7 @@ def aim(ball: BallTruth, attack: int, setup: Setup) -> Aim:
     if speed * speed < 2 * setup.ball.rolling_deceleration * speed * time:
         return Aim.ELSEWHERE
     beside = abs(ball.y + ball.vy * time) - pitch.goal_width / 2
-    if beside > BESIDE:
+    if beside > NEAR_MISS_M:
         return Aim.ELSEWHERE
     height = ball.z + ball.vz * time - GRAVITY / 2 * time * time
     lands = (ball.vz + math.sqrt(ball.vz**2 + 2 * GRAVITY * max(0.0, ball.z - setup.ball.radius))) / GRAVITY

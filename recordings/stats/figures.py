@@ -5,20 +5,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from recordings.stats.calls import Calls, Goal
-from recordings.stats.carries import Carries, Dribbles
-from recordings.stats.cast import Cast
-from recordings.stats.control import Control
-from recordings.stats.kicks import ON_GOAL, PASSES, SHOTS, KickStory, Outcome
+from recordings.stats.ball_control import BallControl
+from recordings.stats.dribbles import DribbleStats, DribbleTracker
+from recordings.stats.kicks import ON_GOAL, PASSES, SHOTS, KickOutcome, KickRecord
+from recordings.stats.lineup import Lineup
 from recordings.stats.momentum import Momentum
-from recordings.stats.motion import Motion, Motions
+from recordings.stats.motion import MotionStats, MotionTracker
+from recordings.stats.referee_calls import Goal, RefereeCalls
 from schemas.game import Card, GameEvent
-from schemas.host import Setup
+from schemas.messages.host import Setup
 from schemas.side import Side
 
 
 @dataclass(frozen=True, slots=True)
-class Evidence:
+class Coverage:
     """How many messages the figures rest on; where one is 0, what follows from it is not known."""
 
     worlds: int
@@ -49,17 +49,17 @@ class KickCounts:
     """Of shots; balls that were carried or deflected in are in the score alone."""
 
     @classmethod
-    def of(cls, stories: Sequence[KickStory]) -> "KickCounts":
+    def of(cls, kicks: Sequence[KickRecord]) -> "KickCounts":
         """Counted."""
-        outcomes = [story.outcome for story in stories]
+        outcomes = [kick_record.outcome for kick_record in kicks]
         return cls(
             kicks=len(outcomes),
             passes=sum(outcome in PASSES for outcome in outcomes),
-            passes_completed=outcomes.count(Outcome.RECEIVED),
+            passes_completed=outcomes.count(KickOutcome.RECEIVED),
             shots=sum(outcome in SHOTS for outcome in outcomes),
             shots_on_goal=sum(outcome in ON_GOAL for outcome in outcomes),
-            shots_blocked=outcomes.count(Outcome.BLOCKED),
-            goals=outcomes.count(Outcome.GOAL),
+            shots_blocked=outcomes.count(KickOutcome.BLOCKED),
+            goals=outcomes.count(KickOutcome.GOAL),
         )
 
 
@@ -113,7 +113,7 @@ class RobotFigures:
 
 
 @dataclass(frozen=True, slots=True)
-class Figures:
+class MatchFigures:
     """A match in figures; times in s of simulated time."""
 
     match: str
@@ -128,12 +128,12 @@ class Figures:
     sides: dict[Side, SideFigures]
     robots: list[RobotFigures]
     goals: list[Goal]
-    kicks: list[KickStory]
+    kicks: list[KickRecord]
     momentum_width: float
     """s of one value of `momentum`."""
     momentum: list[float]
     """From −1, all magenta's, to 1, all cyan's."""
-    evidence: Evidence
+    coverage: Coverage
     events: list[GameEvent]
     """All that the referee and the host told, as recorded."""
 
@@ -148,118 +148,124 @@ class Figures:
 def figures_of(
     *,
     setup: Setup,
-    cast: Cast,
+    lineup: Lineup,
     first: float,
     last: float,
-    evidence: Evidence,
-    control: Control,
-    motions: Motions,
-    carries: Carries,
-    kicks: list[KickStory],
-    calls: Calls,
+    coverage: Coverage,
+    control: BallControl,
+    motions: MotionTracker,
+    dribbles: DribbleTracker,
+    kicks: list[KickRecord],
+    calls: RefereeCalls,
     momentum: Momentum,
-) -> Figures:
+) -> MatchFigures:
     """Everything that was counted, laid out by side and robot; `first` and `last` are times of worlds, s."""
-    told = _Told(cast, evidence, control, motions.robots, carries.robots, kicks, calls)
-    duration, in_play = last - first, control.in_play if evidence.states else None
+    builder = _FigureBuilder(lineup, coverage, control, motions.robots, dribbles.robots, kicks, calls)
+    duration, in_play = last - first, control.in_play if coverage.states else None
     controlled = sum(control.seconds.values())
-    return Figures(
+    return MatchFigures(
         match=setup.match,
         start=first,
         duration=duration,
         in_play_s=in_play,
         in_play=in_play / duration if in_play is not None and duration > 0 else None,
-        free_s=max(0.0, in_play - controlled) if in_play is not None and told.knows_ball else None,
+        free_s=max(0.0, in_play - controlled) if in_play is not None and builder.knows_ball else None,
         drop_balls=sum(count for (side, _), count in calls.restarts.items() if side is None),
-        sides={side: told.side(side, setup.teams[side].name if side in setup.teams else side.value) for side in Side},
-        robots=[told.robot(name) for name in motions.robots],
+        sides={
+            side: builder.side(side, setup.teams[side].name if side in setup.teams else side.value) for side in Side
+        },
+        robots=[builder.robot(name) for name in motions.robots],
         goals=calls.goals,
         kicks=kicks,
         momentum_width=momentum.width,
         momentum=momentum.values(),
-        evidence=evidence,
+        coverage=coverage,
         events=calls.events,
     )
 
 
 @dataclass(frozen=True, slots=True)
-class _Told:
+class _FigureBuilder:
     """What was counted, told for a side or a robot."""
 
-    cast: Cast
-    evidence: Evidence
-    control: Control
-    motions: dict[str, Motion]
-    carries: dict[str, Dribbles]
-    kicks: list[KickStory]
-    calls: Calls
+    lineup: Lineup
+    coverage: Coverage
+    control: BallControl
+    motions: dict[str, MotionStats]
+    dribbles: dict[str, DribbleStats]
+    kicks: list[KickRecord]
+    calls: RefereeCalls
 
     @property
     def knows_ball(self) -> bool:
         """Somebody touched or held the ball while the game's state was known: who has it is recorded."""
-        return bool(self.evidence.states and (self.evidence.touched or self.evidence.held))
+        return bool(self.coverage.states and (self.coverage.touched or self.coverage.held))
 
     @property
     def knows_kicks(self) -> bool:
         """Touches are recorded, and with them kicks, if there were any."""
-        return bool(self.evidence.states and self.evidence.touched)
+        return bool(self.coverage.states and self.coverage.touched)
 
     def side(self, side: Side, team: str) -> SideFigures:
-        names = [name for name in self.motions if self.cast.sides.get(name) is side]
+        names = [name for name in self.motions if self.lineup.sides.get(name) is side]
         motions = [self.motions[name] for name in names]
-        dribbles = [self.carries[name] for name in names if name in self.carries]
-        played = sum(motion.in_play for motion in motions)
-        way = sum(motion.in_play_distance for motion in motions)
+        dribbles = [self.dribbles[name] for name in names if name in self.dribbles]
+        in_play = sum(motion.in_play for motion in motions)
+        in_play_distance = sum(motion.in_play_distance for motion in motions)
         controlled, score = sum(self.control.seconds.values()), self.calls.score
         return SideFigures(
             team=team,
             goals=getattr(score, side.value) if score is not None else None,
             possession=self.control.seconds[side] / controlled if controlled > 0 else None,
             possession_s=self.control.seconds[side] if self.knows_ball else None,
-            with_ball_s=sum(self.control.with_ball.get(name, 0.0) for name in names) if self.evidence.held else None,
-            kicks=self._kicks([story for story in self.kicks if story.side is side]),
+            with_ball_s=sum(self.control.with_ball.get(name, 0.0) for name in names) if self.coverage.held else None,
+            kicks=self._kicks([kick_record for kick_record in self.kicks if kick_record.side is side]),
             saves=self._saves(names),
-            dribbles=sum(one.count for one in dribbles) if self.evidence.held else None,
-            dribbled=sum(one.distance for one in dribbles) if self.evidence.held else None,
+            dribbles=sum(one.count for one in dribbles) if self.coverage.held else None,
+            dribbled=sum(one.distance for one in dribbles) if self.coverage.held else None,
             distance=sum(motion.distance for motion in motions),
-            in_play_distance=way,
+            in_play_distance=in_play_distance,
             top_speed=max((motion.top_speed for motion in motions), default=0.0),
-            mean_speed=way / played if played > 0 else None,
+            mean_speed=in_play_distance / in_play if in_play > 0 else None,
             fouls={rule: count for (of, rule), count in self.calls.fouls.items() if of is side},
             cards={card.value: self.calls.cards[side, card] for card in Card},
             restarts={phase.value: count for (of, phase), count in self.calls.restarts.items() if of is side},
         )
 
     def robot(self, name: str) -> RobotFigures:
-        motion, dribbles, side = self.motions[name], self.carries.get(name, Dribbles()), self.cast.sides.get(name)
-        held = bool(self.evidence.held)
+        motion, dribbles, side = (
+            self.motions[name],
+            self.dribbles.get(name, DribbleStats()),
+            self.lineup.sides.get(name),
+        )
+        held = bool(self.coverage.held)
         goals = sum(goal.robot == name and goal.side is side for goal in self.calls.goals)
         return RobotFigures(
             name=name,
             side=side.value if side is not None else None,
-            keeper=self.cast.is_keeper(name),
+            keeper=self.lineup.is_keeper(name),
             distance=motion.distance,
             in_play_distance=motion.in_play_distance,
             top_speed=motion.top_speed,
             mean_speed=motion.mean_speed if motion.in_play > 0 else None,
             with_ball_s=self.control.with_ball.get(name, 0.0) if held else None,
-            kicks=self._kicks([story for story in self.kicks if story.robot == name]),
+            kicks=self._kicks([kick_record for kick_record in self.kicks if kick_record.robot == name]),
             saves=self._saves([name]),
             dribbles=dribbles.count if held else None,
             dribbled=dribbles.distance if held else None,
             longest_dribble=dribbles.longest if held else None,
-            goals=goals if self.evidence.events else None,
+            goals=goals if self.coverage.events else None,
             fouls=self.calls.fouls_of[name],
             cards={card.value: self.calls.cards_of[name, card] for card in Card},
         )
 
-    def _kicks(self, stories: list[KickStory]) -> KickCounts | None:
-        return KickCounts.of(stories) if self.knows_kicks else None
+    def _kicks(self, kicks: list[KickRecord]) -> KickCounts | None:
+        return KickCounts.of(kicks) if self.knows_kicks else None
 
     def _saves(self, names: Sequence[str]) -> int | None:
         if not self.knows_kicks:
             return None
-        return sum(story.outcome is Outcome.SAVED and story.by in names for story in self.kicks)
+        return sum(kick_record.outcome is KickOutcome.SAVED and kick_record.by in names for kick_record in self.kicks)
 
 
 def _plain(value: Any) -> Any:

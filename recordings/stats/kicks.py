@@ -10,22 +10,22 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from recordings.stats.aim import Aim, aim
-from recordings.stats.moment import Moment
-from schemas.command import KickMode
+from recordings.stats.match_tick import MatchTick
 from schemas.game import EventKind
-from schemas.host import Setup
+from schemas.messages.command import KickMode
+from schemas.messages.host import Setup
+from schemas.messages.world import BallTruth
 from schemas.side import Side
-from schemas.world import BallTruth
 
-PASS_ROLL = 1.0
+MIN_PASS_M = 1.0
 """m between kick and receiver from which a pass counts; the league's own measure of a pass (reference 10)."""
 
 
-class Outcome(StrEnum):
+class KickOutcome(StrEnum):
     """What became of a kick."""
 
     RECEIVED = "received"
-    """A pass: a teammate was the next to touch the ball, at least `PASS_ROLL` away."""
+    """A pass: a teammate was the next to touch the ball, at least `MIN_PASS_M` away."""
     LOST = "lost"
     """A pass that failed: an opponent was next, or it left the pitch, or a teammate had it after less than that."""
     GOAL = "goal"
@@ -44,13 +44,13 @@ class Outcome(StrEnum):
     """Play was stopped, or the recording ended, before anything came of it: neither pass nor shot."""
 
 
-PASSES = frozenset({Outcome.RECEIVED, Outcome.LOST})
-SHOTS = frozenset({Outcome.GOAL, Outcome.SAVED, Outcome.BLOCKED, Outcome.MISSED})
-ON_GOAL = frozenset({Outcome.GOAL, Outcome.SAVED})
+PASSES = frozenset({KickOutcome.RECEIVED, KickOutcome.LOST})
+SHOTS = frozenset({KickOutcome.GOAL, KickOutcome.SAVED, KickOutcome.BLOCKED, KickOutcome.MISSED})
+ON_GOAL = frozenset({KickOutcome.GOAL, KickOutcome.SAVED})
 
 
 @dataclass(frozen=True, slots=True)
-class KickStory:
+class KickRecord:
     """One kick from beginning to end; m, m/s and s of simulated time, field frame."""
 
     time: float
@@ -64,7 +64,7 @@ class KickStory:
     y: float
     speed: float
     """Of the ball after the tick of the kick."""
-    outcome: Outcome
+    outcome: KickOutcome
     by: str | None = None
     """Who had the ball next."""
     ended: float = 0.0
@@ -75,7 +75,7 @@ class KickStory:
 class _Flight:
     """A kick that nothing has come of yet."""
 
-    moment: Moment
+    match_tick: MatchTick
     robot: str
     side: Side
     ball: BallTruth
@@ -88,49 +88,51 @@ class _Flight:
     """It kept its side's goal then."""
 
 
-class Kicks:
+class KickTracker:
     """Follows the ball from kick to kick."""
 
     def __init__(self, setup: Setup) -> None:
-        self.stories: list[KickStory] = []
+        self.kicks: list[KickRecord] = []
         self._setup = setup
         self._flight: _Flight | None = None
 
-    def take(self, moment: Moment) -> None:
+    def update(self, match_tick: MatchTick) -> None:
         """One more tick."""
-        if moment.before is None:
-            self._end(moment, Outcome.UNDECIDED)
-        kicker = moment.world.kicked if moment.running else None
-        touches = moment.world.touches
+        if match_tick.before is None:
+            self._end(match_tick, KickOutcome.UNDECIDED)
+        kicker = match_tick.world.kicked if match_tick.running else None
+        touches = match_tick.world.touches
         if self._flight is not None and self._flight.robot not in touches:
             self._flight.released = True
         since = touches.index(kicker) if kicker in touches else len(touches)
-        self._touched(moment, touches[:since] if kicker is not None else touches)
+        self._on_touch(match_tick, touches[:since] if kicker is not None else touches)
         if kicker is not None:
-            self._kicked(moment, kicker, touches[since + 1 :])
-        self._whistled(moment)
+            self._on_kick(match_tick, kicker, touches[since + 1 :])
+        self._on_referee(match_tick)
 
-    def end(self, moment: Moment) -> None:
-        """The recording ends with this moment."""
+    def end(self, match_tick: MatchTick) -> None:
+        """The recording ends with this tick."""
         flight = self._flight
-        self._end(moment, _stopped(flight) if flight is not None and flight.stopped_by else Outcome.UNDECIDED)
+        self._end(
+            match_tick, _stopped_outcome(flight) if flight is not None and flight.stopped_by else KickOutcome.UNDECIDED
+        )
 
-    def _kicked(self, moment: Moment, kicker: str, touched_after: Sequence[str]) -> None:
+    def _on_kick(self, match_tick: MatchTick, kicker: str, touched_after: Sequence[str]) -> None:
         """A kick begins, and ends what was before: the kicker was the next to touch it."""
-        self._touched(moment, [kicker])
+        self._on_touch(match_tick, [kicker])
         before = self._flight
         if before is not None:
-            self._end(moment, _stopped(before) if before.stopped_by is not None else Outcome.KEPT)
-        side = moment.side(kicker)
+            self._end(match_tick, _stopped_outcome(before) if before.stopped_by is not None else KickOutcome.KEPT)
+        side = match_tick.side(kicker)
         if side is None:
             return
-        ball = moment.world.ball
+        ball = match_tick.world.ball
         if touched_after:
-            ball = _as_kicked(moment, kicker)
-        self._flight = _Flight(moment, kicker, side, ball, aim(ball, moment.attack(side), self._setup))
-        self._touched(moment, touched_after)
+            ball = _ball_as_kicked(match_tick, kicker)
+        self._flight = _Flight(match_tick, kicker, side, ball, aim(ball, match_tick.attack(side), self._setup))
+        self._on_touch(match_tick, touched_after)
 
-    def _touched(self, moment: Moment, robots: Sequence[str]) -> None:
+    def _on_touch(self, match_tick: MatchTick, robots: Sequence[str]) -> None:
         flight = self._flight
         if flight is None:
             return
@@ -138,42 +140,44 @@ class Kicks:
             if robot == flight.stopped_by or (robot == flight.robot and not flight.released):
                 continue
             if flight.stopped_by is not None:
-                self._end(moment, _stopped(flight), flight.stopped_by)
+                self._end(match_tick, _stopped_outcome(flight), flight.stopped_by)
             elif robot == flight.robot:
-                self._end(moment, Outcome.KEPT)
-            elif moment.side(robot) is flight.side:
-                self._end(moment, _received(moment, flight), robot)
+                self._end(match_tick, KickOutcome.KEPT)
+            elif match_tick.side(robot) is flight.side:
+                self._end(match_tick, _pass_outcome(match_tick, flight), robot)
             elif flight.aim is Aim.ELSEWHERE:
-                self._end(moment, Outcome.LOST, robot)
+                self._end(match_tick, KickOutcome.LOST, robot)
             else:
-                flight.stopped_by, flight.stopped_by_keeper = robot, moment.keeps(robot)
+                flight.stopped_by, flight.stopped_by_keeper = robot, match_tick.keeps(robot)
                 continue
             return
 
-    def _whistled(self, moment: Moment) -> None:
+    def _on_referee(self, match_tick: MatchTick) -> None:
         """What the referee says ends a flight."""
         flight = self._flight
         if flight is None:
             return
-        goal = next((event for event in moment.events if event.kind is EventKind.GOAL), None)
+        goal = next((event for event in match_tick.events if event.kind is EventKind.GOAL), None)
         if goal is not None:
-            self._end(moment, Outcome.GOAL if goal.side is flight.side else Outcome.OWN_GOAL, flight.stopped_by)
-        elif moment.state is None or not moment.state.running:
-            out = any(event.kind is EventKind.BALL_OUT for event in moment.events)
+            self._end(
+                match_tick, KickOutcome.GOAL if goal.side is flight.side else KickOutcome.OWN_GOAL, flight.stopped_by
+            )
+        elif match_tick.state is None or not match_tick.state.running:
+            out = any(event.kind is EventKind.BALL_OUT for event in match_tick.events)
             if flight.stopped_by is not None:
-                self._end(moment, _stopped(flight), flight.stopped_by)
+                self._end(match_tick, _stopped_outcome(flight), flight.stopped_by)
             elif not out:
-                self._end(moment, Outcome.UNDECIDED)
+                self._end(match_tick, KickOutcome.UNDECIDED)
             else:
-                self._end(moment, Outcome.LOST if flight.aim is Aim.ELSEWHERE else Outcome.MISSED)
+                self._end(match_tick, KickOutcome.LOST if flight.aim is Aim.ELSEWHERE else KickOutcome.MISSED)
 
-    def _end(self, moment: Moment, outcome: Outcome, by: str | None = None) -> None:
+    def _end(self, match_tick: MatchTick, outcome: KickOutcome, by: str | None = None) -> None:
         flight, self._flight = self._flight, None
         if flight is None:
             return
-        began, ball = flight.moment, flight.ball
-        self.stories.append(
-            KickStory(
+        began, ball = flight.match_tick, flight.ball
+        self.kicks.append(
+            KickRecord(
                 time=began.world.time,
                 clock=began.world.clock,
                 robot=flight.robot,
@@ -184,30 +188,32 @@ class Kicks:
                 speed=math.hypot(ball.vx, ball.vy, ball.vz),
                 outcome=outcome,
                 by=by if by is not None else flight.stopped_by,
-                ended=moment.world.time,
+                ended=match_tick.world.time,
             )
         )
 
 
-def _as_kicked(moment: Moment, kicker: str) -> BallTruth:
+def _ball_as_kicked(match_tick: MatchTick, kicker: str) -> BallTruth:
     """The ball as it left the kicker, along its heading, where somebody else has touched it in the same tick."""
-    ball, robot = moment.world.ball, moment.world.robots.get(kicker)
+    ball, robot = match_tick.world.ball, match_tick.world.robots.get(kicker)
     if robot is None:
         return ball
-    speed = moment.kick.speed if moment.kick is not None else math.hypot(ball.vx, ball.vy)
+    speed = match_tick.kick.speed if match_tick.kick is not None else math.hypot(ball.vx, ball.vy)
     along = {"vx": speed * math.cos(robot.heading), "vy": speed * math.sin(robot.heading), "vz": 0.0}
     return ball.model_copy(update=along)
 
 
-def _received(moment: Moment, flight: _Flight) -> Outcome:
-    ball = moment.world.ball
+def _pass_outcome(match_tick: MatchTick, flight: _Flight) -> KickOutcome:
+    ball = match_tick.world.ball
     return (
-        Outcome.RECEIVED if math.dist((ball.x, ball.y), (flight.ball.x, flight.ball.y)) >= PASS_ROLL else Outcome.LOST
+        KickOutcome.RECEIVED
+        if math.dist((ball.x, ball.y), (flight.ball.x, flight.ball.y)) >= MIN_PASS_M
+        else KickOutcome.LOST
     )
 
 
-def _stopped(flight: _Flight) -> Outcome:
+def _stopped_outcome(flight: _Flight) -> KickOutcome:
     """What a shot was that an opponent touched and that did not go in."""
     if not flight.stopped_by_keeper:
-        return Outcome.BLOCKED
-    return Outcome.SAVED if flight.aim is Aim.AT_GOAL else Outcome.MISSED
+        return KickOutcome.BLOCKED
+    return KickOutcome.SAVED if flight.aim is Aim.AT_GOAL else KickOutcome.MISSED

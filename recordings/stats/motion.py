@@ -3,15 +3,15 @@
 import math
 from dataclasses import dataclass
 
-from recordings.stats.moment import Moment
-from schemas.world import RobotTruth
+from recordings.stats.match_tick import MatchTick
+from schemas.messages.world import RobotTruth
 
-FASTEST = 12.0
+MAX_SPEED = 12.0
 """m/s; ours: no robot of the league drives half as fast. Whatever takes a longer step was set down there."""
 
 
 @dataclass(slots=True)
-class Motion:
+class MotionStats:
     """One robot; m, s and m/s."""
 
     distance: float = 0.0
@@ -28,26 +28,26 @@ class Motion:
         return self.in_play_distance / self.in_play if self.in_play > 0 else 0.0
 
 
-class Motions:
+class MotionTracker:
     """All robots, by name, in the order in which they came."""
 
     def __init__(self) -> None:
-        self.robots: dict[str, Motion] = {}
+        self.robots: dict[str, MotionStats] = {}
 
-    def take(self, moment: Moment) -> None:
+    def update(self, match_tick: MatchTick) -> None:
         """One more tick."""
-        before, dt, in_play = moment.before, moment.dt, moment.in_play
-        for name, robot in moment.world.robots.items():
+        before, dt, in_play = match_tick.before, match_tick.dt, match_tick.in_play
+        for name, robot in match_tick.world.robots.items():
             motion = self.robots.get(name)
             if motion is None:
-                motion = self.robots[name] = Motion()
+                motion = self.robots[name] = MotionStats()
             if robot.off_field is not None:
                 continue
             motion.top_speed = max(motion.top_speed, math.hypot(robot.vx, robot.vy))
             last = before.robots.get(name) if before is not None else None
             if last is None or last.off_field is not None:
                 continue
-            step = 0.0 if name in moment.placed else _step(last, robot, dt)
+            step = 0.0 if name in match_tick.placed else _step(last, robot, dt)
             motion.distance += step
             if in_play:
                 motion.in_play += dt
@@ -56,4 +56,4 @@ class Motions:
 
 def _step(before: RobotTruth, now: RobotTruth, dt: float) -> float:
     step = math.hypot(now.x - before.x, now.y - before.y)
-    return step if step <= FASTEST * dt else 0.0
+    return step if step <= MAX_SPEED * dt else 0.0

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from recordings.stats.figures import Figures, KickCounts, RobotFigures, SideFigures
+from recordings.stats.figures import KickCounts, MatchFigures, RobotFigures, SideFigures
 from schemas.side import Side
 
 UNKNOWN = "–"
@@ -11,7 +11,7 @@ UNKNOWN = "–"
 Row = tuple[str, ...]
 
 
-def headline(figures: Figures) -> str:
+def headline(figures: MatchFigures) -> str:
     """Teams, score, and how long the ball was in play."""
     cyan, magenta = figures.sides[Side.CYAN], figures.sides[Side.MAGENTA]
     played = f"{figures.duration:.1f} s recorded"
@@ -20,9 +20,9 @@ def headline(figures: Figures) -> str:
     return f"{cyan.team} {_whole(cyan.goals)} : {_whole(magenta.goals)} {magenta.team}   {played}"
 
 
-def side_rows(figures: Figures) -> list[Row]:
+def side_rows(figures: MatchFigures) -> list[Row]:
     """What is measured, cyan's, magenta's."""
-    rows = [(name, *(told(figures.sides[side]) for side in Side)) for name, told in _SIDE]
+    rows = [(name, *(format_value(figures.sides[side]) for side in Side)) for name, format_value in _SIDE]
     for kind in _COUNTED:
         counts = [getattr(figures.sides[side], kind) for side in Side]
         for name in dict.fromkeys(name for count in counts for name in count):
@@ -36,23 +36,23 @@ ROBOT_HEADINGS = ("robot", "m", "top m/s", "mean m/s", "ball s", "passes", "shot
 """Of the table that `robot_rows` gives."""
 
 
-def robot_rows(figures: Figures) -> list[Row]:
+def robot_rows(figures: MatchFigures) -> list[Row]:
     """One row for each robot, below `ROBOT_HEADINGS`."""
     return [_robot(robot) for robot in figures.robots]
 
 
-def remarks(figures: Figures) -> list[str]:
+def remarks(figures: MatchFigures) -> list[str]:
     """What the figures do not rest on, in plain words."""
-    evidence = figures.evidence
-    said = [
-        (not evidence.states, "no game states recorded: ball in play, possession, passes and shots are not known"),
-        (not evidence.touched, "no touches recorded: passes, shots and saves are not known"),
-        (not evidence.held, "nobody holds the ball in it: time with the ball and dribbles are not known"),
-        (not evidence.events, "no events recorded: goals by robot, fouls and cards are not known"),
-        (bool(evidence.missing), f"{evidence.missing:.1f} s were not recorded and are in no figure but the duration"),
-        (bool(evidence.unreadable), f"{evidence.unreadable} messages could not be read and are in no figure"),
+    coverage = figures.coverage
+    remarks_ = [
+        (not coverage.states, "no game states recorded: ball in play, possession, passes and shots are not known"),
+        (not coverage.touched, "no touches recorded: passes, shots and saves are not known"),
+        (not coverage.held, "nobody holds the ball in it: time with the ball and dribbles are not known"),
+        (not coverage.events, "no events recorded: goals by robot, fouls and cards are not known"),
+        (bool(coverage.missing), f"{coverage.missing:.1f} s were not recorded and are in no figure but the duration"),
+        (bool(coverage.unreadable), f"{coverage.unreadable} messages could not be read and are in no figure"),
     ]
-    return [words for holds, words in said if holds]
+    return [text for holds, text in remarks_ if holds]
 
 
 def _percent(share: float | None) -> str:

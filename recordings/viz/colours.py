@@ -28,11 +28,11 @@ def _of(code: str) -> Colour:
 ROBOT = {Side.CYAN: _of("#8fe3f7"), Side.MAGENTA: _of("#8a0f5c")}
 MARK = {Side.CYAN: _of("#0a2f3a"), Side.MAGENTA: _of("#ffd9ef")}
 """What is drawn on a robot: dark on light, light on dark."""
-STRANGER, STRANGER_MARK = _of("#9a9a9a"), _of("#202020")
+UNKNOWN_ROBOT, UNKNOWN_ROBOT_MARK = _of("#9a9a9a"), _of("#202020")
 """A robot that no team has."""
 BALL = _of("#ffb000")
 PITCH, SURROUND, LINE = _of("#4a9468"), _of("#35704e"), _of("#ffffff")
 GOAL, NET, BOUNDARY, OBSTACLE = _of("#ffffff"), _of("#e6ece8"), _of("#1d3529"), _of("#5d6470")
 INK = _of("#ffffff")
-WORDS = {Side.CYAN: ROBOT[Side.CYAN], Side.MAGENTA: _of("#f59bd0")}
+TEAM_TEXT = {Side.CYAN: ROBOT[Side.CYAN], Side.MAGENTA: _of("#f59bd0")}
 """A team's name on a dark ground."""

@@ -3,20 +3,20 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from recordings.viz.drawn_world import DrawnWorld, decode_world
 from recordings.viz.field import field_entities, obstacle_entity
 from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE
-from recordings.viz.game import board, log_entry
-from recordings.viz.look import Look, look_at
-from recordings.viz.primitives import Values, body, scene
-from recordings.viz.robots import Player, ball_entities, robot_entity
+from recordings.viz.game import log_entry, scoreboard
+from recordings.viz.primitives import Values, encode_entity, scene_update
+from recordings.viz.robots import RobotAppearance, ball_entities, robot_entity
 from recordings.viz.transforms import Transforms
-from schemas.bus.contract import Received
+from schemas.bus.contract import ReceivedMessage
+from schemas.config.profile import STANDARD
 from schemas.game import GameEvent, GameState
-from schemas.host import Applied, Setup
 from schemas.message import BadMessageError
-from schemas.profile import STANDARD
+from schemas.messages.host import Applied, Setup
+from schemas.messages.world import ObstacleTruth
 from schemas.topics import APPLIED, EVENT, STATE, WORLD
-from schemas.world import ObstacleTruth
 
 TF, FIELD, ROBOTS, BALL, GAME, EVENTS = "/tf", "/viz/field", "/viz/robots", "/viz/ball", "/viz/game", "/viz/events"
 SCHEMAS = {
@@ -35,25 +35,25 @@ REPEAT_NS = 5_000_000_000
 READS = frozenset({WORLD.key, STATE.key, EVENT.key, APPLIED.key})
 """Keys of the messages that it is made of."""
 _ROSTER = b'"robots":['
-_NO_MESSAGE = (BadMessageError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
+_INVALID_PAYLOAD = (BadMessageError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 """What comes of payloads that are no message: nothing is drawn of these."""
 
 
-class Drawn(NamedTuple):
+class VizMessage(NamedTuple):
     """One message for viewers."""
 
     topic: str
     payload: bytes
 
 
-class _Scene(NamedTuple):
+class _Layer(NamedTuple):
     """What stands still, as it was drawn."""
 
-    look: Any
+    appearance: Any
     """What decides how it looks."""
-    bodies: dict[str, bytes]
+    entities: dict[str, bytes]
     """Entity → its bytes."""
-    gone: list[str]
+    deleted: list[str]
     """What was there before, and is not any more."""
 
 
@@ -65,94 +65,98 @@ class Drawing:
         self._transforms = Transforms()
         self._tf_ns: int | None = None
         self._drawn_ns: int | None = None
-        self._scenes: dict[str, _Scene] = {}
+        self._layers: dict[str, _Layer] = {}
         """Topic → what was drawn there last."""
-        self._cast = {
-            robot: Player(robot, side, team.types.get(robot, STANDARD), team.goalkeeper and robot == team.robots[0])
+        self._appearances = {
+            robot: RobotAppearance(
+                robot, side, team.types.get(robot, STANDARD), team.goalkeeper and robot == team.robots[0]
+            )
             for side, team in setup.teams.items()
             for robot in team.robots
         }
-        self._takers: dict[str, Callable[[Received, int], list[Drawn]]] = {
+        self._handlers: dict[str, Callable[[ReceivedMessage, int], list[VizMessage]]] = {
             WORLD.key: self._world,
             STATE.key: self._state,
             EVENT.key: self._event,
             APPLIED.key: self._applied,
         }
 
-    def take(self, received: Received, log_ns: int) -> list[Drawn]:
+    def draw(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
         """What a message brings for viewers, at its own log time in ns; of most there is nothing."""
-        taker = self._takers.get(received.key)
-        if taker is None:
+        handler = self._handlers.get(received.key)
+        if handler is None:
             return []
         try:
-            return taker(received, log_ns)
-        except _NO_MESSAGE:
+            return handler(received, log_ns)
+        except _INVALID_PAYLOAD:
             return []
 
-    def _world(self, received: Received, log_ns: int) -> list[Drawn]:
-        world = look_at(received.payload)
+    def _world(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
+        world = decode_world(received.payload)
         out = []
         if self._tf_ns is None or log_ns - self._tf_ns >= TF_STEP_NS:
-            out.append(Drawn(TF, self._transforms.encode(world, log_ns)))
+            out.append(VizMessage(TF, self._transforms.encode(world, log_ns)))
             self._tf_ns = log_ns
-        again = self._drawn_ns is None or log_ns - self._drawn_ns >= REPEAT_NS
-        if again:
+        repeat = self._drawn_ns is None or log_ns - self._drawn_ns >= REPEAT_NS
+        if repeat:
             self._drawn_ns = log_ns
-        return out + self._still(world, log_ns, again=again)
+        return out + self._static_layers(world, log_ns, repeat=repeat)
 
-    def _still(self, world: Look, log_ns: int, *, again: bool) -> list[Drawn]:
+    def _static_layers(self, world: DrawnWorld, log_ns: int, *, repeat: bool) -> list[VizMessage]:
         """What moves with its frame alone, where it looks otherwise than before, or is to be said again.
 
         A scene needs none before it: what was there once and is gone is taken away each time.
         """
         out = []
-        for topic, (look_of, entities_of) in _STILL.items():
-            look, still = look_of(world), self._scenes.get(topic)
-            if still is None or still.look != look:
-                bodies = {entity["id"]: body(entity) for entity in entities_of(self, look)}
-                gone = (
-                    [name for name in (*still.bodies, *still.gone) if name not in bodies] if still is not None else []
+        for topic, (appearance_of, entities_of) in _STATIC_LAYERS.items():
+            appearance, layer = appearance_of(world), self._layers.get(topic)
+            if layer is None or layer.appearance != appearance:
+                entities = {entity["id"]: encode_entity(entity) for entity in entities_of(self, appearance)}
+                deleted = (
+                    [name for name in (*layer.entities, *layer.deleted) if name not in entities]
+                    if layer is not None
+                    else []
                 )
-                still = self._scenes[topic] = _Scene(look, bodies, gone)
-            elif not again:
+                layer = self._layers[topic] = _Layer(appearance, entities, deleted)
+            elif not repeat:
                 continue
-            out.append(Drawn(topic, scene(log_ns, still.bodies.values(), still.gone)))
+            out.append(VizMessage(topic, scene_update(log_ns, layer.entities.values(), layer.deleted)))
         return out
 
     def _field(self, obstacles: dict[str, Any]) -> list[Values]:
-        bodies = [obstacle_entity(name, ObstacleTruth.model_validate(one)) for name, one in obstacles.items()]
-        return [*field_entities(self._setup.pitch), *bodies]
+        entities = [obstacle_entity(name, ObstacleTruth.model_validate(one)) for name, one in obstacles.items()]
+        return [*field_entities(self._setup.pitch), *entities]
 
-    def _robots(self, look: list[tuple[str, str | None]]) -> list[Values]:
-        return [robot_entity(self._player(name)._replace(off_field=why), self._setup) for name, why in look]
+    def _robots(self, appearance: list[tuple[str, str | None]]) -> list[Values]:
+        return [robot_entity(self._appearance(name)._replace(off_field=why), self._setup) for name, why in appearance]
 
     def _ball(self, possession: str | None) -> list[Values]:
-        return ball_entities(self._setup, self._player(possession) if possession is not None else None)
+        return ball_entities(self._setup, self._appearance(possession) if possession is not None else None)
 
-    def _player(self, name: str) -> Player:
-        return self._cast.get(name) or Player(name, None)
+    def _appearance(self, name: str) -> RobotAppearance:
+        return self._appearances.get(name) or RobotAppearance(name, None)
 
-    def _state(self, received: Received, log_ns: int) -> list[Drawn]:
+    def _state(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
         state: GameState = received.message()
-        return [Drawn(GAME, board(state, self._setup, log_ns))]
+        return [VizMessage(GAME, scoreboard(state, self._setup, log_ns))]
 
-    def _event(self, received: Received, log_ns: int) -> list[Drawn]:
+    def _event(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
         event: GameEvent = received.message()
-        return [Drawn(EVENTS, log_entry(event, log_ns))]
+        return [VizMessage(EVENTS, log_entry(event, log_ns))]
 
-    def _applied(self, received: Received, log_ns: int) -> list[Drawn]:
+    def _applied(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
         """Who takes part may have changed; the next world shows it."""
         del log_ns
         if _ROSTER in received.payload:
             applied: Applied = received.message()
-            for one in applied.robots or ():
-                self._cast[one.name] = Player(one.name, one.side, one.type, one.keeper)
-            if ROBOTS in self._scenes:
-                self._scenes[ROBOTS] = self._scenes[ROBOTS]._replace(look=None)
+            for entry in applied.robots or ():
+                self._appearances[entry.name] = RobotAppearance(entry.name, entry.side, entry.type, entry.keeper)
+            if ROBOTS in self._layers:
+                self._layers[ROBOTS] = self._layers[ROBOTS]._replace(appearance=None)
         return []
 
 
-_STILL: dict[str, tuple[Callable[[Look], Any], Callable[[Drawing, Any], list[Values]]]] = {
+_STATIC_LAYERS: dict[str, tuple[Callable[[DrawnWorld], Any], Callable[[Drawing, Any], list[Values]]]] = {
     FIELD: (lambda world: world.obstacles, Drawing._field),
     ROBOTS: (
         lambda world: [(name, robot.off_field) for name, robot in world.robots.items()],

@@ -5,11 +5,11 @@ from collections.abc import Iterator
 from itertools import product
 
 from recordings.viz.colours import BOUNDARY, GOAL, LINE, NET, OBSTACLE, PITCH, SURROUND
-from recordings.viz.primitives import Place, Values, cube, cylinder, entity, line
+from recordings.viz.primitives import Values, Vector3, cube, cylinder, entity, line
 from recordings.viz.transforms import MAP
-from schemas.obstacle import Shape
-from schemas.sections import Field
-from schemas.world import ObstacleTruth
+from schemas.config.obstacle import Shape
+from schemas.config.sections import Pitch
+from schemas.messages.world import ObstacleTruth
 
 LINE_Z = 0.012
 """m above the ground: so far apart, layers do not flicker in each other from 50 m away."""
@@ -17,12 +17,12 @@ _GROUND_Z, _SURROUND_Z = 0.0, -0.02
 _SLAB = 0.02
 _MARK_RADIUS = 0.05
 _ARC_STEP = math.radians(6.0)
-_BOARD = 0.15
+_BOARD_HEIGHT = 0.15
 """m of the boundary that are shown; a net that hangs above it would hide the pitch."""
-_THIN = 0.02
+_THICKNESS = 0.02
 
 
-def field_entities(pitch: Field) -> list[Values]:
+def field_entities(pitch: Pitch) -> list[Values]:
     """The pitch, in the field frame."""
     return [
         entity("ground", MAP, cubes=list(_ground(pitch))),
@@ -34,20 +34,20 @@ def field_entities(pitch: Field) -> list[Values]:
 
 def obstacle_entity(name: str, obstacle: ObstacleTruth) -> Values:
     """A body that nothing moves."""
-    place, called = (obstacle.x, obstacle.y, obstacle.height / 2), f"obstacle {name}"
+    position, label = (obstacle.x, obstacle.y, obstacle.height / 2), f"obstacle {name}"
     if obstacle.shape is Shape.CYLINDER:
-        return entity(called, MAP, cylinders=[cylinder(place, obstacle.radius, obstacle.height, OBSTACLE)])
+        return entity(label, MAP, cylinders=[cylinder(position, obstacle.radius, obstacle.height, OBSTACLE)])
     size = (obstacle.size_x, obstacle.size_y, obstacle.height)
-    return entity(called, MAP, cubes=[cube(place, size, OBSTACLE, obstacle.heading)])
+    return entity(label, MAP, cubes=[cube(position, size, OBSTACLE, obstacle.heading)])
 
 
-def _ground(pitch: Field) -> Iterator[Values]:
+def _ground(pitch: Pitch) -> Iterator[Values]:
     around = 2 * pitch.border
     yield cube((0, 0, _SURROUND_Z - _SLAB / 2), (pitch.length + around, pitch.width + around, _SLAB), SURROUND)
     yield cube((0, 0, _GROUND_Z - _SLAB / 2), (pitch.length, pitch.width, _SLAB), PITCH)
 
 
-def _lines(pitch: Field) -> Iterator[Values]:
+def _lines(pitch: Pitch) -> Iterator[Values]:
     """Each line in the middle of its paint: it belongs to the area that it bounds."""
     half = pitch.line_width / 2
     x, y = pitch.goal_line - half, pitch.touch_line - half
@@ -67,7 +67,7 @@ def _lines(pitch: Field) -> Iterator[Values]:
         yield _line(pitch, list(_arc(*corner, pitch.corner_arc_radius - half, begin, begin + math.pi / 2)))
 
 
-def _line(pitch: Field, points: list[tuple[float, float]], *, closed: bool = False) -> Values:
+def _line(pitch: Pitch, points: list[tuple[float, float]], *, closed: bool = False) -> Values:
     return line([(x, y, LINE_Z) for x, y in points], pitch.line_width, LINE, closed=closed)
 
 
@@ -78,12 +78,12 @@ def _arc(x: float, y: float, radius: float, begin: float, end: float) -> Iterato
         yield x + radius * math.cos(angle), y + radius * math.sin(angle)
 
 
-def _marks(pitch: Field) -> Iterator[Values]:
+def _marks(pitch: Pitch) -> Iterator[Values]:
     for x, y in pitch.restart_spots:
         yield cylinder((x, y, LINE_Z / 2), _MARK_RADIUS, LINE_Z, LINE)
 
 
-def _goal(pitch: Field, sign: int) -> Iterator[Values]:
+def _goal(pitch: Pitch, sign: int) -> Iterator[Values]:
     """Posts and bar behind the goal line, and the net box behind them."""
     post, depth, height = pitch.post, pitch.goal_depth, pitch.goal_height
     front = sign * (pitch.goal_line + post / 2)
@@ -93,17 +93,17 @@ def _goal(pitch: Field, sign: int) -> Iterator[Values]:
     yield cube((front, 0.0, height + post / 2), (post, pitch.goal_width + 2 * post, post), GOAL)
     back, middle = sign * (pitch.goal_line + depth), sign * (pitch.goal_line + depth / 2)
     net = NET.faded(0.35)
-    yield cube((back, 0.0, height / 2), (_THIN, pitch.goal_width, height), net)
-    yield cube((middle, 0.0, height), (depth, pitch.goal_width, _THIN), net)
+    yield cube((back, 0.0, height / 2), (_THICKNESS, pitch.goal_width, height), net)
+    yield cube((middle, 0.0, height), (depth, pitch.goal_width, _THICKNESS), net)
     for y in (-side, side):
-        yield cube((middle, y, height / 2), (depth, _THIN, height), net)
+        yield cube((middle, y, height / 2), (depth, _THICKNESS, height), net)
 
 
-def _boundary(pitch: Field) -> Iterator[Values]:
-    height = min(pitch.boundary_height, _BOARD)
+def _boundary(pitch: Pitch) -> Iterator[Values]:
+    height = min(pitch.boundary_height, _BOARD_HEIGHT)
     x, y = pitch.goal_line + pitch.border, pitch.touch_line + pitch.border
-    along: Place = (2 * x, _THIN, height)
-    across: Place = (_THIN, 2 * y, height)
+    along: Vector3 = (2 * x, _THICKNESS, height)
+    across: Vector3 = (_THICKNESS, 2 * y, height)
     for sign in (1, -1):
         yield cube((0.0, sign * y, height / 2), along, BOUNDARY)
         yield cube((sign * x, 0.0, height / 2), across, BOUNDARY)

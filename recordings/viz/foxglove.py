@@ -10,7 +10,17 @@ from enum import IntEnum
 from functools import cache
 from typing import Any
 
-from recordings.exchange.protobuf.wire import DOUBLE, FIXED32, VARINT, content, double, fixed32, tag, varint, whole
+from recordings.viz.protobuf_wire import (
+    DOUBLE,
+    FIXED32,
+    VARINT,
+    content,
+    double,
+    fixed32,
+    tag,
+    varint,
+    whole,
+)
 
 _MESSAGES: dict[str, tuple[str, ...]] = {
     "google.protobuf.Timestamp": ("int64 seconds", "int32 nanos"),
@@ -232,7 +242,7 @@ def _enum_descriptor(full: str) -> bytes:
     return content(1, full.rpartition(".")[2]) + b"".join(content(2, value) for value in values)
 
 
-def stamp(ns: int) -> bytes:
+def timestamp(ns: int) -> bytes:
     """A `google.protobuf.Timestamp`, or a `Duration`, of so many ns."""
     seconds, nanos = divmod(ns, 1_000_000_000)
     out = tag(1, VARINT) + varint(seconds) if seconds else b""

@@ -1,14 +1,14 @@
 """The game for viewers: a board beside the pitch with teams, score and clock, and a log of what happened."""
 
-from recordings.viz.colours import INK, WORDS
-from recordings.viz.foxglove import LOG, encode, stamp
-from recordings.viz.primitives import Values, body, entity, scene, text
+from recordings.viz.colours import INK, TEAM_TEXT
+from recordings.viz.foxglove import LOG, encode, timestamp
+from recordings.viz.primitives import Values, encode_entity, entity, scene_update, text
 from recordings.viz.transforms import MAP
 from schemas.game import EventKind, GameEvent, GameState
-from schemas.host import Setup
+from schemas.messages.host import Setup
 from schemas.side import Side
 
-_BOARD_BESIDE, _BOARD_Z = 0.8, 0.8
+_BOARD_GAP, _BOARD_Z = 0.8, 0.8
 """m from the boundary, and above the ground."""
 _ROWS = 1.3
 """m from one row to the next, backward and upward: they stand apart from the side and from above."""
@@ -25,24 +25,24 @@ _LEVELS = {
 """How grave an event is; the others are `INFO`."""
 
 
-def board(state: GameState, setup: Setup, log_ns: int) -> bytes:
+def scoreboard(state: GameState, setup: Setup, log_ns: int) -> bytes:
     """A `foxglove.SceneUpdate`: each team's name stands at the half that it defends."""
-    y, z = setup.pitch.touch_line + setup.pitch.border + _BOARD_BESIDE, _BOARD_Z
+    y, z = setup.pitch.touch_line + setup.pitch.border + _BOARD_GAP, _BOARD_Z
     texts = [
-        text((0.0, y, z), _standing(state), _SMALL, INK),
-        text((0.0, y + _ROWS, z + _ROWS), _score(state), _LARGE, INK),
+        text((0.0, y, z), _phase_text(state), _SMALL, INK),
+        text((0.0, y + _ROWS, z + _ROWS), _score_text(state), _LARGE, INK),
     ]
     for side in Side:
         attacks = state.cyan_attacks if side is Side.CYAN else -state.cyan_attacks
         x = -attacks * setup.pitch.length / 4
-        texts.append(text((x, y + _ROWS, z + _ROWS), setup.teams[side].name, _LARGE, WORDS[side]))
-    return scene(log_ns, [body(entity("board", MAP, texts=texts))])
+        texts.append(text((x, y + _ROWS, z + _ROWS), setup.teams[side].name, _LARGE, TEAM_TEXT[side]))
+    return scene_update(log_ns, [encode_entity(entity("board", MAP, texts=texts))])
 
 
 def log_entry(event: GameEvent, log_ns: int) -> bytes:
     """A `foxglove.Log` of an event."""
     fields: Values = {
-        "timestamp": stamp(log_ns),
+        "timestamp": timestamp(log_ns),
         "level": _LEVELS.get(event.kind, "INFO"),
         "message": event.text,
         "name": event.kind.value,
@@ -52,13 +52,13 @@ def log_entry(event: GameEvent, log_ns: int) -> bytes:
     return encode(LOG, fields)
 
 
-def _score(state: GameState) -> str:
+def _score_text(state: GameState) -> str:
     """In the order in which the teams' names stand."""
     sides = (Side.CYAN, Side.MAGENTA) if state.cyan_attacks > 0 else (Side.MAGENTA, Side.CYAN)
     return " : ".join(str(state.score.of(side)) for side in sides)
 
 
-def _standing(state: GameState) -> str:
+def _phase_text(state: GameState) -> str:
     minutes, seconds = divmod(int(state.clock), 60)
     of = f" {state.side.value}" if state.side is not None else ""
     return f"{minutes}:{seconds:02d}  {state.phase.value.replace('_', ' ')}{of}"

@@ -6,9 +6,9 @@ Written some fifty times a second of simulated time, so the bytes are put togeth
 import struct
 from math import cos, sin
 
-from recordings.exchange.protobuf.wire import BYTES, content, tag, varint
-from recordings.viz.foxglove import stamp
-from recordings.viz.look import Look
+from recordings.viz.drawn_world import DrawnWorld
+from recordings.viz.foxglove import timestamp
+from recordings.viz.protobuf_wire import BYTES, content, tag, varint
 
 MAP = "map"
 """The field frame."""
@@ -38,9 +38,9 @@ class Transforms:
         self._begins: dict[int, list[tuple[bytes, bytes]]] = {}
         """Length of the stamp → frame by frame, what stands before the stamp of a transform, and behind it."""
 
-    def encode(self, world: Look, log_ns: int) -> bytes:
+    def encode(self, world: DrawnWorld, log_ns: int) -> bytes:
         """The transforms of a world."""
-        now = content(1, stamp(log_ns))
+        now = content(1, timestamp(log_ns))
         robots, ball = world.robots, world.ball
         numbers: list[float] = []
         for robot in robots.values():

@@ -4,11 +4,11 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from robot_agent.bodies import Body, Limits
+from robot_agent.bodies import Body, DriveLimits
 from robot_agent.skills.go_to import drive, velocity_to
 from robot_agent.skills.turn_to import turn_rate
-from schemas.command import Drive
 from schemas.frames import wrap
+from schemas.messages.command import Drive
 
 LOOK_AHEAD = 2.0
 """m; what is farther away than this beyond its own circle is not in the way yet."""
@@ -40,14 +40,14 @@ def circles_near(me: Body, points: Iterable[tuple[float, float]], radius: float)
     return [Circle(x, y, radius) for x, y in points if -near < x - x0 < near and -near < y - y0 < near]
 
 
-def go_around(me: Body, x: float, y: float, heading: float, blocked: Sequence[Circle], limits: Limits) -> Drive:
+def go_around(me: Body, x: float, y: float, heading: float, blocked: Sequence[Circle], limits: DriveLimits) -> Drive:
     """Drive to (x, y) around the circles and stop there."""
     vx, vy = velocity_to(me, x, y, limits)
     vx, vy = steer(me, vx, vy, math.hypot(x - me.x, y - me.y), blocked)
     return drive(me, vx, vy, turn_rate(me, heading, limits), limits)
 
 
-def bend_speed(away: float, radius: float, limits: Limits) -> float:
+def bend_speed(away: float, radius: float, limits: DriveLimits) -> float:
     """How fast a robot may be, m/s, that is `away` m from a circle's centre and is to follow its edge.
 
     At the edge as fast as part of its acceleration bends its way; before it, as it can brake down to that.

@@ -2,11 +2,11 @@
 
 import math
 
-from robot_agent.bodies import Body, Limits
+from robot_agent.bodies import Body, DriveLimits
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.turn_to import turn_rate
-from schemas.command import MAX_DRIVE, MAX_TURN, Drive
-from schemas.light import light_form
+from schemas.messages.command import MAX_DRIVE, MAX_TURN, Drive
+from schemas.messages.light import light_form
 
 LAG = 0.12
 """s; how late the velocity follows, with margin against the noise of the position."""
@@ -17,13 +17,13 @@ _SHARE = 0.8
 _LightDrive = light_form(Drive)
 
 
-def go_to(me: Body, x: float, y: float, heading: float, limits: Limits) -> Drive:
+def go_to(me: Body, x: float, y: float, heading: float, limits: DriveLimits) -> Drive:
     """Drive straight to (x, y) and stop there."""
     vx, vy = velocity_to(me, x, y, limits)
     return drive(me, vx, vy, turn_rate(me, heading, limits), limits)
 
 
-def velocity_to(me: Body, x: float, y: float, limits: Limits) -> tuple[float, float]:
+def velocity_to(me: Body, x: float, y: float, limits: DriveLimits) -> tuple[float, float]:
     """The velocity in the team frame that ends at (x, y)."""
     dx, dy = x - me.x, y - me.y
     distance = math.hypot(dx, dy)
@@ -33,7 +33,7 @@ def velocity_to(me: Body, x: float, y: float, limits: Limits) -> tuple[float, fl
     return speed * dx / distance, speed * dy / distance
 
 
-def drive(me: Body, vx: float, vy: float, omega: float, limits: Limits) -> Drive:
+def drive(me: Body, vx: float, vy: float, omega: float, limits: DriveLimits) -> Drive:
     """A team-frame velocity as a demand in the body frame, for the heading at which it will act.
 
     Keeps the direction and scales the length when (vx, vy) is faster than the robot. The demand is a light `Drive`: it

@@ -4,10 +4,10 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from robot_agent.bodies import Ball, Body, Limits
+from robot_agent.bodies import Ball, Body, DriveLimits
 from robot_agent.skills.braking import travel_time
 
-MOMENTS = (0.0, 0.25, 0.5, 0.8, 1.2, 1.7, 2.4, 3.5)
+TIMES = (0.0, 0.25, 0.5, 0.8, 1.2, 1.7, 2.4, 3.5)
 """s from now at which the ball's way is looked at; between them the meeting is interpolated."""
 _SURELY = 1e-6
 """m; more than rounding can change."""
@@ -24,11 +24,11 @@ class Meeting(NamedTuple):
 def way_of(ball: Ball, deceleration: float) -> list[Ball]:
     """The ball at each of the moments."""
     if ball.vx == 0.0 == ball.vy:
-        return [ball] * len(MOMENTS)
-    return [ball.after(moment, deceleration) for moment in MOMENTS]
+        return [ball] * len(TIMES)
+    return [ball.after(time, deceleration) for time in TIMES]
 
 
-def meet(me: Body, way: Sequence[Ball], reach: float, limits: Limits) -> Meeting:
+def meet(me: Body, way: Sequence[Ball], reach: float, limits: DriveLimits) -> Meeting:
     """The first point of the ball's way that the robot reaches no later than the ball.
 
     `reach` is how close to the ball the robot's centre has to come, in m.
@@ -36,47 +36,47 @@ def meet(me: Body, way: Sequence[Ball], reach: float, limits: Limits) -> Meeting
     return _meet(me, way, reach, limits, _last_too_early(me, way, reach, limits, math.inf))
 
 
-def meeting_time(me: Body, way: Sequence[Ball], reach: float, limits: Limits, by: float) -> float:
+def meeting_time(me: Body, way: Sequence[Ball], reach: float, limits: DriveLimits, by: float) -> float:
     """When the robot meets the ball, s from now; of a meeting later than `by`, only some time after `by`."""
     begin = _last_too_early(me, way, reach, limits, by)
-    return MOMENTS[begin] if MOMENTS[begin] > by else _meet(me, way, reach, limits, begin).time
+    return TIMES[begin] if TIMES[begin] > by else _meet(me, way, reach, limits, begin).time
 
 
-def _meet(me: Body, way: Sequence[Ball], reach: float, limits: Limits, begin: int) -> Meeting:
+def _meet(me: Body, way: Sequence[Ball], reach: float, limits: DriveLimits, begin: int) -> Meeting:
     """The meeting, looked for from one of the moments at which it is still too early for it."""
     early = spare = 0.0
     before = way[begin]
-    for moment, ball in zip(MOMENTS[begin:], way[begin:], strict=True):
-        late = _time_to(me, ball, reach, limits) - moment
+    for time, ball in zip(TIMES[begin:], way[begin:], strict=True):
+        late = _time_to(me, ball, reach, limits) - time
         if late <= 0.0:
             part = spare / (spare - late) if spare - late > 1e-9 else 0.0
             return Meeting(
                 before.x + part * (ball.x - before.x),
                 before.y + part * (ball.y - before.y),
-                early + part * (moment - early),
+                early + part * (time - early),
             )
-        early, spare, before = moment, late, ball
+        early, spare, before = time, late, ball
     return Meeting(before.x, before.y, early + spare)
 
 
-def _last_too_early(me: Body, way: Sequence[Ball], reach: float, limits: Limits, by: float) -> int:
+def _last_too_early(me: Body, way: Sequence[Ball], reach: float, limits: DriveLimits, by: float) -> int:
     """The last moment before the first at which the robot, at top speed all the way, could be at the ball.
 
     What is too early for certain needs no exact time. Beyond `by` s, the first moment that is too early.
     """
     at_x, at_y, speed = me.x, me.y, limits.speed
     last = 0
-    for index, moment in enumerate(MOMENTS):
+    for index, time in enumerate(TIMES):
         x, y, _, _ = way[index]
-        if math.hypot(x - at_x, y - at_y) <= reach + speed * moment + _SURELY:
+        if math.hypot(x - at_x, y - at_y) <= reach + speed * time + _SURELY:
             return last
         last = index
-        if moment > by:
+        if time > by:
             return last
     return last
 
 
-def _time_to(me: Body, ball: Ball, reach: float, limits: Limits) -> float:
+def _time_to(me: Body, ball: Ball, reach: float, limits: DriveLimits) -> float:
     dx, dy = ball.x - me.x, ball.y - me.y
     distance = math.hypot(dx, dy)
     if distance <= reach:

@@ -2,11 +2,11 @@
 
 import math
 
-from robot_agent.bodies import Ball, Body, Limits
+from robot_agent.bodies import Ball, Body, DriveLimits
 from robot_agent.skills.go_to import drive, velocity_to
 from robot_agent.skills.turn_to import turn_rate
-from schemas.command import Drive
-from schemas.sections import Field
+from schemas.config.sections import Pitch
+from schemas.messages.command import Drive
 
 _OUT = 0.15
 """m between the goal line and the robot's hull."""
@@ -16,7 +16,7 @@ _SHOT_TIME = 2.0
 """s to the goal line; a shot that takes longer can wait."""
 
 
-def keep_goal(me: Body, ball: Ball, pitch: Field, radius: float, limits: Limits) -> Drive:
+def keep_goal(me: Body, ball: Ball, pitch: Pitch, radius: float, limits: DriveLimits) -> Drive:
     """Drive to the guard's place and face the ball."""
     x, y = guard_place(ball, pitch, radius)
     vx, vy = velocity_to(me, x, y, limits)
@@ -27,7 +27,7 @@ def keep_goal(me: Body, ball: Ball, pitch: Field, radius: float, limits: Limits)
     return drive(me, vx, vy, turn_rate(me, facing, limits), limits)
 
 
-def guard_place(ball: Ball, pitch: Field, radius: float) -> tuple[float, float]:
+def guard_place(ball: Ball, pitch: Pitch, radius: float) -> tuple[float, float]:
     """In front of the goal line, where the angle between ball and posts is halved; between the posts."""
     half = 0.5 * pitch.goal_width
     x = -pitch.goal_line + radius + _OUT
@@ -38,7 +38,7 @@ def guard_place(ball: Ball, pitch: Field, radius: float) -> tuple[float, float]:
     return x, max(-widest, min(widest, ball.y + slope * back))
 
 
-def shot_place(ball: Ball, x: float, pitch: Field, radius: float) -> float | None:
+def shot_place(ball: Ball, x: float, pitch: Pitch, radius: float) -> float | None:
     """Where a ball on its way into the goal crosses the keeper's line; nothing when there is no shot."""
     if ball.vx > -_SHOT_SPEED:
         return None
@@ -49,6 +49,6 @@ def shot_place(ball: Ball, x: float, pitch: Field, radius: float) -> float | Non
     return max(-widest, min(widest, ball.y + ball.vy * time))
 
 
-def _sprint(way: float, limits: Limits) -> float:
+def _sprint(way: float, limits: DriveLimits) -> float:
     """Full speed toward the crossing, easing off only over the last centimetres."""
     return max(-limits.speed, min(limits.speed, 8.0 * way))

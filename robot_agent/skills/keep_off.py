@@ -2,13 +2,13 @@
 
 import math
 
-from schemas.sections import Field
+from schemas.config.sections import Pitch
 
 _STEP = math.radians(10.0)
 
 
 def keep_off(
-    x: float, y: float, spot: tuple[float, float], distance: float, pitch: Field, inset: float
+    x: float, y: float, spot: tuple[float, float], distance: float, pitch: Pitch, inset: float
 ) -> tuple[float, float]:
     """(x, y) moved to at least `distance` m from the spot, `inset` m inside the lines.
 
@@ -29,7 +29,7 @@ def keep_off(
     return x, y
 
 
-def inside(x: float, y: float, pitch: Field, inset: float) -> tuple[float, float]:
+def inside(x: float, y: float, pitch: Pitch, inset: float) -> tuple[float, float]:
     """The nearest point that is `inset` m inside the lines."""
     far, wide = pitch.goal_line - inset, pitch.touch_line - inset
     return max(-far, min(far, x)), max(-wide, min(wide, y))

@@ -3,11 +3,11 @@
 import math
 from typing import NamedTuple
 
-from robot_agent.bodies import Body, Limits
+from robot_agent.bodies import Body, DriveLimits
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.go_to import LAG, drive
-from schemas.command import Drive
-from schemas.sections import Field
+from schemas.config.sections import Pitch
+from schemas.messages.command import Drive
 
 MARGIN = 0.15
 """m that the robot's centre stays outside the lines."""
@@ -24,12 +24,12 @@ class Area(NamedTuple):
     """m."""
 
     @classmethod
-    def goal(cls, pitch: Field) -> "Area":
+    def goal(cls, pitch: Pitch) -> "Area":
         """The goal areas."""
         return cls(pitch.goal_line, pitch.goal_area_depth, pitch.goal_area_width)
 
     @classmethod
-    def penalty(cls, pitch: Field) -> "Area":
+    def penalty(cls, pitch: Pitch) -> "Area":
         """The penalty areas."""
         return cls(pitch.goal_line, pitch.penalty_area_depth, pitch.penalty_area_width)
 
@@ -38,7 +38,7 @@ class Area(NamedTuple):
         return x * end > self.goal_line - self.depth and abs(y) < 0.5 * self.width
 
 
-def keep_out(me: Body, wanted: Drive, area: Area, limits: Limits) -> Drive:
+def keep_out(me: Body, wanted: Drive, area: Area, limits: DriveLimits) -> Drive:
     """The same demand, braked before the front or side line of the area; a robot inside drives out the front."""
     end = 1.0 if me.x > 0 else -1.0
     front = area.goal_line - area.depth - MARGIN - me.x * end

@@ -2,11 +2,11 @@
 
 import math
 
-from robot_agent.bodies import Body, Limits
+from robot_agent.bodies import Body, DriveLimits
 from robot_agent.skills.go_to import drive
 from robot_agent.skills.turn_to import turn_rate
-from schemas.command import Drive, Kick, KickMode
 from schemas.frames import wrap
+from schemas.messages.command import Drive, Kick, KickMode
 
 TURN_RATE = 5.0
 """rad/s; while aiming with the ball."""
@@ -17,7 +17,7 @@ def kick_at(
     target: tuple[float, float],
     speed: float,
     error: float,
-    limits: Limits,
+    limits: DriveLimits,
     mode: KickMode = KickMode.GROUND,
 ) -> tuple[Drive, Kick | None]:
     """Aim, braking to rest, and kick once the ball would pass the target within `error` m."""

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from robot_agent.bodies import Body
 from robot_agent.skills.keep_off import inside
 from robot_agent.skills.shoot import lane_width
-from schemas.command import Kick, KickMode
-from schemas.host import Setup
+from schemas.messages.command import Kick, KickMode
+from schemas.messages.host import Setup
 
 Point = tuple[float, float]
 

@@ -3,9 +3,9 @@
 import math
 from collections.abc import Sequence
 
-from robot_agent.bodies import Body, Limits
+from robot_agent.bodies import Body, DriveLimits
 from robot_agent.skills.avoid import Circle, bend_speed, go_around, is_in_the_way
-from schemas.command import Drive
+from schemas.messages.command import Drive
 
 
 def behind(ball: tuple[float, float], target: tuple[float, float], distance: float) -> tuple[float, float, float]:
@@ -20,7 +20,7 @@ def line_up(
     target: tuple[float, float],
     distance: float,
     blocked: Sequence[Circle],
-    limits: Limits,
+    limits: DriveLimits,
 ) -> Drive:
     """Go around the ball, no closer than 0.8 × `distance`, to the place behind it."""
     x, y, heading = behind(ball, target, distance)

@@ -2,10 +2,10 @@
 
 import math
 
-from robot_agent.bodies import Ball, Body, Limits
+from robot_agent.bodies import Ball, Body, DriveLimits
 from robot_agent.skills.go_to import drive, velocity_to
 from robot_agent.skills.turn_to import turn_rate
-from schemas.command import Drive
+from schemas.messages.command import Drive
 
 COMES = 0.5
 """m/s; a slower ball does not come."""
@@ -17,7 +17,7 @@ def comes(me: Body, ball: Ball) -> bool:
     return nears > 0.0 and math.hypot(ball.vx, ball.vy) > COMES
 
 
-def receive(me: Body, ball: Ball, limits: Limits) -> Drive:
+def receive(me: Body, ball: Ball, limits: DriveLimits) -> Drive:
     """Go to the nearest point of the ball's way, and face where it comes from; for a ball that comes."""
     speed = math.hypot(ball.vx, ball.vy)
     ux, uy = ball.vx / speed, ball.vy / speed

@@ -1,13 +1,13 @@
 """Look for a lost ball: the quarters of the pitch, one robot in each, every few seconds the next one."""
 
-from schemas.sections import Field
+from schemas.config.sections import Pitch
 
 STAYS = 6.0
 """s in each quarter: enough to drive to the next and look around."""
 _AROUND = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 
 
-def search_place(number: int, time: float, pitch: Field) -> tuple[float, float]:
+def search_place(number: int, time: float, pitch: Pitch) -> tuple[float, float]:
     """Where the robot with this number looks at a time, s: the middle of a quarter, m.
 
     From there a camera that reaches half a quarter's diagonal, 6.5 m on 22 × 14 m, sees all of it.

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from schemas.sections import Field
+from schemas.config.sections import Pitch
 
 PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
 """Where in the goal to aim, as shares of half its width."""
@@ -15,7 +15,7 @@ _PASS_CLOSES = 0.05
 
 
 def best_place(
-    ball: tuple[float, float], opponents: Sequence[tuple[float, float]], pitch: Field
+    ball: tuple[float, float], opponents: Sequence[tuple[float, float]], pitch: Pitch
 ) -> tuple[float, float]:
     """The y in the opponents' goal whose lane is the widest, and that width in m, at most half the goal's."""
     half = 0.5 * pitch.goal_width

@@ -3,13 +3,13 @@
 import math
 from collections.abc import Iterable, Sequence
 
-from robot_agent.bodies import Ball, Body, Limits
+from robot_agent.bodies import Ball, Body, DriveLimits
 from robot_agent.skills.avoid import Circle, circles_near, steer
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.go_to import LAG, drive, velocity_to
 from robot_agent.skills.intercept import Meeting
 from robot_agent.skills.turn_to import turn_rate
-from schemas.command import Drive
+from schemas.messages.command import Drive
 
 CLOSE = 0.9
 """m; within this the robot follows the ball itself rather than the point where they meet."""
@@ -26,7 +26,7 @@ def take_ball(
     gap: float,
     opponents: Sequence[tuple[float, float]],
     clearance: float,
-    limits: Limits,
+    limits: DriveLimits,
     mates: Iterable[tuple[float, float]] = (),
 ) -> Drive:
     """Drive to the ball and face it.
@@ -67,13 +67,13 @@ def front_of_holder(
     return None
 
 
-def _go(me: Body, x: float, y: float, blocked: Sequence[Circle], limits: Limits) -> tuple[float, float]:
+def _go(me: Body, x: float, y: float, blocked: Sequence[Circle], limits: DriveLimits) -> tuple[float, float]:
     vx, vy = velocity_to(me, x, y, limits)
     return steer(me, vx, vy, math.hypot(x - me.x, y - me.y), blocked)
 
 
 def _closing_in(
-    me: Body, ball: Ball, distance: float, facing: float, gap: float, limits: Limits
+    me: Body, ball: Ball, distance: float, facing: float, gap: float, limits: DriveLimits
 ) -> tuple[float, float]:
     """The ball's velocity plus what closes the gap; slower while the ball is beside the kick axis."""
     aligned = max(0.0, math.cos(facing - me.heading))

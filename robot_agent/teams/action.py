@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from schemas.command import Drive, Kick
+from schemas.messages.command import Drive, Kick
 
 
 class Action(NamedTuple):

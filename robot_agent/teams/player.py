@@ -4,25 +4,25 @@ import math
 from abc import ABC, abstractmethod
 from typing import ClassVar
 
-from robot_agent.bodies import Ball, Limits
+from robot_agent.bodies import Ball, DriveLimits
 from robot_agent.contract import Briefing, LightCommand
-from robot_agent.fair_play import Asked, Carry, Control, carried, control_after
+from robot_agent.fair_play import Carry, Possession, RuleLimits, carry_after, possession_after
 from robot_agent.skills.avoid import circles, go_around
 from robot_agent.skills.keep_goal import keep_goal
 from robot_agent.skills.keep_out import Area, keep_out
 from robot_agent.skills.let_go import let_go
 from robot_agent.skills.search import search_place
-from robot_agent.teams import shoot_out, test_mode
+from robot_agent.teams import coach_tests, shoot_out
 from robot_agent.teams.action import Action
 from robot_agent.teams.set_piece import PENALTIES
-from robot_agent.world_model import Scene, WorldModel
-from schemas.coach import CoachMode, CoachOrder
-from schemas.command import BallBelief, Command, Drive, Motion, Radio
-from schemas.game import GameView, Stage, TeamPhase
-from schemas.goalkeeper import keeper_of
-from schemas.sight import Sight
+from robot_agent.world_model import WorldBelief, WorldModel
+from schemas.config.goalkeeper import goalkeeper_of
+from schemas.game import GameStage, GameView, TeamPhase
+from schemas.messages.coach import CoachMode, CoachOrder
+from schemas.messages.command import BallBelief, Command, Drive, Motion, Radio
+from schemas.messages.sight import Sight
 
-SPEAKS_EVERY = 5
+RADIO_EVERY = 5
 """Ticks between two words on the radio: 10 Hz at a tick of 20 ms."""
 FAR = 2.0
 """m along x and y together; a robot farther from the ball than it can come in `NOTICE` decides only when it speaks."""
@@ -59,29 +59,29 @@ class Player(ABC):
     def __init__(self, briefing: Briefing) -> None:
         self.briefing = briefing
         self.setup = briefing.setup
-        self.limits = Limits.of(briefing.setup)
+        self.limits = DriveLimits.of(briefing.setup)
         team = self.setup.teams[briefing.side]
         plays_field = not team.goalkeeper or (self.plays_alone and not briefing.teammates)
         self._keepers = [] if plays_field else team.robots
         """Who keeps the goal: the first of them that is on the field."""
-        self.keeper = self._first_keeper = keeper_of(self._keepers, ())
+        self.keeper = self._first_keeper = goalkeeper_of(self._keepers, ())
         """Who keeps it now, or nothing."""
         self.is_keeper = self.keeper == briefing.robot
         """Whether this robot does."""
         self._full_limits = self.limits
         self._world = WorldModel(briefing)
-        self._asked = Asked.of(briefing.setup)
-        self._counts_ways = self._asked.counts_ways
+        self._rule_limits = RuleLimits.of(briefing.setup)
+        self._counts_ways = self._rule_limits.counts_ways
         self._goal_area = Area.goal(self.setup.pitch)
         self._penalty_area = Area.penalty(self.setup.pitch)
         self._carry: Carry | None = None
-        self.control = Control()
+        self.possession = Possession()
         """Which side has the ball, and whether a goal would count; followed where the rules ask for a pass."""
         self._lets_go = 0.0
         """s for which the dribbler stays off after a kick."""
         self._penalty_kicked = False
         """This robot has kicked its penalty of the shoot-out; there is one kick."""
-        self._progress = test_mode.NOTHING_DONE
+        self._progress = coach_tests.NOTHING_DONE
         """How far this robot is with the coach's test."""
         self._last: Command | None = None
         self._game: GameView | None = None
@@ -89,26 +89,26 @@ class Player(ABC):
     def act(self, sight: Sight) -> Command:
         """The answer to one sight, a `LightCommand`."""
         if self._game is not None and sight.game.episode != self._game.episode:
-            self.begin_anew()
+            self.restart()
         if self._last is not None and self._may_go_on(sight, self._last):
-            self._last = _again(self._last, sight.tick)
+            self._last = _repeated(self._last, sight.tick)
         else:
             self._last = self._decide(sight)
             self._game = sight.game
         return self._last
 
-    def begin_anew(self) -> None:
+    def restart(self) -> None:
         """Another episode begins: what was believed of the world is void."""
         self._world = WorldModel(self.briefing)
         self._lets_go = 0.0
-        self._progress = test_mode.NOTHING_DONE
+        self._progress = coach_tests.NOTHING_DONE
         self._last = None
 
     def _may_go_on(self, sight: Sight, last: Command) -> bool:
         """Whether nothing asks for a decision: far from the ball, nothing to say, the same game, the same order."""
         ball, me, game, before = sight.ball, sight.self, sight.game, self._game
         return (
-            (sight.tick + self.briefing.number) % SPEAKS_EVERY != 0
+            (sight.tick + self.briefing.number) % RADIO_EVERY != 0
             and sight.tick == last.answers_tick + 1
             and last.kick is None
             and ball is not None
@@ -122,159 +122,159 @@ class Player(ABC):
 
     def _decide(self, sight: Sight) -> Command:
         """A new decision."""
-        scene = self._world.take_in(sight)
-        self.keeper = keeper_of(self._keepers, _away(scene.game)) if scene.game.robots else self._first_keeper
+        belief = self._world.update(sight)
+        self.keeper = goalkeeper_of(self._keepers, _away(belief.game)) if belief.game.robots else self._first_keeper
         self.is_keeper = self.keeper == self.briefing.robot
-        self._penalty_kicked = self._penalty_kicked and scene.game.phase is TeamPhase.OUR_PENALTY
+        self._penalty_kicked = self._penalty_kicked and belief.game.phase is TeamPhase.OUR_PENALTY
         order = sight.order
         self.limits = self._full_limits.capped(order.max_speed, order.max_turn_rate) if order else self._full_limits
         if self._counts_ways:
-            self._carry = carried(self._carry, scene)
-        if self._asked.passes_first:
-            self.control = control_after(self.control, scene, self.briefing.robot, self._asked.roll)
-        action = self._obey(scene, order) or self._by_the_rules(scene, self._act(scene, order))
-        if not scene.kicker_ready:
+            self._carry = carry_after(self._carry, belief)
+        if self._rule_limits.passes_first:
+            self.possession = possession_after(self.possession, belief, self.briefing.robot, self._rule_limits.roll)
+        action = self._obey(belief, order) or self._by_the_rules(belief, self._act(belief, order))
+        if not belief.kicker_ready:
             action = action._replace(kick=None, pass_to=None)  # it would be refused: keep the ball, and aim
-        self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - scene.dt)
-        speaks = (sight.tick + self.briefing.number) % SPEAKS_EVERY == 0
+        self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - belief.dt)
+        speaks = (sight.tick + self.briefing.number) % RADIO_EVERY == 0
         return LightCommand(
             answers_tick=sight.tick,
             drive=action.drive,
             dribble=action.dribble and (action.kick is not None or self._lets_go == 0.0),
             kick=action.kick,
-            radio=self._word(scene, action) if speaks or action.pass_to is not None else None,
+            radio=self._radio(belief, action) if speaks or action.pass_to is not None else None,
             acknowledges_order=order.sequence if order else None,
         )
 
-    def _act(self, scene: Scene, order: CoachOrder | None) -> Action:
+    def _act(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
         """What the coach's test asks for, or the game; what every shipped team does alike stands before its play."""
-        game = scene.game
+        game = belief.game
         if order is not None and order.mode is CoachMode.TEST:
-            return self.show(scene, order)
-        if game.stage is Stage.SHOOT_OUT and game.phase in PENALTIES:
-            return self._shoot_out(scene)
-        if scene.ball is None and game.phase is TeamPhase.PLAY:
-            return self._search(scene)
-        return self.play(scene, order)
+            return self.show_test(belief, order)
+        if game.stage is GameStage.SHOOT_OUT and game.phase in PENALTIES:
+            return self._shoot_out(belief)
+        if belief.ball is None and game.phase is TeamPhase.PLAY:
+            return self._search(belief)
+        return self.play(belief, order)
 
     @abstractmethod
-    def play(self, scene: Scene, order: CoachOrder | None) -> Action:
+    def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
         """What to do in a restart or in play."""
 
     @property
     def may_score(self) -> bool:
         """Whether the rules let a goal count that this robot kicks from where it is."""
-        return not self._asked.passes_first or self.control.may_score
+        return not self._rule_limits.passes_first or self.possession.may_score
 
     @property
     def is_bound_forward(self) -> bool:
         """Whether the rules count ways driven backward with the ball."""
-        return math.isfinite(self._asked.backward)
+        return math.isfinite(self._rule_limits.backward)
 
     @property
     def must_pass_on(self) -> bool:
         """Whether the ball has to leave this robot's hold soon."""
-        return self._carry is not None and self._carry.way > self._asked.circle - PASS_BEFORE
+        return self._carry is not None and self._carry.way > self._rule_limits.circle - PASS_BEFORE
 
-    def _by_the_rules(self, scene: Scene, action: Action) -> Action:
+    def _by_the_rules(self, belief: WorldBelief, action: Action) -> Action:
         """The same action as far as the rules in play let this robot do it."""
         if action.kick is None and self._carry is not None:
-            action = self._carry_on(scene, action, self._carry)
+            action = self._carry_on(belief, action, self._carry)
         if self.is_keeper:
             return action
         drive = action.drive
-        if self._asked.keeps_out:
-            drive = keep_out(scene.me, drive, self._goal_area, self.limits)
-        if self._asked.takes_turns:
-            outside = keep_out(scene.me, drive, self._penalty_area, self.limits)
-            if outside is not drive and self._is_second_in_area(scene):
+        if self._rule_limits.keeps_out:
+            drive = keep_out(belief.me, drive, self._goal_area, self.limits)
+        if self._rule_limits.takes_turns:
+            outside = keep_out(belief.me, drive, self._penalty_area, self.limits)
+            if outside is not drive and self._is_second_in_area(belief):
                 drive = outside
         return action if drive is action.drive else action._replace(drive=drive)
 
-    def _is_second_in_area(self, scene: Scene) -> bool:
+    def _is_second_in_area(self, belief: WorldBelief) -> bool:
         """Whether a teammate in the field is nearer to the ball than this robot, and in the nearer penalty area.
 
         Where a second one there is a foul at once, wherever it is: it may be about to enter.
         """
-        end = math.copysign(1.0, scene.me.x)
-        ball = scene.ball.now[:2] if scene.ball is not None else (end * self.setup.pitch.goal_line, 0.0)
-        mine = math.dist(ball, scene.me[:2])
-        return not scene.holding and any(
+        end = math.copysign(1.0, belief.me.x)
+        ball = belief.ball.now[:2] if belief.ball is not None else (end * self.setup.pitch.goal_line, 0.0)
+        mine = math.dist(ball, belief.me[:2])
+        return not belief.holding and any(
             math.dist(ball, mate.body[:2]) < mine
-            and (self._asked.at_once or self._penalty_area.has(end, *mate.body[:2]))
-            for name, mate in scene.mates.items()
+            and (self._rule_limits.at_once or self._penalty_area.has(end, *mate.body[:2]))
+            for name, mate in belief.mates.items()
             if name != self.keeper
         )
 
-    def _carry_on(self, scene: Scene, action: Action, carry: Carry) -> Action:
+    def _carry_on(self, belief: WorldBelief, action: Action, carry: Carry) -> Action:
         """Before the circle ends the ball is let go, or the robot stops; it turns before it has gone back for long."""
-        if carry.way > self._asked.circle - LET_GO_BEFORE:
-            kick = let_go(scene.me, scene.opponents, self.setup) if scene.kicker_ready else None
+        if carry.way > self._rule_limits.circle - LET_GO_BEFORE:
+            kick = let_go(belief.me, belief.opponents, self.setup) if belief.kicker_ready else None
             if kick is not None:
                 return action._replace(intention="let go", dribble=True, kick=kick, pass_to=None)
-            if carry.way > self._asked.circle - STOP_BEFORE:
+            if carry.way > self._rule_limits.circle - STOP_BEFORE:
                 return action._replace(drive=Drive(omega=action.drive.omega))
-        if carry.backward > self._asked.backward - TURN_BEFORE and action.drive.vx < 0.0:
+        if carry.backward > self._rule_limits.backward - TURN_BEFORE and action.drive.vx < 0.0:
             turn = math.copysign(TURN_RATE, action.drive.vy)
             return action._replace(drive=Drive(vy=action.drive.vy, omega=turn))
         return action
 
-    def _obey(self, scene: Scene, order: CoachOrder | None) -> Action | None:
+    def _obey(self, belief: WorldBelief, order: CoachOrder | None) -> Action | None:
         """What the referee or the coach leaves no choice about."""
-        phase, mine = scene.game.phase, scene.game.robots.get(self.briefing.robot)
+        phase, mine = belief.game.phase, belief.game.robots.get(self.briefing.robot)
         if mine is not None and mine.off_field is not None:
             return Action("", "off the field", Drive())
         if phase in STILL:
             return Action("", "wait", Drive())
         if phase is TeamPhase.PARKING or (order and order.mode is CoachMode.PARK):
-            return Action("", "park", self._park(scene))
+            return Action("", "park", self._park(belief))
         if order and order.mode is CoachMode.HOLD:
             return Action("", "hold", Drive())
         return None
 
-    def show(self, scene: Scene, order: CoachOrder) -> Action:
+    def show_test(self, belief: WorldBelief, order: CoachOrder) -> Action:
         """What the coach's test asks of this robot."""
-        moment = test_mode.Moment(self.briefing, scene, order, self.limits)
-        action, self._progress = test_mode.show(moment, self._progress)
+        situation = coach_tests.Situation(self.briefing, belief, order, self.limits)
+        action, self._progress = coach_tests.step(situation, self._progress)
         return action
 
-    def _shoot_out(self, scene: Scene) -> Action:
+    def _shoot_out(self, belief: WorldBelief) -> Action:
         """In a penalty of the shoot-out: take it, keep the goal, or wait."""
-        game, limits = scene.game, self.limits
+        game, limits = belief.game, self.limits
         kicker = shoot_out.kicker_of(self.setup.teams[self.briefing.side].robots, self.keeper, game)
         if game.phase is TeamPhase.OUR_PENALTY and kicker == self.briefing.robot:
             if self._penalty_kicked:
                 return Action("kicker", "watch the penalty", Drive())
             if not game.running:
-                return Action("kicker", "wait for START", shoot_out.wait_for_start(scene, self.setup, limits))
-            motion, kick = shoot_out.take(scene, self.setup, limits)
-            self._penalty_kicked = kick is not None and scene.kicker_ready
+                return Action("kicker", "wait for START", shoot_out.wait_for_start(belief, self.setup, limits))
+            motion, kick = shoot_out.take_penalty(belief, self.setup, limits)
+            self._penalty_kicked = kick is not None and belief.kicker_ready
             return Action("kicker", "take the penalty", motion, dribble=True, kick=kick)
-        if self.is_keeper and scene.ball is not None:
+        if self.is_keeper and belief.ball is not None:
             reach, pitch = self.setup.robot.reach, self.setup.pitch
-            return Action("keeper", "keep", keep_goal(scene.me, scene.ball.now, pitch, reach, limits), dribble=True)
-        return Action("", "wait", shoot_out.wait(scene, self.briefing.number, self.setup, limits))
+            return Action("keeper", "keep", keep_goal(belief.me, belief.ball.now, pitch, reach, limits), dribble=True)
+        return Action("", "wait", shoot_out.wait(belief, self.briefing.number, self.setup, limits))
 
-    def _search(self, scene: Scene) -> Action:
+    def _search(self, belief: WorldBelief) -> Action:
         """In play, when nobody has seen the ball for long: the keeper guards the goal, the others drive around."""
-        pitch, reach, me = self.setup.pitch, self.setup.robot.reach, scene.me
+        pitch, reach, me = self.setup.pitch, self.setup.robot.reach, belief.me
         if self.is_keeper:
             return Action("", "look for the ball", keep_goal(me, _AT_THE_CENTRE, pitch, reach, self.limits))
-        x, y = search_place(self.briefing.number, scene.game.clock, pitch)
-        blocked = circles(scene.others, 2.0 * reach + _AIR)
+        x, y = search_place(self.briefing.number, belief.game.clock, pitch)
+        blocked = circles(belief.others, 2.0 * reach + _AIR)
         return Action("", "look for the ball", go_around(me, x, y, me.heading, blocked, self.limits))
 
-    def _park(self, scene: Scene) -> Drive:
+    def _park(self, belief: WorldBelief) -> Drive:
         """To the right touch line of the own half, beside each other (simatch: 1.5 m apart)."""
         pitch, radius = self.setup.pitch, self.setup.robot.reach
         x = -pitch.goal_line + 1.5 * self.briefing.number
         y = -pitch.touch_line + radius + 0.1
-        blocked = circles(scene.others, 2.0 * self.setup.robot.reach + _AIR)
-        return go_around(scene.me, x, y, 0.0, blocked, self.limits.capped(_PARKING_SPEED))
+        blocked = circles(belief.others, 2.0 * self.setup.robot.reach + _AIR)
+        return go_around(belief.me, x, y, 0.0, blocked, self.limits.capped(_PARKING_SPEED))
 
-    def _word(self, scene: Scene, action: Action) -> Radio:
+    def _radio(self, belief: WorldBelief, action: Action) -> Radio:
         """What the teammates are told."""
-        me, ball = scene.me, scene.ball
+        me, ball = belief.me, belief.ball
         return Radio(
             self=Motion(x=me.x, y=me.y, heading=me.heading, vx=me.vx, vy=me.vy, omega=me.omega),
             ball=BallBelief(x=ball.now.x, y=ball.now.y, vx=ball.now.vx, vy=ball.now.vy, age=ball.age) if ball else None,
@@ -289,7 +289,7 @@ def _away(game: GameView) -> list[str]:
     return [name for name, standing in game.robots.items() if standing.off_field is not None]
 
 
-def _again(last: Command, tick: int) -> Command:
+def _repeated(last: Command, tick: int) -> Command:
     """The last command as the answer to one more sight, with nothing kicked and nothing said."""
     return LightCommand(
         answers_tick=tick, drive=last.drive, dribble=last.dribble, acknowledges_order=last.acknowledges_order

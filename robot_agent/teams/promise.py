@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from robot_agent.world_model import Scene
+from robot_agent.world_model import WorldBelief
 
 LASTS = 2.0
 """s for which a receiver counts on the pass it was promised."""
@@ -15,12 +15,12 @@ class Promise(NamedTuple):
     left: float = LASTS
 
 
-def promise_after(before: Promise | None, scene: Scene) -> Promise | None:
+def promise_after(before: Promise | None, belief: WorldBelief) -> Promise | None:
     """The last promise after one more sight; a newer one, time, or the ball in this robot's hold ends it."""
     kept = None
-    if before is not None and before.left > scene.dt and not scene.holding:
-        kept = before._replace(left=before.left - scene.dt)
-    for mate in scene.mates.values():
+    if before is not None and before.left > belief.dt and not belief.holding:
+        kept = before._replace(left=before.left - belief.dt)
+    for mate in belief.mates.values():
         if mate.pass_to is not None:
             kept = Promise(mate.pass_to)
     return kept

@@ -3,16 +3,16 @@
 import math
 from collections.abc import Sequence
 
-from robot_agent.bodies import Body, Limits
+from robot_agent.bodies import Body, DriveLimits
 from robot_agent.skills.avoid import Circle, bend_speed, circles_near, go_around
 from robot_agent.skills.go_to import drive
 from robot_agent.skills.keep_off import inside, keep_off
 from robot_agent.skills.line_up import line_up
 from robot_agent.skills.turn_to import turn_rate
-from schemas.command import Drive
+from schemas.config.rule_book import Restarts
 from schemas.game import GameView, TeamPhase
-from schemas.host import Setup
-from schemas.rule_book import Restarts
+from schemas.messages.command import Drive
+from schemas.messages.host import Setup
 
 MARGIN = 0.2
 """m beyond what the rules ask for: noise of the positions, and a little politeness."""
@@ -24,7 +24,7 @@ KICK_OFFS = frozenset({TeamPhase.OUR_KICK_OFF, TeamPhase.THEIR_KICK_OFF})
 PENALTIES = frozenset({TeamPhase.OUR_PENALTY, TeamPhase.THEIR_PENALTY})
 
 
-def asked_distance(phase: TeamPhase, restarts: Restarts) -> float:
+def required_distance(phase: TeamPhase, restarts: Restarts) -> float:
     """How far the rules keep a robot that does not take the restart from the ball, hull to ball, in m; 0 in play."""
     if phase is TeamPhase.PLAY:
         return 0.0
@@ -42,7 +42,7 @@ def legal_place(x: float, y: float, game: GameView, spot: tuple[float, float], s
         x = min(x, -radius - MARGIN)
     if phase in PENALTIES:
         x = math.copysign(min(abs(x), pitch.goal_line - pitch.penalty_mark - setup.restarts.opponent_distance), x)
-    distance = asked_distance(phase, setup.restarts)
+    distance = required_distance(phase, setup.restarts)
     if distance == 0.0:
         return inside(x, y, pitch, radius)
     return keep_off(x, y, spot, distance + radius + MARGIN, pitch, radius)
@@ -55,7 +55,7 @@ def stand(
     spot: tuple[float, float],
     others: Sequence[tuple[float, float]],
     setup: Setup,
-    limits: Limits,
+    limits: DriveLimits,
 ) -> Drive:
     """Go to a place and face the spot, around everybody and around the circle that the rules draw.
 
@@ -66,12 +66,12 @@ def stand(
     x, y = legal_place(*place, game, spot, setup)
     facing = math.atan2(spot[1] - me.y, spot[0] - me.x)
     blocked = circles_near(me, others, 2.0 * radius + 0.1)
-    asked = asked_distance(game.phase, setup.restarts)
+    required = required_distance(game.phase, setup.restarts)
     goes_home = game.phase in KICK_OFFS and not game.running and me.x > 0.0
-    if asked == 0.0 or goes_home:
+    if required == 0.0 or goes_home:
         blocked.append(Circle(*spot, radius + setup.ball.radius + ASIDE))
         return go_around(me, x, y, facing, blocked, limits)
-    forbidden = asked + radius + 0.5 * MARGIN
+    forbidden = required + radius + 0.5 * MARGIN
     away = max(0.01, math.hypot(me.x - spot[0], me.y - spot[1]))
     if away > forbidden:
         blocked.append(Circle(*spot, forbidden))
@@ -88,14 +88,16 @@ def wait_behind(
     target: tuple[float, float],
     others: Sequence[tuple[float, float]],
     setup: Setup,
-    limits: Limits,
+    limits: DriveLimits,
 ) -> Drive:
     """Before START: behind the ball for the target, without touching it."""
     distance = setup.robot.radius + setup.ball.radius + LINE_UP
     return line_up(me, spot, target, distance, circles_near(me, others, 2.0 * setup.robot.reach + 0.1), limits)
 
 
-def step_in(me: Body, ball: tuple[float, float], target: tuple[float, float], setup: Setup, limits: Limits) -> Drive:
+def step_in(
+    me: Body, ball: tuple[float, float], target: tuple[float, float], setup: Setup, limits: DriveLimits
+) -> Drive:
     """After START: straight at the ball along the line to the target, until the dribbler has it."""
     distance = math.hypot(ball[0] - me.x, ball[1] - me.y)
     heading = math.atan2(target[1] - ball[1], target[0] - ball[0])

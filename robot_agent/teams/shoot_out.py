@@ -7,15 +7,15 @@ goalkeepers stands beyond the halfway line, outside the centre circle.
 import math
 from collections.abc import Sequence
 
-from robot_agent.bodies import Limits
+from robot_agent.bodies import DriveLimits
 from robot_agent.skills.avoid import circles, go_around
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.teams.set_piece import step_in
-from robot_agent.world_model import Scene
-from schemas.command import Drive, Kick
+from robot_agent.world_model import WorldBelief
+from schemas.config.sections import Pitch
 from schemas.game import GameView, TeamPhase
-from schemas.host import Setup
-from schemas.sections import Field
+from schemas.messages.command import Drive, Kick
+from schemas.messages.host import Setup
 
 WAITS = 0.7
 """m before the halfway line where the kicker waits, in the centre circle."""
@@ -40,35 +40,35 @@ def kicker_of(robots: Sequence[str], keeper: str | None, game: GameView) -> str:
     return (field or there or list(robots))[0]
 
 
-def wait(scene: Scene, number: int, setup: Setup, limits: Limits) -> Drive:
+def wait(belief: WorldBelief, number: int, setup: Setup, limits: DriveLimits) -> Drive:
     """Beyond the halfway line, beside each other; `number` is the robot's place in its team."""
-    beyond = -1.0 if scene.game.phase is TeamPhase.OUR_PENALTY else 1.0
+    beyond = -1.0 if belief.game.phase is TeamPhase.OUR_PENALTY else 1.0
     x = beyond * (setup.robot.reach + CLEAR)
     y = setup.pitch.centre_circle_radius + number * SPACING  # on the left of both teams: each has a side of its own
-    blocked = circles(scene.others, 2.0 * setup.robot.reach + 0.1)
-    return go_around(scene.me, x, y, math.atan2(-y, -x), blocked, limits)
+    blocked = circles(belief.others, 2.0 * setup.robot.reach + 0.1)
+    return go_around(belief.me, x, y, math.atan2(-y, -x), blocked, limits)
 
 
-def wait_for_start(scene: Scene, setup: Setup, limits: Limits) -> Drive:
+def wait_for_start(belief: WorldBelief, setup: Setup, limits: DriveLimits) -> Drive:
     """In the centre circle, facing the goal."""
-    blocked = circles(scene.others, 2.0 * setup.robot.reach + 0.1)
-    return go_around(scene.me, -WAITS, 0.0, 0.0, blocked, limits)
+    blocked = circles(belief.others, 2.0 * setup.robot.reach + 0.1)
+    return go_around(belief.me, -WAITS, 0.0, 0.0, blocked, limits)
 
 
-def take(scene: Scene, setup: Setup, limits: Limits) -> tuple[Drive, Kick | None]:
+def take_penalty(belief: WorldBelief, setup: Setup, limits: DriveLimits) -> tuple[Drive, Kick | None]:
     """After START: to the ball, and a flat kick at a corner."""
-    pitch, ball = setup.pitch, scene.ball
+    pitch, ball = setup.pitch, belief.ball
     if ball is None:
         return Drive(), None
-    target = (pitch.goal_line, _side(scene, pitch) * CORNER * pitch.goal_width)
-    if scene.holding:
-        return kick_at(scene.me, target, SPEED * setup.kicker.max_ground_speed, ERROR, limits)
-    return step_in(scene.me, (ball.now.x, ball.now.y), target, setup, limits), None
+    target = (pitch.goal_line, _side(belief, pitch) * CORNER * pitch.goal_width)
+    if belief.holding:
+        return kick_at(belief.me, target, SPEED * setup.kicker.max_ground_speed, ERROR, limits)
+    return step_in(belief.me, (ball.now.x, ball.now.y), target, setup, limits), None
 
 
-def _side(scene: Scene, pitch: Field) -> float:
+def _side(belief: WorldBelief, pitch: Pitch) -> float:
     """The sign of the corner's y: where the kick axis points already, unless the goalkeeper stands clearly there."""
-    me = scene.me
-    _, keeper = min(scene.opponents, key=lambda place: math.dist(place, (pitch.goal_line, 0.0)), default=(0.0, 0.0))
+    me = belief.me
+    _, keeper = min(belief.opponents, key=lambda place: math.dist(place, (pitch.goal_line, 0.0)), default=(0.0, 0.0))
     points = math.copysign(1.0, me.y + (pitch.goal_line - me.x) * math.tan(me.heading))
     return -points if keeper * points > OFF_THE_MIDDLE else points

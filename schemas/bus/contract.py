@@ -1,6 +1,6 @@
-"""What every bus offers: publish, subscribe, ask, serve, and be seen to be alive, by the rows of the topic table.
+"""What every bus offers: publish, subscribe, query, serve, and liveliness tokens, by the rows of the topic table.
 
-The rest of the code is written against this module alone; `zenoh_bus` and `in_process` behave alike, and one
+The rest of the code is written against this module alone; `zenoh.bus` and `in_process_bus` behave alike, and one
 conformance suite runs over both.
 """
 
@@ -10,10 +10,10 @@ from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Any, NamedTuple, Self
 
-from schemas.clock import Clock
 from schemas.errors import TouchlineError
-from schemas.light import light_encode_exactly
 from schemas.message import VERSION, BadMessageError, Message
+from schemas.messages.light import light_encode_exactly
+from schemas.process.clock import Clock
 from schemas.topic import Delivery, Topic
 
 
@@ -21,8 +21,8 @@ class BusError(TouchlineError):
     """The bus could not be opened, or is closed."""
 
 
-class NoAnswerError(Exception):
-    """Nobody answered a question in time."""
+class NoReplyError(Exception):
+    """No reply came in time."""
 
 
 class Stamp(NamedTuple):
@@ -36,7 +36,7 @@ class Stamp(NamedTuple):
     """Writer's simulated time in ns, −1 when it knows none."""
 
 
-class Received(NamedTuple):
+class ReceivedMessage(NamedTuple):
     """A message as it came: read only when somebody asks for it."""
 
     topic: Topic
@@ -97,7 +97,7 @@ class Publisher(ABC):
         """Send bytes that are a message already; returns what travels beside them."""
 
     @abstractmethod
-    def wanted(self) -> bool:
+    def has_subscribers(self) -> bool:
         """Whether anybody listens to this key just now; always, where what was sent can be recovered later."""
 
 
@@ -105,7 +105,7 @@ class Subscription(ABC):
     """Reads the keys of one topic."""
 
     @abstractmethod
-    def receive(self, timeout: float | None = 0.0) -> Received | None:
+    def receive(self, timeout: float | None = 0.0) -> ReceivedMessage | None:
         """The next message, waiting up to `timeout` s for it (None: for ever); nothing when there is none."""
 
     def receive_payload(self, timeout: float | None = 0.0) -> bytes | None:
@@ -114,7 +114,7 @@ class Subscription(ABC):
         return received.payload if received is not None else None
 
     @abstractmethod
-    def forgo(self) -> None:
+    def skip_missing(self) -> None:
         """Wait no more for what is missing of a `recovered` topic: what came after it is given out, behind a gap."""
 
     @abstractmethod
@@ -122,8 +122,8 @@ class Subscription(ABC):
         """Stop listening; a waiting `receive` returns nothing."""
 
 
-class Question(ABC):
-    """A question that somebody asked, waiting for its answer."""
+class Query(ABC):
+    """A query that waits for its reply."""
 
     def __init__(self, topic: Topic, key: str, payload: bytes) -> None:
         self.topic = topic
@@ -131,7 +131,7 @@ class Question(ABC):
         self.payload = payload
 
     def message(self) -> Any:
-        """The validated question.
+        """The validated request.
 
         Raises:
             BadMessageError: the payload is not a message of this topic.
@@ -140,38 +140,38 @@ class Question(ABC):
         return self.topic.message.decode(self.payload)
 
     @abstractmethod
-    def answer(self, reply: Message) -> None:
-        """Answer it; once."""
+    def reply(self, reply: Message) -> None:
+        """Send the reply; once."""
 
     @abstractmethod
     def fail(self, reason: str) -> None:
-        """Say that it cannot be answered, and why; once."""
+        """Report that there is no reply, and why; once."""
 
 
 class Server(ABC):
-    """Answers the questions of one topic."""
+    """Serves the queries of one topic."""
 
     @abstractmethod
-    def receive(self, timeout: float | None = 0.0) -> Question | None:
-        """The next question; as `Subscription.receive`."""
+    def receive(self, timeout: float | None = 0.0) -> Query | None:
+        """The next query; as `Subscription.receive`."""
 
 
-class Answer(ABC):
-    """An answer that is on its way."""
+class PendingReply(ABC):
+    """A reply that is on its way."""
 
     @abstractmethod
     def result(self, timeout: float) -> Any:
         """The reply, waiting up to `timeout` s.
 
         Raises:
-            NoAnswerError: nobody answered, or the answer was that there is none, with the reason.
+            NoReplyError: no reply came, or the server reported that there is none, with the reason.
         """
 
 
 class PresenceWatch(ABC):
     """Sees processes come and go; begins with those that are there."""
 
-    is_quiet: Callable[[], bool]
+    is_empty: Callable[[], bool]
     """Whether nothing waits to be received: for who asks often, and mostly in vain."""
 
     @abstractmethod
@@ -181,7 +181,7 @@ class PresenceWatch(ABC):
 
 @dataclass
 class Bus(ABC):
-    """One process's seat on the bus of one match."""
+    """One process's connection to the bus of one match."""
 
     match: str
     clock: Clock
@@ -192,21 +192,21 @@ class Bus(ABC):
         """A writer for one key: every chunk must be given."""
 
     @abstractmethod
-    def subscribe(self, topic: Topic, *, newest: bool = False, past: bool = False, **chunks: str) -> Subscription:
+    def subscribe(self, topic: Topic, *, newest: bool = False, history: bool = False, **chunks: str) -> Subscription:
         """A reader for a topic; a chunk left out reads every value of it.
 
         A topic delivered `newest` yields the newest message of each key, any other every message that arrives, unless
-        the reader wants the `newest` alone. Where the writer keeps what it sent (`recovered`), a reader of the `past`
-        is given that first.
+        the reader wants the `newest` alone. Where the writer keeps what it sent (`recovered`), `history` yields
+        that first.
         """
 
     @abstractmethod
     def serve(self, topic: Topic, **chunks: str) -> Server:
-        """Become the one who answers this topic's questions; every chunk must be given."""
+        """Serve the queries of this topic; every chunk must be given."""
 
     @abstractmethod
-    def ask(self, topic: Topic, question: Message, timeout: float = 2.0, **chunks: str) -> Answer:
-        """Ask; `timeout` is how long the question stays open, in s."""
+    def query(self, topic: Topic, request: Message, timeout: float = 2.0, **chunks: str) -> PendingReply:
+        """Send a query; `timeout` is how long it stays open, in s."""
 
     @abstractmethod
     def declare_alive(self, kind: str, name: str) -> None:

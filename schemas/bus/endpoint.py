@@ -34,14 +34,14 @@ def is_loopback(endpoint: str) -> bool:
         return False
 
 
-def near(listen: str) -> str:
+def local_endpoint(listen: str) -> str:
     """Where this machine reaches who listens there: on loopback where that is every address."""
     protocol, host, port = parse_endpoint(listen)
     here = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
     return f"{protocol}/{here}:{port}"
 
 
-def with_port(endpoint: str) -> str:
+def with_free_port(endpoint: str) -> str:
     """The endpoint itself, or with a free port where it says `:0`, which is then given to nobody else."""
     protocol, host, port = parse_endpoint(endpoint)
     if port:

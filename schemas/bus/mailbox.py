@@ -16,10 +16,10 @@ class Mailbox(Protocol[T]):
     def put(self, key: str, item: T) -> None:
         """Bring an item."""
 
-    def take(self, timeout: float | None) -> T | None:
+    def get(self, timeout: float | None) -> T | None:
         """The next item, waiting up to `timeout` s (None: for ever); nothing when there is none, or at the end."""
 
-    def end(self) -> None:
+    def close(self) -> None:
         """Wake the reader: no more items will come."""
 
 
@@ -43,15 +43,15 @@ class EveryMailbox(Generic[T]):
         del key
         self._queue.put(item)
 
-    def take(self, timeout: float | None) -> T | None:
+    def get(self, timeout: float | None) -> T | None:
         """The oldest item."""
-        item = _get(self._queue, timeout)
+        item = _get_from(self._queue, timeout)
         if isinstance(item, _End):
             self._queue.put(item)
             return None
         return item
 
-    def end(self) -> None:
+    def close(self) -> None:
         """No more items will come."""
         self._queue.put(_END)
 
@@ -61,32 +61,32 @@ class NewestMailbox(Generic[T]):
 
     def __init__(self) -> None:
         self._newest: dict[str, T] = {}
-        self._bell: SimpleQueue[str | _End] = SimpleQueue()
+        self._keys: SimpleQueue[str | _End] = SimpleQueue()
 
     def put(self, key: str, item: T) -> None:
         """Bring an item; an older one of the same key that nobody took is forgotten."""
         self._newest[key] = item
-        self._bell.put(key)
+        self._keys.put(key)
 
-    def take(self, timeout: float | None) -> T | None:
+    def get(self, timeout: float | None) -> T | None:
         """The newest item of the key that has waited longest."""
         while True:
-            key = _get(self._bell, timeout)
+            key = _get_from(self._keys, timeout)
             if key is None:
                 return None
             if isinstance(key, _End):
-                self._bell.put(key)
+                self._keys.put(key)
                 return None
-            item = self._newest.pop(key, None)  # a bell whose item was replaced and taken finds nothing
+            item = self._newest.pop(key, None)  # the item was replaced, and taken with an earlier key
             if item is not None:
                 return item
 
-    def end(self) -> None:
+    def close(self) -> None:
         """No more items will come."""
-        self._bell.put(_END)
+        self._keys.put(_END)
 
 
-def _get(queue: SimpleQueue[T], timeout: float | None) -> T | None:
+def _get_from(queue: SimpleQueue[T], timeout: float | None) -> T | None:
     if timeout == 0.0 and queue.empty():
         return None  # mostly so where somebody only looks; an exception costs more than the look
     try:

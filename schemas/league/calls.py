@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from schemas.game import GameState, OffField, Phase, Stage, Standing
+from schemas.game import DisciplinaryRecord, GameStage, GameState, OffField, Phase
 from schemas.league.signals import BY_NAME, HALF_OF, RESTART_OF, START, STOP, Signal
 from schemas.side import Side
 
@@ -19,7 +19,7 @@ _LEAVES: Mapping[OffField, Signal] = {
     OffField.SILENT: BY_NAME["IS_ALIVE"],
 }
 """Why a robot left → what is signalled: after one whose program is gone the box asks."""
-_NOBODY = Standing()
+_NOBODY = DisciplinaryRecord()
 
 
 class Call(NamedTuple):
@@ -36,25 +36,25 @@ def calls(old: GameState | None, new: GameState, sides: Mapping[str, Side]) -> l
     `sides` tells whose robots are whose. Cards that are taken back have no signal in the league.
     """
     before = old if old is not None else GameState(tick=0, time=0.0, phase=Phase.PRE_GAME)
-    said = list(_half(old, new))
+    found = list(_half(old, new))
     changed = (new.phase, new.side) != (before.phase, before.side)
     if changed and new.phase is Phase.STOPPED:
-        said.append(Call(STOP))
+        found.append(Call(STOP))
     for side in Side:
         goals = new.score.of(side) - before.score.of(side)
-        said += [Call(BY_NAME["GOAL" if goals > 0 else "SUBGOAL"], side)] * abs(goals)
-    said += _people(before, new, sides)
+        found += [Call(BY_NAME["GOAL" if goals > 0 else "SUBGOAL"], side)] * abs(goals)
+    found += _people(before, new, sides)
     if changed and new.phase in _PHASES:
         signal = _PHASES[new.phase]
-        said.append(Call(signal, new.side if signal.sided else None))
+        found.append(Call(signal, new.side if signal.sided else None))
     if new.running and not before.running:
-        said.append(Call(START))
-    return said
+        found.append(Call(START))
+    return found
 
 
 def _half(old: GameState | None, new: GameState) -> Iterator[Call]:
     """A half begins with its kick-off; the box calls the shoot-out no half."""
-    if new.phase is Phase.PRE_GAME or new.stage is Stage.SHOOT_OUT:
+    if new.phase is Phase.PRE_GAME or new.stage is GameStage.SHOOT_OUT:
         return
     if (old is None or old.phase is Phase.PRE_GAME or new.half != old.half) and new.half in HALF_OF:
         yield Call(HALF_OF[new.half])
@@ -68,7 +68,7 @@ def _people(before: GameState, new: GameState, sides: Mapping[str, Side]) -> Ite
                 yield Call(signal, sides[name], name)
 
 
-def _person(was: Standing, now: Standing) -> Iterator[Signal]:
+def _person(was: DisciplinaryRecord, now: DisciplinaryRecord) -> Iterator[Signal]:
     left = now.off_field is not was.off_field
     if now.red > was.red:
         yield BY_NAME["RED_CARD"]

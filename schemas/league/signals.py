@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from schemas.game import Card, EventKind, Phase, Stage
+from schemas.game import Card, EventKind, GameStage, Phase
 from schemas.side import Side
 
 
@@ -13,7 +13,7 @@ class Signal:
     name: str
     character: str
     kind: EventKind
-    says: str
+    description: str
     sided: bool = False
     phase: Phase | None = None
     """What is being played from now on."""
@@ -21,7 +21,7 @@ class Signal:
     card: Card | None = None
     half: int = 0
     """Begins this half."""
-    stage: Stage = Stage.REGULAR
+    stage: GameStage = GameStage.REGULAR
 
 
 START = Signal("START", "s", EventKind.START, "START", phase=Phase.PLAY)
@@ -52,8 +52,8 @@ SIGNALS: tuple[Signal, ...] = (
     Signal("PARK", "L", EventKind.PARKING, "Park", phase=Phase.PARKING),
     Signal("FIRST_HALF", "1", EventKind.ACTION, "1st half", half=1),
     Signal("SECOND_HALF", "2", EventKind.ACTION, "2nd half", half=2),
-    Signal("FIRST_HALF_OVERTIME", "3", EventKind.ACTION, "Overtime 1st half", half=3, stage=Stage.EXTRA_TIME),
-    Signal("SECOND_HALF_OVERTIME", "4", EventKind.ACTION, "Overtime 2nd half", half=4, stage=Stage.EXTRA_TIME),
+    Signal("FIRST_HALF_OVERTIME", "3", EventKind.ACTION, "Overtime 1st half", half=3, stage=GameStage.EXTRA_TIME),
+    Signal("SECOND_HALF_OVERTIME", "4", EventKind.ACTION, "Overtime 2nd half", half=4, stage=GameStage.EXTRA_TIME),
     HALF_TIME,
     Signal("END_PART", "", EventKind.HALF_TIME, "End Part", phase=Phase.HALF_TIME),
     END_GAME,

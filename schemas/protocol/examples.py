@@ -1,8 +1,9 @@
 """One example of each message, from one tick of a match; the first that a reader sees of it."""
 
-from schemas.coach import CoachMode, CoachOrder, StandingOrder
-from schemas.command import BallBelief, Command, Drive, Kick, KickMode, Motion, Radio
-from schemas.control import RecorderDeed, RecorderReply, RecorderRequest
+from schemas.config.match_config import MatchConfig
+from schemas.config.roster import Placement
+from schemas.config.rule_book import load_rule_book
+from schemas.config.scene import SceneOperation, SceneReply, SceneRequest
 from schemas.game import (
     ActionName,
     ActionReply,
@@ -16,8 +17,10 @@ from schemas.game import (
     Score,
     TeamPhase,
 )
-from schemas.hand import HandDrive
-from schemas.host import (
+from schemas.message import Message
+from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
+from schemas.messages.command import BallBelief, Command, Drive, Kick, KickMode, Motion, Radio
+from schemas.messages.host import (
     Applied,
     AppliedInput,
     Belief,
@@ -28,17 +31,14 @@ from schemas.host import (
     Setup,
     SetupRequest,
 )
-from schemas.match_config import MatchConfig
-from schemas.message import Message
-from schemas.minutes import Minutes, MinutesEntry
-from schemas.parameters import Parameter, ParameterDeed, ParametersReply, ParametersRequest
-from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
-from schemas.roster import Placement
-from schemas.rule_book import load_rule_book
-from schemas.scene import SceneDeed, SceneReply, SceneRequest
+from schemas.messages.manual import ManualDrive
+from schemas.messages.parameters import Parameter, ParameterOperation, ParametersReply, ParametersRequest
+from schemas.messages.record_batch import BatchEntry, RecordBatch
+from schemas.messages.recorder import RecorderOperation, RecorderReply, RecorderRequest
+from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
+from schemas.messages.sight import BallSight, Obstacle, Outcome, ReceivedRadio, Sight
+from schemas.messages.world import BallFrame, BallTruth, RobotFrame, RobotTruth, World
 from schemas.side import Side
-from schemas.sight import BallSight, Heard, Obstacle, Outcome, Sight
-from schemas.world import BallFrame, BallTruth, RobotFrame, RobotTruth, World
 
 _TICK, _TIME = 412, 8.24
 _CYAN_2 = RobotTruth(x=3.1, y=-1.2, z=0.399, heading=0.31, vx=1.4, vy=0.45, omega=0.0, holding=True)
@@ -90,7 +90,7 @@ def _robot() -> tuple[Message, ...]:
             ball=BallSight(x=3.4512, y=-1.1034, z=0.1188, vx=1.37, vy=0.49),
             holding=True,
             obstacles=[Obstacle(x=4.2, y=0.6, radius=0.245), Obstacle(x=10.55, y=0.12, radius=0.245)],
-            radio={"cyan1": Heard(age=0.06, self=Motion(x=-10.4, y=0.0, heading=0.02), role="keeper")},
+            radio={"cyan1": ReceivedRadio(age=0.06, self=Motion(x=-10.4, y=0.0, heading=0.02), role="keeper")},
             game=GameView(phase=TeamPhase.PLAY, running=True, clock=5.2, our_score=1, their_score=0),
             order=_ORDER,
             outcome=Outcome(answers_tick=411, refused=["kick: ball not held"]),
@@ -103,12 +103,10 @@ def _robot() -> tuple[Message, ...]:
             radio=_RADIO,
             acknowledges_order=_ORDER.sequence,
         ),
-        HandDrive(drive=Drive(vx=1.0, omega=-1.0), dribble=True),
+        ManualDrive(drive=Drive(vx=1.0, omega=-1.0), dribble=True),
         Belief(tick=_TICK + 1, time=_TIME + 0.02, robot="cyan2", radio=_RADIO),
         _ORDER,
-        StandingOrder(
-            tick=_TICK, time=_TIME, order=_ORDER, acknowledged={"cyan1": True, "cyan2": True, "cyan3": False}
-        ),
+        ActiveOrder(tick=_TICK, time=_TIME, order=_ORDER, acknowledged={"cyan1": True, "cyan2": True, "cyan3": False}),
     )
 
 
@@ -145,7 +143,7 @@ def _host() -> tuple[Message, ...]:
         SetupRequest(),
         _setup(),
         *_parameters(),
-        SceneRequest(deed=SceneDeed.PLACE, place=[Placement(body="ball", x=2.0, y=-1.0, vx=3.0)]),
+        SceneRequest(operation=SceneOperation.PLACE, place=[Placement(body="ball", x=2.0, y=-1.0, vx=3.0)]),
         SceneReply(accepted=True, episode=1),
         Applied(
             tick=_TICK + 1,
@@ -172,10 +170,10 @@ def _host() -> tuple[Message, ...]:
             reason="Command: drive.vx is 'fast': Input should be a valid number",
             size=41,
         ),
-        Minutes(
+        RecordBatch(
             tick=_TICK + 1,
             entries=[
-                MinutesEntry(
+                BatchEntry(
                     key="robot/cyan2/command",
                     message=Command(answers_tick=_TICK, drive=_DRIVE).model_dump(mode="json"),
                     sequence=412,
@@ -186,11 +184,11 @@ def _host() -> tuple[Message, ...]:
             ],
         ),
         RecorderProgress(tick=403, messages=6045, lost=0),
-        RecorderRequest(deed=RecorderDeed.SNAPSHOT),
+        RecorderRequest(operation=RecorderOperation.SNAPSHOT),
         RecorderReply(
             accepted=True, recorder="recorder", paused=False, file="final.0003.mcap", messages=6045, lost=0, tick=403
         ),
-        ReplayRequest(deed=ReplayDeed.SEEK, to="goal:1-5"),
+        ReplayRequest(operation=ReplayOperation.SEEK, to="goal:1-5"),
         ReplayReply(accepted=True, time=3.24, end=28.02, rate=1.0, messages=2290),
     )
 
@@ -198,7 +196,7 @@ def _host() -> tuple[Message, ...]:
 def _parameters() -> tuple[Message, ...]:
     rolling = Parameter(
         name="ball.rolling_deceleration",
-        says="loss of speed of a ball that rolls freely",
+        description="loss of speed of a ball that rolls freely",
         unit="m/s²",
         low=0.0,
         high=10.0,
@@ -207,7 +205,7 @@ def _parameters() -> tuple[Message, ...]:
         initial=0.5,
     )
     return (
-        ParametersRequest(deed=ParameterDeed.SET, values={"ball.rolling_deceleration": 1.2}),
+        ParametersRequest(operation=ParameterOperation.SET, values={"ball.rolling_deceleration": 1.2}),
         ParametersReply(accepted=True, parameters=[rolling]),
     )
 

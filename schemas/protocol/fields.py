@@ -16,13 +16,13 @@ from pydantic import BaseModel, StringConstraints
 from pydantic.fields import FieldInfo
 from pydantic_core import to_json
 
+from schemas.config.quantity import Choice, Quantity
 from schemas.message import Name
-from schemas.quantity import Choice, Quantity
 
 Link = Callable[[type], str]
 """How a part or an enumeration is named in the text."""
 
-EVERYWHERE = {
+COMMON_MEANINGS = {
     "tick": "control ticks since the match began",
     "time": "simulated time; s",
     "clock": "game clock; s",
@@ -66,9 +66,9 @@ def is_part(kind: Any) -> bool:
 def rows(part: type, link: Link) -> list[Row]:
     """The fields of a part, in order, without `version`."""
     hints = get_type_hints(part, include_extras=True)
-    said = _docstrings(part)
+    docstrings = _docstrings(part)
     return [
-        Row(name, in_words(hints[name], link), default, _meaning(name, said, hints[name]))
+        Row(name, type_text(hints[name], link), default, _meaning(name, docstrings, hints[name]))
         for name, default in _defaults(part)
         if name != "version"
     ]
@@ -96,7 +96,7 @@ def _docstrings(part: type) -> dict[str, str]:
     return found
 
 
-def in_words(hint: Any, link: Link) -> str:
+def type_text(hint: Any, link: Link) -> str:
     """A type in words, with the limits it is declared with."""
     if hint == Name:
         return "name"
@@ -108,16 +108,16 @@ def in_words(hint: Any, link: Link) -> str:
     match get_origin(hint):
         case origin if origin is Annotated:
             limits = _limits(inner[1:])
-            return in_words(inner[0], link) + (f" ({limits})" if limits else "")
+            return type_text(inner[0], link) + (f" ({limits})" if limits else "")
         case origin if origin in (Union, types.UnionType):
-            words = [in_words(choice, link) for choice in inner if choice is not type(None)]
+            words = [type_text(choice, link) for choice in inner if choice is not type(None)]
             return " or ".join(words + (["null"] if type(None) in inner else []))
         case origin if origin is list:
-            return f"list of {in_words(inner[0], link)}"
+            return f"list of {type_text(inner[0], link)}"
         case origin if origin is tuple:
-            return f"list of {in_words(inner[0], link)}"
+            return f"list of {type_text(inner[0], link)}"
         case origin if origin is dict:
-            return f"{in_words(inner[0], link)} → {in_words(inner[1], link)}"
+            return f"{type_text(inner[0], link)} → {type_text(inner[1], link)}"
         case _:
             return link(hint)
 
@@ -142,29 +142,29 @@ def _defaults(part: type) -> Iterator[tuple[str, str]]:
 
 
 def _limits(metadata: Sequence[Any]) -> str:
-    said: list[str] = []
+    limits: list[str] = []
     for item in (inner for one in metadata for inner in (one.metadata if isinstance(one, FieldInfo) else [one])):
         match item:
             case Ge(ge=bound):
-                said.append(f"at least {bound:g}")
+                limits.append(f"at least {bound:g}")
             case Gt(gt=bound):
-                said.append(f"above {bound:g}")
+                limits.append(f"above {bound:g}")
             case Le(le=bound):
-                said.append(f"at most {bound:g}")
+                limits.append(f"at most {bound:g}")
             case MaxLen(max_length=bound):
-                said.append(f"at most {bound} of them")
+                limits.append(f"at most {bound} of them")
             case StringConstraints(max_length=int() as bound):
-                said.append(f"at most {bound} characters")
+                limits.append(f"at most {bound} characters")
             case _:
                 continue
-    return ", ".join(said)
+    return ", ".join(limits)
 
 
-def _meaning(name: str, said: dict[str, str], hint: Any) -> str:
+def _meaning(name: str, docstrings: dict[str, str], hint: Any) -> str:
     for item in get_args(hint)[1:]:
         if isinstance(item, Quantity):
-            return item.says if item.unit == "1" else f"{item.says}; {item.unit}"
+            return item.description if item.unit == "1" else f"{item.description}; {item.unit}"
         if isinstance(item, Choice):
-            return f"{item.says}: {', '.join(item.words)}"
-    common = "" if any(_named_types(hint)) else EVERYWHERE.get(name, "")
-    return said.get(name) or common
+            return f"{item.description}: {', '.join(item.options)}"
+    common = "" if any(_named_types(hint)) else COMMON_MEANINGS.get(name, "")
+    return docstrings.get(name) or common

@@ -22,7 +22,7 @@ _NOTE = (
 )
 _WIDE = 110
 """Characters that a line of an example has at most, where it can be broken."""
-_TOPIC_HEADINGS = ("key", "message", "from", "to", "rate", "delivery", "recorded", "what it says")
+_TOPIC_HEADINGS = ("key", "message", "from", "to", "rate", "delivery", "recorded", "description")
 _FIELD_HEADINGS = ("field", "type", "default", "meaning")
 
 
@@ -95,7 +95,7 @@ def _topic_cells(topic: Topic, titles: dict[type, str]) -> tuple[str, ...]:
         topic.rate,
         topic.delivery.value,
         "yes" if topic.recorded else "no",
-        topic.says,
+        topic.description,
     )
 
 
@@ -108,14 +108,14 @@ def _message(kind: type[Message], titles: dict[type, str]) -> str:
 
 def _part(kind: type, titles: dict[type, str]) -> str:
     """Heading, docstring, and the table of fields or the words of an enumeration."""
-    said = [f"### {titles[kind]}", " ".join(cleandoc(kind.__doc__ or "").split())]
+    sections = [f"### {titles[kind]}", " ".join(cleandoc(kind.__doc__ or "").split())]
     if issubclass(kind, Enum):
-        said.append(", ".join(f"`{member.value}`" for member in kind))
+        sections.append(", ".join(f"`{member.value}`" for member in kind))
     else:
         fields = rows(kind, lambda part: _link(titles[part]))
         cells = [(f"`{row.name}`", row.type, f"`{row.default}`" if row.default else "", row.meaning) for row in fields]
-        said.append(_table(_FIELD_HEADINGS, cells) if cells else "No other fields.")
-    return "\n\n".join(said)
+        sections.append(_table(_FIELD_HEADINGS, cells) if cells else "No other fields.")
+    return "\n\n".join(sections)
 
 
 def _table(headings: Sequence[str], cells: Iterable[Sequence[str]]) -> str:
@@ -130,9 +130,9 @@ def laid_out(message: Message) -> str:
 
 
 def _entry(name: str, value: Any, indent: str) -> str:
-    said = f"{json.dumps(name)}: {json.dumps(value, ensure_ascii=False)}"
-    if not isinstance(value, dict) or len(indent) + len(said) <= _WIDE:
-        return said
+    text = f"{json.dumps(name)}: {json.dumps(value, ensure_ascii=False)}"
+    if not isinstance(value, dict) or len(indent) + len(text) <= _WIDE:
+        return text
     inside = indent + "  "
     entries = [_entry(below, content, inside) for below, content in value.items()]
     return f"{json.dumps(name)}: {{\n{_packed(entries, inside)}\n{indent}}}"

@@ -4,28 +4,27 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from schemas.host import AppliedInput
-from schemas.profile import Profile
-from schemas.robot_model import RobotModel
-from sim_host.actuation.air import Vector
-from sim_host.actuation.carrying import WAYS, Hold
-from sim_host.actuation.drive import FieldDrive
-from sim_host.actuation.free_ball import FreeBall
-from sim_host.actuation.kick import KickRefusedError, Launch, Shot, launch
+from schemas.config.profile import Profile
+from schemas.config.robot_model import RobotModel
+from schemas.messages.host import AppliedInput
+from sim_host.actuation.carrying import METHODS, HeldBall
+from sim_host.actuation.kick import KickRefusedError, Launch, PlannedKick, launch
 from sim_host.actuation.kickers import Kickers
 from sim_host.actuation.possession import can_hold, holder, why_not_held
+from sim_host.physics.engine import BallContacts, BodyState, Engine
+from sim_host.physics.free_ball import FreeBall
+from sim_host.physics.vectors import FieldTwist, Vector
 from sim_host.snapshot import BallState, RobotState
-from sim_host.world.engine import BallContacts, BodyState, Engine
 
-_PRESSED = 0.005
+_MAX_PRESSED_DEPTH = 0.005
 """m; a held ball that is pressed this deep into another body is lost: it is never carried through one."""
-_OVERRUN = 0.01
+_MAX_OVERRUN = 0.01
 """m; a ball this much nearer than the gap is in the hull of its holder or kicker, who pushes it from then on."""
 
 
 @dataclass(slots=True)
 class BallReport:
-    """What happened to the ball in one tick; robots by their place in the roster."""
+    """What happened to the ball in one tick; robots by their index in the roster."""
 
     refused: dict[int, str] = field(default_factory=dict)
     """Kicks that could not be done, and why."""
@@ -44,26 +43,26 @@ class BallHandling:
         self._step = profile.time.physics_step
         self._free = FreeBall(profile.ball, profile.field, self._step)
         self._kickers = Kickers([model.kicker for model in models], profile.time.tick)
-        self.holding: int | None = None
-        self._leaving: int | None = None
+        self.holder: int | None = None
+        self._ball_leaving: int | None = None
         """The robot whose kicked ball has not left its hull yet."""
 
-    def hold(self, place: int | None) -> None:
+    def set_holder(self, index: int | None) -> None:
         """Make a robot the holder, or nobody.
 
         A ball that is carried lies a little in the hull; one that is drawn touches it.
         """
-        is_carried = place is not None and self._is_carried(place)
-        self._engine.let_through(place if is_carried else None)
-        self.holding = place
-        self._leaving = None
+        is_carried = index is not None and self._is_carried(index)
+        self._engine.ignore_ball_contacts(index if is_carried else None)
+        self.holder = index
+        self._ball_leaving = None
 
-    def begin_anew(self, ball: BallState) -> None:
+    def reset(self, ball: BallState) -> None:
         """Make a checkpoint: nobody holds the ball, every kicker is charged, and a ball on the ground rolls."""
-        self.hold(None)
+        self.set_holder(None)
         self._kickers.charge()
         if not self._free.is_in_air(ball.z, ball.vz):
-            self._engine.move_ball((ball.vx, ball.vy, ball.vz), self._free.rolling_spin(ball.vx, ball.vy))
+            self._engine.set_ball_motion((ball.vx, ball.vy, ball.vz), self._free.rolling_spin(ball.vx, ball.vy))
 
     def kickers_ready(self, tick: int) -> tuple[bool, ...]:
         """Per robot: its kicker can kick in this tick."""
@@ -77,39 +76,39 @@ class BallHandling:
         Robots that dribble claim the ball, and those that kick. A kick is done now or refused now; none is kept.
         """
         report = BallReport()
-        claims = [place for place, one in enumerate(inputs) if one.dribble or one.kick is not None]
+        claims = [index for index, one in enumerate(inputs) if one.dribble or one.kick is not None]
         new = holder(claims, robots, ball, self._dribbles) if claims else None
-        if new != self.holding:
-            self.hold(None if new is not None and self._would_press(new) else new)
-        for place in claims:
-            if inputs[place].kick is None:
+        if new != self.holder:
+            self.set_holder(None if new is not None and self._would_press(new) else new)
+        for index in claims:
+            if inputs[index].kick is None:
                 continue
             try:
-                self._launch(place, self._kick(tick, place, robots[place], ball, inputs[place]))
+                self._apply_launch(index, self._kick(tick, index, robots[index], ball, inputs[index]))
             except KickRefusedError as refusal:
-                report.refused[place] = str(refusal)
+                report.refused[index] = str(refusal)
                 continue
-            self._kickers.kicked(place, tick)
-            report.kicked = place
-            report.touches.append(place)
+            self._kickers.kicked(index, tick)
+            report.kicked = index
+            report.touches.append(index)
         return report
 
-    def before_step(self, drives: Sequence[FieldDrive]) -> BodyState | None:
+    def before_step(self, drives: Sequence[FieldTwist]) -> BodyState | None:
         """Move the ball as its holder does, or as ground and air do; a free ball, as it begins the step."""
         now = self._engine.ball_now()
         position, _, velocity, spin = now
-        if self.holding is not None and self._is_overrun(self.holding, position):
-            self.hold(None)
-        if self.holding is not None:
-            self._carry(self.holding, drives[self.holding], BallState(*position, *velocity))
-            if not self._is_carried(self.holding):
+        if self.holder is not None and self._is_overrun(self.holder, position):
+            self.set_holder(None)
+        if self.holder is not None:
+            self._carry(self.holder, drives[self.holder], BallState(*position, *velocity))
+            if not self._is_carried(self.holder):
                 self._push(now)
             return None
         changed = self._free.sudden_change(position, velocity, spin)
         if changed is None:
             self._push(now)
             return now
-        self._engine.move_ball(*changed)
+        self._engine.set_ball_motion(*changed)
         return now._replace(velocity=changed[0], spin=changed[1])
 
     def _push(self, ball: BodyState) -> None:
@@ -120,44 +119,44 @@ class BallHandling:
 
     def after_step(self, report: BallReport) -> None:
         """Note who touched the ball."""
-        contacts: BallContacts = self._engine.ball_contacts(self.holding)
-        if self._leaving is not None:
-            self._leave(self._leaving)
-        if self.holding is not None:
-            report.touches.append(self.holding)
-            if contacts.depth > _PRESSED:
-                self.hold(None)
+        contacts: BallContacts = self._engine.ball_contacts(self.holder)
+        if self._ball_leaving is not None:
+            self._end_kick(self._ball_leaving)
+        if self.holder is not None:
+            report.touches.append(self.holder)
+            if contacts.depth > _MAX_PRESSED_DEPTH:
+                self.set_holder(None)
         report.touches.extend(contacts.robots)
 
-    def let_go(self, robots: tuple[RobotState, ...], ball: BallState) -> bool:
+    def release_lost_ball(self, robots: tuple[RobotState, ...], ball: BallState) -> bool:
         """At the end of a tick, let a ball go that has left its holder; whether one was."""
-        if self.holding is None or can_hold(robots[self.holding], ball, self._dribbles[self.holding]):
+        if self.holder is None or can_hold(robots[self.holder], ball, self._dribbles[self.holder]):
             return False
-        self.hold(None)
+        self.set_holder(None)
         return True
 
-    def _kick(self, tick: int, place: int, robot: RobotState, ball: BallState, told: AppliedInput) -> Launch:
+    def _kick(self, tick: int, index: int, robot: RobotState, ball: BallState, applied: AppliedInput) -> Launch:
         """The velocity that this robot's kick gives the ball.
 
         Raises:
             KickRefusedError: it does not hold the ball, its kicker is not charged, or the kick leads nowhere.
         """
-        if told.kick is None or place != self.holding:
-            raise KickRefusedError(why_not_held(robot, ball, self._dribbles[place]))
-        reason = self._kickers.why_not(place, tick)
+        if applied.kick is None or index != self.holder:
+            raise KickRefusedError(why_not_held(robot, ball, self._dribbles[index]))
+        reason = self._kickers.why_not(index, tick)
         if reason is not None:
             raise KickRefusedError(reason)
-        kicker = self._models[place].kicker
-        return launch(told.kick.mode, Shot(told.kick.speed, ball, robot.heading, kicker, self._profile))
+        kicker = self._models[index].kicker
+        return launch(applied.kick.mode, PlannedKick(applied.kick.speed, ball, robot.heading, kicker, self._profile))
 
-    def _launch(self, place: int, velocity: Launch) -> None:
+    def _apply_launch(self, index: int, velocity: Launch) -> None:
         """Set the ball going, out of its kicker's hull; along the ground it rolls at once and keeps its exit speed."""
         vx, vy, vz = velocity
-        self._engine.move_ball((vx, vy, vz), self._free.rolling_spin(vx, vy) if vz == 0.0 else (0.0, 0.0, 0.0))
-        self._engine.let_through(place)
-        self.holding, self._leaving = None, place
+        self._engine.set_ball_motion((vx, vy, vz), self._free.rolling_spin(vx, vy) if vz == 0.0 else (0.0, 0.0, 0.0))
+        self._engine.ignore_ball_contacts(index)
+        self.holder, self._ball_leaving = None, index
 
-    def _leave(self, kicker: int) -> None:
+    def _end_kick(self, kicker: int) -> None:
         """Let a kicked ball collide with its kicker again as soon as it has left the hull."""
         robot, hull = self._engine.robot_now(kicker), self._models[kicker].body
         position, *_ = self._engine.ball_now()
@@ -165,34 +164,34 @@ class BallHandling:
         touching = hull.reach + self._profile.ball.radius
         has_left = math.hypot(x - robot.x, y - robot.y) > touching or z > hull.height
         if has_left or self._is_overrun(kicker, position):
-            self.hold(None)
+            self.set_holder(None)
 
-    def _would_press(self, place: int) -> bool:
+    def _would_press(self, index: int) -> bool:
         """Whether the ball lies pressed into another body than the robot that would carry it.
 
         Carried to its place it would be pressed deeper, lost, and caught again in the next tick, each time deeper.
         """
-        return self._is_carried(place) and self._engine.ball_contacts(place).depth > _PRESSED
+        return self._is_carried(index) and self._engine.ball_contacts(index).depth > _MAX_PRESSED_DEPTH
 
-    def _is_carried(self, place: int) -> bool:
+    def _is_carried(self, index: int) -> bool:
         """Whether a robot moves the ball for certain, rather than draws it by forces."""
-        return self._dribbles[place].method != "force"
+        return self._dribbles[index].method != "force"
 
-    def _is_overrun(self, place: int, ball: Vector) -> bool:
+    def _is_overrun(self, index: int, ball: Vector) -> bool:
         """Whether another body, or its own way, has brought the ball into the hull of who holds or kicked it."""
-        robot, gap = self._engine.robot_now(place), self._dribbles[place].gap
-        return math.hypot(ball[0] - robot.x, ball[1] - robot.y) < gap - _OVERRUN
+        robot, gap = self._engine.robot_now(index), self._dribbles[index].gap
+        return math.hypot(ball[0] - robot.x, ball[1] - robot.y) < gap - _MAX_OVERRUN
 
-    def _carry(self, place: int, drive: FieldDrive, ball: BallState) -> None:
+    def _carry(self, index: int, drive: FieldTwist, ball: BallState) -> None:
         """Move the ball with its holder for one step."""
-        dribble, engine = self._dribbles[place], self._engine
-        hold = Hold(engine.robot_now(place), drive, ball, dribble, self._profile.ball.radius, self._step)
-        at, velocity, force = WAYS[dribble.method](hold)
+        dribble, engine = self._dribbles[index], self._engine
+        held = HeldBall(engine.robot_now(index), drive, ball, dribble, self._profile.ball.radius, self._step)
+        at, velocity, force = METHODS[dribble.method](held)
         if velocity is not None:
             spin = self._free.rolling_spin(velocity[0], velocity[1])
             if at is not None:
-                engine.set_ball(at, velocity, spin)
+                engine.set_ball_state(at, velocity, spin)
             else:
-                engine.move_ball(velocity, spin)
+                engine.set_ball_motion(velocity, spin)
         if force is not None:
             engine.push_ball(force, (ball.x, ball.y, ball.z))

@@ -1,26 +1,25 @@
 """How a held ball moves with its holder, three ways by name: put in its place, given a velocity, or drawn by forces.
 
 The paper's two are `pose`, "directly and continuously set" before the robot (equation 2), and `velocity`, v + ω × r as
-its plugin does. Both move the ball for certain, draw it to the gap no faster than `PULL`, and give it up when that
-presses it into another body. `force` is the physical way: a spring and a damper, as strong as the dribbler's wheels,
-draw the ball to the gap while it rolls on the ground and lies against the hull. What the wheels cannot hold in a turn
-or under the brake is lost. The wheels' pull on the robot, a thousandth of its weight, is left out.
+its plugin does. Both move the ball for certain, draw it to the gap no faster than `PULL_SPEED`, and give it up when
+that presses it into another body. `force` is the physical way: a spring and a damper, as strong as the dribbler's
+wheels, draw the ball to the gap while it rolls on the ground and lies against the hull. What the wheels cannot hold in
+a turn or under the brake is lost. The wheels' pull on the robot, a thousandth of its weight, is left out.
 """
 
 import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-from schemas.sections import Dribble
-from sim_host.actuation.air import Vector
-from sim_host.actuation.drive import FieldDrive
+from schemas.config.sections import Dribble
+from sim_host.physics.vectors import FieldTwist, Vector
 from sim_host.snapshot import BallState, RobotState
 
-PULL = 2.0
+PULL_SPEED = 2.0
 """m/s; how fast a ball is drawn to its place before the robot, beside moving along with it."""
 
 
-class Carried(NamedTuple):
+class CarryStep(NamedTuple):
     """What becomes of a held ball for one physics step; only what is given is changed."""
 
     place: Vector | None = None
@@ -31,11 +30,11 @@ class Carried(NamedTuple):
     """N, at its centre."""
 
 
-class Hold(NamedTuple):
+class HeldBall(NamedTuple):
     """A ball and the robot that holds it, before a step."""
 
     robot: RobotState
-    drive: FieldDrive
+    drive: FieldTwist
     """vx, vy in m/s and omega in rad/s of the robot in this step, field frame."""
     ball: BallState
     dribble: Dribble
@@ -44,12 +43,12 @@ class Hold(NamedTuple):
     step: float
     """s."""
 
-    def gap_now(self) -> tuple[float, float]:
+    def target_now(self) -> tuple[float, float]:
         """Where the ball belongs as the robot stands, m."""
         robot, gap = self.robot, self.dribble.gap
         return robot.x + gap * math.cos(robot.heading), robot.y + gap * math.sin(robot.heading)
 
-    def gap_next(self) -> tuple[float, float]:
+    def target_next(self) -> tuple[float, float]:
         """Where the ball belongs after the step, m."""
         robot, gap, (vx, vy, omega) = self.robot, self.dribble.gap, self.drive
         turned = robot.heading + omega * self.step
@@ -59,37 +58,37 @@ class Hold(NamedTuple):
         )
 
 
-def by_pose(hold: Hold) -> Carried:
+def by_pose(held: HeldBall) -> CarryStep:
     """The pose is set to the gap, and moves on with it."""
-    (x, y), (next_x, next_y), ball = hold.gap_now(), hold.gap_next(), hold.ball
-    dx, dy, dz = x - ball.x, y - ball.y, hold.ball_radius - ball.z
-    share = min(1.0, PULL * hold.step / max(math.hypot(dx, dy, dz), 1e-9))
+    (x, y), (next_x, next_y), ball = held.target_now(), held.target_next(), held.ball
+    dx, dy, dz = x - ball.x, y - ball.y, held.ball_radius - ball.z
+    share = min(1.0, PULL_SPEED * held.step / max(math.hypot(dx, dy, dz), 1e-9))
     place = (ball.x + share * dx, ball.y + share * dy, ball.z + share * dz)
-    return Carried(place=place, velocity=((next_x - x) / hold.step, (next_y - y) / hold.step, 0.0))
+    return CarryStep(place=place, velocity=((next_x - x) / held.step, (next_y - y) / held.step, 0.0))
 
 
-def by_velocity(hold: Hold) -> Carried:
+def by_velocity(held: HeldBall) -> CarryStep:
     """v + ω × r, and toward the gap."""
-    robot, ball, (vx, vy, omega) = hold.robot, hold.ball, hold.drive
+    robot, ball, (vx, vy, omega) = held.robot, held.ball, held.drive
     along = (vx - omega * (ball.y - robot.y), vy + omega * (ball.x - robot.x))
-    x, y = hold.gap_next()
-    pull = ((x - ball.x) / hold.step - along[0], (y - ball.y) / hold.step - along[1])
-    share = min(1.0, PULL / max(math.hypot(*pull), 1e-9))
-    return Carried(velocity=(along[0] + share * pull[0], along[1] + share * pull[1], ball.vz))
+    x, y = held.target_next()
+    pull = ((x - ball.x) / held.step - along[0], (y - ball.y) / held.step - along[1])
+    share = min(1.0, PULL_SPEED / max(math.hypot(*pull), 1e-9))
+    return CarryStep(velocity=(along[0] + share * pull[0], along[1] + share * pull[1], ball.vz))
 
 
-def by_force(hold: Hold) -> Carried:
+def by_force(held: HeldBall) -> CarryStep:
     """Spring and damper toward the gap, along and across the kick axis as strong as the wheels at most."""
-    robot, ball, dribble, (vx, vy, omega) = hold.robot, hold.ball, hold.dribble, hold.drive
-    x, y = hold.gap_now()
+    robot, ball, dribble, (vx, vy, omega) = held.robot, held.ball, held.dribble, held.drive
+    x, y = held.target_now()
     faster = (vx - omega * (y - robot.y) - ball.vx, vy + omega * (x - robot.x) - ball.vy)
     fx = dribble.stiffness * (x - ball.x) + dribble.damping * faster[0]
     fy = dribble.stiffness * (y - ball.y) + dribble.damping * faster[1]
     c, s = math.cos(robot.heading), math.sin(robot.heading)
     along = max(-dribble.max_pull, min(dribble.max_pull, c * fx + s * fy))
     across = max(-dribble.max_side, min(dribble.max_side, c * fy - s * fx))
-    return Carried(force=(c * along - s * across, s * along + c * across, 0.0))
+    return CarryStep(force=(c * along - s * across, s * along + c * across, 0.0))
 
 
-WAYS: dict[str, Callable[[Hold], Carried]] = {"pose": by_pose, "velocity": by_velocity, "force": by_force}
+METHODS: dict[str, Callable[[HeldBall], CarryStep]] = {"pose": by_pose, "velocity": by_velocity, "force": by_force}
 """`Dribble.method` → what it does."""

@@ -2,14 +2,14 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from schemas.host import AppliedInput
-from schemas.robot_model import RobotModel
-from schemas.sections import TimeSteps
-from sim_host.actuation.drive import FieldDrive
+from schemas.config.robot_model import RobotModel
+from schemas.config.sections import TimeSteps
+from schemas.messages.host import AppliedInput
 from sim_host.actuation.omni_drive import OmniDrive
-from sim_host.actuation.stuck import StuckWatch
+from sim_host.actuation.stuck_detector import StuckDetector
 from sim_host.actuation.velocity_drive import VelocityDrive
-from sim_host.snapshot import Robots, RobotState
+from sim_host.physics.vectors import FieldTwist
+from sim_host.snapshot import RobotState, RobotStates
 
 
 class Chassis:
@@ -18,39 +18,42 @@ class Chassis:
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel], now: Callable[[int], RobotState]) -> None:
         """`now` tells how one robot moves between two physics steps."""
         self._now = now
-        self._set = [place for place, model in enumerate(models) if model.drive.model == "velocity"]
-        self._rolling = [place for place, model in enumerate(models) if model.drive.model == "omni"]
-        self._velocity = VelocityDrive(time, [models[place] for place in self._set])
-        self._omni = OmniDrive(time, [models[place] for place in self._rolling])
-        self._watch = StuckWatch(len(models), time.tick)
+        self._velocity_driven = [index for index, model in enumerate(models) if model.drive.model == "velocity"]
+        self._omni_driven = [index for index, model in enumerate(models) if model.drive.model == "omni"]
+        self._velocity = VelocityDrive(time, [models[index] for index in self._velocity_driven])
+        self._omni = OmniDrive(time, [models[index] for index in self._omni_driven])
+        self._detector = StuckDetector(len(models), time.tick)
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         """Remember nothing: the robots' velocities are what is measured."""
-        self._velocity.forget()
-        self._omni.forget()
-        self._watch.forget()
+        self._velocity.reset()
+        self._omni.reset()
+        self._detector.reset()
 
     def stuck(self) -> list[bool]:
         """Per robot: it has long moved much slower than it should."""
-        return self._watch.stuck()
+        return self._detector.stuck()
 
-    def plan(self, robots: Robots, inputs: Sequence[AppliedInput]) -> Iterable[Sequence[FieldDrive]]:
+    def plan(self, robots: RobotStates, inputs: Sequence[AppliedInput]) -> Iterable[Sequence[FieldTwist]]:
         """The drives of one tick: per physics step, per robot. Each is to be asked for when its step begins."""
-        told = [one.drive for one in inputs]
-        if not self._rolling:
-            planned = self._velocity.plan(robots, told)
-            self._watch.note(self._set, self._velocity.held)
+        demands = [one.drive for one in inputs]
+        if not self._omni_driven:
+            planned = self._velocity.plan(robots, demands)
+            self._detector.update(self._velocity_driven, self._velocity.held_back)
             return planned
         planned = self._velocity.plan(
-            Robots([robots[place] for place in self._set]), [told[place] for place in self._set]
+            RobotStates([robots[index] for index in self._velocity_driven]),
+            [demands[index] for index in self._velocity_driven],
         )
-        self._omni.plan([robots[place] for place in self._rolling], [told[place] for place in self._rolling])
-        self._watch.note(self._set, self._velocity.held)
-        self._watch.note(self._rolling, self._omni.held)
+        self._omni.plan([robots[index] for index in self._omni_driven], [demands[index] for index in self._omni_driven])
+        self._detector.update(self._velocity_driven, self._velocity.held_back)
+        self._detector.update(self._omni_driven, self._omni.held_back)
         return self._step_by_step(planned)
 
-    def _step_by_step(self, planned: Sequence[Sequence[FieldDrive]]) -> Iterator[Sequence[FieldDrive]]:
-        for number, set_velocities in enumerate(planned):
-            rolled = self._omni.step(number, [self._now(place) for place in self._rolling])
-            drives = dict(zip(self._set + self._rolling, (*set_velocities, *rolled), strict=True))
-            yield [drives[place] for place in range(len(drives))]
+    def _step_by_step(self, planned: Sequence[Sequence[FieldTwist]]) -> Iterator[Sequence[FieldTwist]]:
+        for number, of_velocity_drives in enumerate(planned):
+            of_omni_drives = self._omni.step(number, [self._now(index) for index in self._omni_driven])
+            drives = dict(
+                zip(self._velocity_driven + self._omni_driven, (*of_velocity_drives, *of_omni_drives), strict=True)
+            )
+            yield [drives[index] for index in range(len(drives))]

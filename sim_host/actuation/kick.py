@@ -4,11 +4,11 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-from schemas.command import KickMode
-from schemas.profile import Profile
-from schemas.sections import Kicker
-from sim_host.actuation.air import Air
+from schemas.config.profile import Profile
+from schemas.config.sections import Kicker
+from schemas.messages.command import KickMode
 from sim_host.actuation.lob import Aim, distance_to_goal_plane, solve
+from sim_host.physics.aerodynamics import Aerodynamics
 from sim_host.snapshot import BallState
 
 
@@ -24,7 +24,7 @@ class Launch(NamedTuple):
     vz: float
 
 
-class Shot(NamedTuple):
+class PlannedKick(NamedTuple):
     """A kick that is to be done: the ball, the kick axis, and the means."""
 
     speed: float
@@ -36,37 +36,37 @@ class Shot(NamedTuple):
     profile: Profile
 
 
-def launch(mode: KickMode, shot: Shot) -> Launch:
+def launch(mode: KickMode, kick: PlannedKick) -> Launch:
     """The velocity of the ball after a kick: the robot's own motion adds nothing to it (paper, equations 3 and 10).
 
     Raises:
         KickRefusedError: a lob that no way leads under the bar.
     """
-    along, up = _WAYS[mode](shot)
-    return Launch(along * math.cos(shot.heading), along * math.sin(shot.heading), up)
+    along, up = _MODES[mode](kick)
+    return Launch(along * math.cos(kick.heading), along * math.sin(kick.heading), up)
 
 
-def _ground(shot: Shot) -> tuple[float, float]:
+def _ground(kick: PlannedKick) -> tuple[float, float]:
     """Paper, equation 3."""
-    return min(shot.speed, shot.kicker.max_ground_speed), 0.0
+    return min(kick.speed, kick.kicker.max_ground_speed), 0.0
 
 
-def _loft(shot: Shot) -> tuple[float, float]:
+def _loft(kick: PlannedKick) -> tuple[float, float]:
     """As simatch kicks, but never faster than the device."""
-    speed = min(shot.speed, shot.kicker.max_air_speed)
-    return speed * math.cos(shot.kicker.loft), speed * math.sin(shot.kicker.loft)
+    speed = min(kick.speed, kick.kicker.max_air_speed)
+    return speed * math.cos(kick.kicker.loft), speed * math.sin(kick.kicker.loft)
 
 
-def _lob(shot: Shot) -> tuple[float, float]:
+def _lob(kick: PlannedKick) -> tuple[float, float]:
     """Paper, equation 10, through the air of the profile."""
-    profile, kicker, ball = shot.profile, shot.kicker, shot.ball
+    profile, kicker, ball = kick.profile, kick.kicker, kick.ball
     pitch = profile.field
-    d = distance_to_goal_plane(ball.x, shot.heading, pitch.goal_line)
+    d = distance_to_goal_plane(ball.x, kick.heading, pitch.goal_line)
     if not 0.0 < d < pitch.length * 2.0:
         raise KickRefusedError("kick: a lob is aimed at a goal, and this axis meets no goal line ahead")
     aim = Aim(pitch.goal_height, profile.ball.radius + kicker.lob_margin, ball.z)
-    drag, step = Air.around(profile.ball).drag, profile.time.physics_step
-    speeds = solve(d, aim, shot.speed, kicker.max_lob_speed, drag, step)
+    drag, step = Aerodynamics.of_ball(profile.ball).drag, profile.time.physics_step
+    speeds = solve(d, aim, kick.speed, kicker.max_lob_speed, drag, step)
     if speeds is None or math.hypot(*speeds) > kicker.max_air_speed:
         raise KickRefusedError(
             f"kick: no lob goes the {d:.1f} m to the goal with the {kicker.max_air_speed:g} m/s there are; "
@@ -75,7 +75,7 @@ def _lob(shot: Shot) -> tuple[float, float]:
     return speeds
 
 
-_WAYS: dict[KickMode, Callable[[Shot], tuple[float, float]]] = {
+_MODES: dict[KickMode, Callable[[PlannedKick], tuple[float, float]]] = {
     KickMode.GROUND: _ground,
     KickMode.LOB: _lob,
     KickMode.LOFT: _loft,

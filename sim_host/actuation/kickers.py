@@ -7,7 +7,7 @@ long after the last kick anyway.
 
 from collections.abc import Sequence
 
-from schemas.sections import Kicker
+from schemas.config.sections import Kicker
 
 
 class Kickers:
@@ -24,13 +24,13 @@ class Kickers:
         """Every kicker is charged."""
         self._kicked_at = [None] * len(self._kickers)
 
-    def kicked(self, place: int, tick: int) -> None:
+    def kicked(self, index: int, tick: int) -> None:
         """A robot has kicked in this tick."""
-        self._kicked_at[place] = tick
+        self._kicked_at[index] = tick
 
-    def why_not(self, place: int, tick: int) -> str | None:
+    def why_not(self, index: int, tick: int) -> str | None:
         """Why this robot's kicker cannot kick in this tick; nothing when it can."""
-        kicked_at, kicker = self._kicked_at[place], self._kickers[place]
+        kicked_at, kicker = self._kicked_at[index], self._kickers[index]
         if kicked_at is None:
             return None
         since = (tick - kicked_at) * self._tick
@@ -44,4 +44,4 @@ class Kickers:
         """Per robot: its kicker can kick in this tick."""
         if self._kicked_at.count(None) == len(self._kicked_at):
             return self._all_ready
-        return tuple([at is None or self.why_not(place, tick) is None for place, at in enumerate(self._kicked_at)])
+        return tuple([at is None or self.why_not(index, tick) is None for index, at in enumerate(self._kicked_at)])

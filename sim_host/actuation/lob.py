@@ -7,7 +7,7 @@ flight is followed step by step as the engine integrates it, and the upward spee
 import math
 from typing import NamedTuple
 
-from sim_host.world.gravity import GRAVITY
+from sim_host.physics.gravity import GRAVITY
 
 _FLAT = 1e-6
 """m; a lob that may not rise has no bound on its speed."""
@@ -27,7 +27,7 @@ _LOST = 40.0
 """m below the start, where a ball that has not come to the goal plane never will."""
 
 
-class Flight(NamedTuple):
+class Arrival(NamedTuple):
     """How a ball comes to the goal plane."""
 
     rise: float
@@ -82,7 +82,7 @@ def parabola(d: float, h: float, speed: float, step: float) -> tuple[float, floa
     return along, h / t + GRAVITY * (t + step) / 2.0
 
 
-def fly(along: float, up: float, d: float, drag: float, step: float) -> Flight | None:
+def fly(along: float, up: float, d: float, drag: float, step: float) -> Arrival | None:
     """The flight over `d` m in the engine's own steps, slowed by drag·speed²; nothing if it never arrives."""
     x = z = time = 0.0
     pull, vx, vz = GRAVITY * step, along, up
@@ -97,7 +97,7 @@ def fly(along: float, up: float, d: float, drag: float, step: float) -> Flight |
             return None
     left = (d - x) / new_vx
     down = vz + (new_vz - vz) * left / step
-    return Flight(z + new_vz * left, math.hypot(new_vx, down) / new_vx, time + left)
+    return Arrival(z + new_vz * left, math.hypot(new_vx, down) / new_vx, time + left)
 
 
 def solve(d: float, aim: Aim, speed: float, fastest: float, drag: float, step: float) -> tuple[float, float] | None:
@@ -111,24 +111,24 @@ def solve(d: float, aim: Aim, speed: float, fastest: float, drag: float, step: f
     for _ in range(_ATTEMPTS):
         corrected = _corrected(along, up, d, aim, drag, step)
         if corrected is not None:
-            up, flight = corrected
-            if flight.steepness <= _STEEPEST or along == fastest:
+            up, arrival = corrected
+            if arrival.steepness <= _STEEPEST or along == fastest:
                 return along, up
         along = min(along * _FASTER, fastest)
     return None
 
 
-def _corrected(along: float, up: float, d: float, aim: Aim, drag: float, step: float) -> tuple[float, Flight] | None:
+def _corrected(along: float, up: float, d: float, aim: Aim, drag: float, step: float) -> tuple[float, Arrival] | None:
     """The upward speed near `up` with which a lob arrives at its point, and its flight: by the secant method."""
     last: tuple[float, float] | None = None
     for _ in range(_CORRECTIONS):
-        flight = fly(along, up, d, drag, step)
-        if flight is None:
+        arrival = fly(along, up, d, drag, step)
+        if arrival is None:
             return None
-        miss = aim.rise(flight.steepness) - flight.rise
+        miss = aim.rise(arrival.steepness) - arrival.rise
         if abs(miss) < _NEAR:
-            return up, flight
-        gain = flight.time if last is None else (last[1] - miss) / (up - last[0])  # m of rise for each m/s upward
+            return up, arrival
+        gain = arrival.time if last is None else (last[1] - miss) / (up - last[0])  # m of rise for each m/s upward
         last = (up, miss)
         up += miss / gain
     return None

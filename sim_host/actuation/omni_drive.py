@@ -9,15 +9,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from schemas.command import Drive
-from schemas.robot_model import RobotModel
-from schemas.sections import TimeSteps
-from sim_host.actuation.drive import FieldDrive, Flags, Floats, Ramp
-from sim_host.actuation.stuck import MOVING, SHARE, TURNING
+from schemas.config.robot_model import RobotModel
+from schemas.config.sections import TimeSteps
+from schemas.messages.command import Drive
+from sim_host.actuation.ramp import Flags, Floats, Ramp
+from sim_host.actuation.stuck_detector import MIN_SPEED, MIN_TURN_RATE, SLOW_SHARE
 from sim_host.actuation.wheels import WheelSets
+from sim_host.physics.vectors import FieldTwist
 from sim_host.snapshot import RobotState
 
-_ARRIVED = 1e-9
+_SAME_SPEED = 1e-9
 """m/s; what is told is the demand itself when it is this near, so that wheels told to rest are told zero."""
 
 
@@ -30,35 +31,35 @@ class OmniDrive:
         self._turning = Ramp.of_turning(drives, time.physics_step, time.steps_per_tick)
         self._wheels = WheelSets(models, time.physics_step)
         self._remembers = False
-        self._told = np.zeros((3, len(models)))
+        self._commanded = np.zeros((3, len(models)))
         self._speeds = np.zeros((4, len(models)))
         self._plan: list[Floats] = []
-        self.held: Flags = np.zeros(len(models), dtype=bool)
+        self.held_back: Flags = np.zeros(len(models), dtype=bool)
         """Per robot, as the tick begins: it is well below what it was told last."""
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         """Remember nothing: in the next tick the wheels roll without slip at the twists that are measured."""
         self._remembers = False
 
-    def plan(self, robots: Sequence[RobotState], told: Sequence[Drive]) -> None:
+    def plan(self, robots: Sequence[RobotState], demands: Sequence[Drive]) -> None:
         """Begin a tick of robots that are told these velocities, in their body frames."""
         twist, _ = _twist(robots)
         if not self._remembers:
-            self._told, self._speeds = twist, self._wheels.rolling(twist)
+            self._commanded, self._speeds = twist, self._wheels.rolling(twist)
             self._remembers = True
-        self.held = _held(twist, self._told)
-        demand = self._moving.within_limits(np.array([complex(one.vx, one.vy) for one in told]))
-        turn = self._turning.within_limits(np.array([one.omega for one in told]))
+        self.held_back = _is_held_back(twist, self._commanded)
+        demand = self._moving.within_limits(np.array([complex(one.vx, one.vy) for one in demands]))
+        turn = self._turning.within_limits(np.array([one.omega for one in demands]))
         vx, vy, omega = self._wheels.within_limit(np.stack([demand.real, demand.imag, turn]))
         wanted = vx + 1j * vy
-        velocities = self._moving.toward(self._told[0] + 1j * self._told[1], wanted)
-        velocities = np.where(np.abs(velocities - wanted) < _ARRIVED, wanted, velocities)
-        turn_rates = self._turning.toward(self._told[2], omega)
+        velocities = self._moving.toward(self._commanded[0] + 1j * self._commanded[1], wanted)
+        velocities = np.where(np.abs(velocities - wanted) < _SAME_SPEED, wanted, velocities)
+        turn_rates = self._turning.toward(self._commanded[2], omega)
         steps = zip(velocities.real, velocities.imag, turn_rates, strict=True)
         self._plan = [self._wheels.within_limit(np.stack(step)) for step in steps]
-        self._told = self._plan[-1]
+        self._commanded = self._plan[-1]
 
-    def step(self, number: int, robots: Sequence[RobotState]) -> list[FieldDrive]:
+    def step(self, number: int, robots: Sequence[RobotState]) -> list[FieldTwist]:
         """The velocities with which the robots, as they are now, begin one physics step of the tick."""
         twist, turned = _twist(robots)
         wheels = self._wheels.step(twist, self._speeds, self._wheels.rolling(self._plan[number]))
@@ -76,10 +77,10 @@ def _twist(robots: Sequence[RobotState]) -> tuple[Floats, Floats]:
     return np.stack([body.real, body.imag, state[:, 6]]), turned
 
 
-def _held(twist: Floats, told: Floats) -> Flags:
+def _is_held_back(twist: Floats, demands: Floats) -> Flags:
     """Robots whose speed along what they were told is well below it: in moving, or in turning if that is all."""
-    wanted, wanted_turn = np.hypot(told[0], told[1]), np.abs(told[2])
-    slow = twist[0] * told[0] + twist[1] * told[1] < SHARE * wanted**2
-    slow_turn = (wanted_turn > TURNING) & (twist[2] * told[2] < SHARE * wanted_turn**2)
-    held: Flags = np.where(wanted > MOVING, slow, slow_turn)
+    wanted, wanted_turn = np.hypot(demands[0], demands[1]), np.abs(demands[2])
+    slow = twist[0] * demands[0] + twist[1] * demands[1] < SLOW_SHARE * wanted**2
+    slow_turn = (wanted_turn > MIN_TURN_RATE) & (twist[2] * demands[2] < SLOW_SHARE * wanted_turn**2)
+    held: Flags = np.where(wanted > MIN_SPEED, slow, slow_turn)
     return held

@@ -3,10 +3,10 @@
 import math
 from collections.abc import Iterable, Sequence
 
-from schemas.sections import Dribble
+from schemas.config.sections import Dribble
 from sim_host.snapshot import BallState, RobotState
 
-FAIR = 0.005
+TIE_DISTANCE = 0.005
 """m; two robots whose distances to the ball differ by less are equally near, and neither gets it."""
 
 
@@ -33,7 +33,7 @@ def holder(
         for i in claims
         if can_hold(robots[i], ball, dribbles[i])
     )
-    if not near or (len(near) > 1 and near[1][0] - near[0][0] < FAIR):
+    if not near or (len(near) > 1 and near[1][0] - near[0][0] < TIE_DISTANCE):
         return None
     return near[0][1]
 

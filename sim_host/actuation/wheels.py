@@ -20,13 +20,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from schemas.robot_model import RobotModel
-from schemas.sections import Wheels
-from sim_host.world.gravity import GRAVITY
+from schemas.config.robot_model import RobotModel
+from schemas.config.sections import Wheels
+from sim_host.physics.gravity import GRAVITY
 
 Floats = NDArray[np.float64]
 
-_MOST = 4
+_MAX_WHEELS = 4
 """Wheels of a robot at most; each has so many, some of which may touch nothing."""
 _ROUNDS = 6
 """Rounds in which a robot's wheels find their forces, to 1 % when some slide; two do while no wheel is at a limit."""
@@ -60,18 +60,18 @@ class WheelSets:
         creep = 1 / (load * each(lambda w: w.slip_stiffness))
         self._step = step
         self._limit = each(lambda w: w.max_speed)
-        self._geometry = _robots_last([_geometry(model.wheels) for model in models], (_MOST, 3))
+        self._geometry = _robots_last([_geometry(model.wheels) for model in models], (_MAX_WHEELS, 3))
         self._grip = load * each(lambda w: w.traction) * (self._geometry != 0).any(axis=1)
         self._rim_mass = each(lambda w: (w.inertia + w.rotor_inertia * w.gear**2) / w.radius**2)
         self._gain_impulse, self._stall_impulse = step * gain, step * stall
         # What holds a rim back while it speeds up: its mass, and the controller or the motor's line that asks for less.
-        self._asked_mass, self._most_mass = self._rim_mass + step * gain, self._rim_mass + step * line
+        self._controlled_mass, self._motor_mass = self._rim_mass + step * gain, self._rim_mass + step * line
         # By how much a wheel pushes less for each m/s that the ground under it is faster.
-        self._asked_slope = 1 / (creep + step / self._asked_mass)
-        self._most_slope = 1 / (creep + step / self._most_mass)
-        self._reply = step / _robots_last(masses, (3,))
-        steepest = np.maximum(self._asked_slope, self._most_slope)
-        self._damping = 1 / (1 + self._reply * steepest * (self._geometry**2).sum(axis=0))
+        self._controlled_slope = 1 / (creep + step / self._controlled_mass)
+        self._motor_slope = 1 / (creep + step / self._motor_mass)
+        self._step_over_mass = step / _robots_last(masses, (3,))
+        steepest = np.maximum(self._controlled_slope, self._motor_slope)
+        self._damping = 1 / (1 + self._step_over_mass * steepest * (self._geometry**2).sum(axis=0))
 
     def rolling(self, twist: Floats) -> Floats:
         """Rim speeds, (4, n), of wheels that roll without slip at a twist."""
@@ -84,7 +84,7 @@ class WheelSets:
         shortened: Floats = twist * (self._limit / np.maximum(fastest, self._limit))
         return shortened
 
-    def step(self, twist: Floats, speeds: Floats, told: Floats) -> WheelStep:
+    def step(self, twist: Floats, speeds: Floats, commanded: Floats) -> WheelStep:
         """One physics step of robots that move at a twist, on wheels with these rim speeds, told others.
 
         A wheel's force falls with the speed of the ground under it, and is known in closed form: what the controller
@@ -92,21 +92,21 @@ class WheelSets:
         all wheels is found in a few rounds of a Newton iteration with the steepest slope, which cannot overshoot.
         """
         momentum = self._rim_mass * speeds
-        asked = (momentum + self._gain_impulse * told) / self._asked_mass
-        most = (momentum + self._stall_impulse) / self._most_mass
-        least = (momentum - self._stall_impulse) / self._most_mass
+        controlled = (momentum + self._gain_impulse * commanded) / self._controlled_mass
+        upper = (momentum + self._stall_impulse) / self._motor_mass
+        lower = (momentum - self._stall_impulse) / self._motor_mass
         after = twist
         for _ in range(_ROUNDS):
             ground = self.rolling(after)
-            force = np.maximum((asked - ground) * self._asked_slope, (least - ground) * self._most_slope)
-            force = np.minimum(force, (most - ground) * self._most_slope)
+            force = np.maximum((controlled - ground) * self._controlled_slope, (lower - ground) * self._motor_slope)
+            force = np.minimum(force, (upper - ground) * self._motor_slope)
             force = np.minimum(np.maximum(force, -self._grip), self._grip)
             push = (self._geometry * force[:, None]).sum(axis=0)
-            reached = twist + self._reply * push
+            reached = twist + self._step_over_mass * push
             after = after + (reached - after) * self._damping
         lost = self._step * force
-        rims = np.maximum(asked - lost / self._asked_mass, least - lost / self._most_mass)
-        return WheelStep(push, reached, np.minimum(rims, most - lost / self._most_mass), force)
+        rims = np.maximum(controlled - lost / self._controlled_mass, lower - lost / self._motor_mass)
+        return WheelStep(push, reached, np.minimum(rims, upper - lost / self._motor_mass), force)
 
 
 def _robots_last(each: Sequence[ArrayLike], shape: tuple[int, ...]) -> Floats:
@@ -118,4 +118,4 @@ def _geometry(wheels: Wheels) -> Floats:
     """(4, 3): the rim speed of each wheel for a unit of vx, vy and omega; zeros for a wheel that is not there."""
     angles = [wheels.angle + 2 * math.pi * number / wheels.count for number in range(wheels.count)]
     rows = [(-math.sin(angle), math.cos(angle), wheels.arm) for angle in angles]
-    return np.array(rows + [(0.0, 0.0, 0.0)] * (_MOST - wheels.count))
+    return np.array(rows + [(0.0, 0.0, 0.0)] * (_MAX_WHEELS - wheels.count))

@@ -11,44 +11,44 @@ Measures: nothing of its own.
 Not judged: whether people who officiate are right.
 """
 
-from schemas.game import RESTARTS, EventKind, Mode, Phase, Stage
-from sim_host.referee import flow, penalties, restart
-from sim_host.referee.bench import bench_pose, entry_pose
-from sim_host.referee.call import Restart
-from sim_host.referee.decision import Decision, Proposal
-from sim_host.referee.evidence import NOTHING
+from schemas.game import RESTARTS, EventKind, GameStage, OfficiatingMode, Phase
+from sim_host.referee.evidence import NO_EVIDENCE
+from sim_host.referee.game.decision import Decision, Proposal
+from sim_host.referee.game.referee_state import RefereeState
+from sim_host.referee.game.restart import Restart
+from sim_host.referee.game.timing import reached
+from sim_host.referee.placement.bench import bench_pose, entry_pose
+from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.procedures import penalties, periods, restart
 from sim_host.referee.rules import Rule
-from sim_host.referee.spots import restart_at
-from sim_host.referee.state import RefereeState
-from sim_host.referee.timing import reached
-from sim_host.referee.turn import Turn
+from sim_host.referee.ruling_draft import RulingDraft
 
 
-def judge(turn: Turn, found: tuple[Rule, Decision] | None) -> None:
+def judge(draft: RulingDraft, found: tuple[Rule, Decision] | None) -> None:
     """Carry out what a rule has found, or propose it; carry out a proposal that nobody overruled in time."""
-    proposal = turn.state.proposal
-    if proposal is not None and time_is_up(proposal):
-        decide(turn, proposal.rule, proposal.decision)
+    proposal = draft.state.proposal
+    if proposal is not None and is_due(proposal):
+        decide(draft, proposal.rule, proposal.decision)
     elif found is not None:
         rule, decision = found
-        if turn.match.mode is not Mode.MIXED or not rule.while_running:
-            decide(turn, rule.name, decision)
+        if draft.match.mode is not OfficiatingMode.MIXED or not rule.while_running:
+            decide(draft, rule.name, decision)
         elif proposal is None:
-            propose(turn, rule.name, decision)
+            propose(draft, rule.name, decision)
 
 
-def decide(turn: Turn, rule: str, decision: Decision) -> None:
+def decide(draft: RulingDraft, rule: str, decision: Decision) -> None:
     """Carry a decision out, and remember how it was before."""
-    remember(turn)
-    turn.state = turn.state._replace(proposal=None)
-    flow.carry_out(turn, rule, decision)
+    save_for_undo(draft)
+    draft.state = draft.state._replace(proposal=None)
+    periods.carry_out(draft, rule, decision)
 
 
-def propose(turn: Turn, rule: str, decision: Decision) -> None:
+def propose(draft: RulingDraft, rule: str, decision: Decision) -> None:
     """Say what is decided unless people overrule it; the game goes on meanwhile, and nothing else is judged."""
-    proposal = Proposal(rule, decision, turn.match.proposal)
-    turn.state = turn.state._replace(proposal=proposal)
-    turn.say(
+    proposal = Proposal(rule, decision, draft.match.proposal)
+    draft.state = draft.state._replace(proposal=proposal)
+    draft.add_event(
         EventKind.PROPOSAL,
         rule,
         f"proposed, in {proposal.left:g} s it is decided: {decision.text}",
@@ -63,60 +63,62 @@ def propose(turn: Turn, rule: str, decision: Decision) -> None:
     )
 
 
-def time_is_up(proposal: Proposal | None) -> bool:
+def is_due(proposal: Proposal | None) -> bool:
     """Whether nobody has overruled a proposal in time."""
     return proposal is not None and reached(0.0, proposal.left)
 
 
-def remember(turn: Turn) -> None:
+def save_for_undo(draft: RulingDraft) -> None:
     """Keep the state as it is for `undo`; one decision can be undone, not those before it."""
-    state = turn.state
-    turn.state = state._replace(before=state._replace(before=None, proposal=None))
+    state = draft.state
+    draft.state = state._replace(before=state._replace(before=None, proposal=None))
 
 
-def why_not_undo(turn: Turn) -> str | None:
+def why_not_undo(draft: RulingDraft) -> str | None:
     """A reason against undoing the last decision, or nothing."""
-    before = turn.state.before
+    before = draft.state.before
     if before is None:
         return "no decision can be undone: there was none since this half began, or it was undone"
-    if before.timing.runs and reached(turn.state.clock, before.timing.limit):
+    if before.timing.runs and reached(draft.state.clock, before.timing.limit):
         return "the half's time is up"
     return None
 
 
-def undo(turn: Turn) -> None:
+def undo(draft: RulingDraft) -> None:
     """Bring back the state before the last decision; the clocks go on, and what was in play is dropped.
 
     Score, cards, people and the half are as they were. A restart that was signalled is signalled again; play that was
     on is halted, and the ball is dropped where it was, in a shoot-out the penalty is taken again.
     """
-    now, before = turn.state, turn.state.before
+    now, before = draft.state, draft.state.before
     if before is None:
         return
     timing = before.timing._replace(clock=now.clock, effective=now.timing.effective, timer=0.0)
-    turn.state = before._replace(timing=timing, still=0.0, ball=now.ball, evidence=NOTHING, set_piece=None, before=None)
-    _undo_leaving(turn, now)
+    draft.state = before._replace(
+        timing=timing, still=0.0, ball=now.ball, evidence=NO_EVIDENCE, set_piece=None, before=None
+    )
+    _undo_absences(draft, now)
     signalled = before.restart
     if before.running:
-        restart.stop(turn, "undo", _again(turn, before))
+        restart.stop(draft, "undo", _restart_after_undo(draft, before))
     elif signalled is not None and before.phase in RESTARTS:
-        restart.signal(turn, signalled)
+        restart.signal(draft, signalled)
 
 
-def _again(turn: Turn, before: RefereeState) -> Restart:
+def _restart_after_undo(draft: RulingDraft, before: RefereeState) -> Restart:
     """How the game goes on that was running."""
-    if before.stage is Stage.SHOOT_OUT and before.side is not None:
-        return penalties.penalty_for(turn, before.side)
-    x, y = before.ball[:2] if before.ball is not None else turn.ball_spot
-    return restart_at(turn.match, turn.state, Phase.DROP_BALL, None, (x, y))
+    if before.stage is GameStage.SHOOT_OUT and before.side is not None:
+        return penalties.penalty_for(draft, before.side)
+    x, y = before.ball[:2] if before.ball is not None else draft.ball_spot
+    return restart_at(draft.match, draft.state, Phase.DROP_BALL, None, (x, y))
 
 
-def _undo_leaving(turn: Turn, now: RefereeState) -> None:
+def _undo_absences(draft: RulingDraft, now: RefereeState) -> None:
     """Robots that the decision sent off stand on the field again, those that it brought back are off it."""
-    was, is_now = turn.state.people.away, now.people.away
-    for name in turn.match.roster.names:
+    was, is_now = draft.state.participation.absences, now.participation.absences
+    for name in draft.match.roster.names:
         if name in was and name not in is_now:
-            turn.place_robot(name, bench_pose(turn.match, turn.state, name))
+            draft.place_robot(name, bench_pose(draft.match, draft.state, name))
         elif name in is_now and name not in was:
-            pose = entry_pose(turn.match, turn.state, turn.snapshot, name)
-            turn.place_robot(name, pose or turn.match.starts[name].team(turn.state.cyan_attacks))
+            pose = entry_pose(draft.match, draft.state, draft.snapshot, name)
+            draft.place_robot(name, pose or draft.match.starts[name].team(draft.state.cyan_attacks))

@@ -3,24 +3,24 @@
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
+from schemas.config.roster import Placement
+from schemas.config.rule_book import RuleBook
+from schemas.config.scene import SceneGame
+from schemas.config.sections import Ball, Pitch
 from schemas.frames import Pose
-from schemas.game import RESTARTS, ActionReply, GameEvent, Mode, Phase, RefereeAction
-from schemas.roster import Placement
-from schemas.rule_book import RuleBook
-from schemas.scene import SceneGame
-from schemas.sections import Ball, Field
+from schemas.game import RESTARTS, ActionReply, GameEvent, OfficiatingMode, Phase, RefereeAction
 from schemas.side import Side
-from sim_host.referee.actions import obey
-from sim_host.referee.authority import judge, time_is_up
-from sim_host.referee.call import Restart, Spot
-from sim_host.referee.flow import progress
-from sim_host.referee.match import Match
+from sim_host.referee.actions import execute
+from sim_host.referee.authority import is_due, judge
+from sim_host.referee.game.referee_state import RefereeState
+from sim_host.referee.game.restart import Restart, Spot
+from sim_host.referee.game.set_piece import started
+from sim_host.referee.game.timing import Timing
+from sim_host.referee.match_constants import MatchConstants
+from sim_host.referee.procedures.periods import advance
 from sim_host.referee.rules import first_decision
-from sim_host.referee.scene import look
-from sim_host.referee.set_piece import begun
-from sim_host.referee.state import RefereeState
-from sim_host.referee.timing import Timing
-from sim_host.referee.turn import Turn
+from sim_host.referee.ruling_draft import RulingDraft
+from sim_host.referee.situation import situation_after
 from sim_host.snapshot import Roster, Snapshot
 
 
@@ -44,7 +44,7 @@ class Referee:
     def __init__(
         self,
         book: RuleBook,
-        pitch: Field,
+        pitch: Pitch,
         ball: Ball,
         roster: Roster,
         *,
@@ -52,7 +52,7 @@ class Referee:
         kick_off: Side,
         automatic: bool,
         starts: Mapping[str, Pose],
-        mode: Mode = Mode.AUTOMATIC,
+        mode: OfficiatingMode = OfficiatingMode.AUTOMATIC,
         proposal: float = 0.0,
         winner: bool | None = None,
     ) -> None:
@@ -73,7 +73,9 @@ class Referee:
         periods = book.periods
         half = periods.half_duration if duration is None else duration / periods.halves
         goes_on = bool(periods.needs_winner) if winner is None else winner
-        self._match = Match(book, pitch, ball, roster, half, kick_off, automatic, starts, mode, proposal, goes_on)
+        self._match = MatchConstants(
+            book, pitch, ball, roster, half, kick_off, automatic, starts, mode, proposal, goes_on
+        )
 
     def begin(self) -> RefereeState:
         """The state before the first tick."""
@@ -93,23 +95,27 @@ class Referee:
                 clock=game.clock,
                 runs=running or game.phase not in (Phase.PRE_GAME, Phase.KICK_OFF),
             ),
-            set_piece=begun(Restart(game.phase, game.side, ball)) if is_restart and running else None,
+            set_piece=started(Restart(game.phase, game.side, ball)) if is_restart and running else None,
             score=game.score,
         )
 
     def step(self, state: RefereeState, snapshot: Snapshot, actions: Sequence[RefereeAction], dt: float) -> Ruling:
         """Judge one tick of `dt` in s: the rules on what happened, then the actions, then what time brings."""
         match = self._match
-        scene = look(match, state, snapshot, dt)
-        now = scene.state
-        found = None if time_is_up(now.proposal) else first_decision(scene, clocks_alone=match.mode is Mode.MANUAL)
+        situation = situation_after(match, state, snapshot, dt)
+        now = situation.state
+        found = (
+            None
+            if is_due(now.proposal)
+            else first_decision(situation, clocks_alone=match.mode is OfficiatingMode.MANUAL)
+        )
         if found is None and not actions and is_quiet(now):
             return Ruling(now)
-        turn = Turn(match, snapshot, now)
-        judge(turn, found)
-        replies = tuple(obey(turn, action) for action in actions)
-        progress(turn)
-        return Ruling(turn.state, tuple(turn.events), tuple(turn.placements), replies, turn.checkpoint)
+        draft = RulingDraft(match, snapshot, now)
+        judge(draft, found)
+        replies = tuple(execute(draft, action) for action in actions)
+        advance(draft)
+        return Ruling(draft.state, tuple(draft.events), tuple(draft.placements), replies, draft.checkpoint)
 
 
 def is_quiet(state: RefereeState) -> bool:
@@ -117,6 +123,6 @@ def is_quiet(state: RefereeState) -> bool:
     return (
         state.phase is Phase.PLAY
         and state.set_piece is None
-        and not state.people.silent
-        and not time_is_up(state.proposal)
+        and not state.participation.silent
+        and not is_due(state.proposal)
     )

@@ -10,9 +10,11 @@ from inspect import cleandoc
 from types import ModuleType
 from typing import Any
 
-from schemas.quantity import Quantity, meanings
-from schemas.rule_book import SECTIONS, SHIPPED, RuleBook, load_rule_book
-from sim_host.referee import authority, discipline, flow, penalties, positions, restart
+from schemas.config.quantity import Quantity, meanings
+from schemas.config.rule_book import SECTIONS, SHIPPED, RuleBook, load_rule_book
+from sim_host.referee import authority
+from sim_host.referee.placement import positions
+from sim_host.referee.procedures import discipline, penalties, periods, restart
 from sim_host.referee.rules import RULES, SHOOT_OUT, Rule
 
 NOTE = (
@@ -22,7 +24,7 @@ NOTE = (
 LABELS = ("Section", "Measures", "Not judged")
 """What the docstring of every rule says of itself, in this order, after what the rule is."""
 
-OPENING = """
+INTRODUCTION = """
 The referee looks at the truth of the world after every tick: poses and velocities of all bodies, contacts, kicks and
 holds as the physics engine and the actuators report them. It never guesses who touched the ball. The first rule below
 that decides in a tick is the only one to decide. Every decision is an event with the name of the rule, place, time,
@@ -33,10 +35,10 @@ A number is chosen by the match's rule book: `touchline match --rules msl`. Each
 stands in `schemas/rule_books/`. A foul whose word is `off` is not called; with `yellow` the offender is shown a card.
 """
 
-AROUND = (flow, penalties, restart, positions, discipline, authority)
+PROCEDURES = (periods, penalties, restart, positions, discipline, authority)
 """What happens around the rules, by the modules that do it; each says the same of itself as a rule does."""
 
-BY_HAND = (
+DECIDED_BY_PEOPLE = (
     ("Advantage", "The referee stops the game at every foul. A person may have the last decision undone."),
     ("Intent", "Nobody's intent is judged: who moves an opponent has pushed it, who kicks from afar has shot."),
     (
@@ -58,7 +60,7 @@ def page() -> str:
     parts = [
         "# The rules",
         NOTE,
-        cleandoc(OPENING),
+        cleandoc(INTRODUCTION),
         "## What is judged",
         "In the order in which the rules decide.",
         *(_rule(rule, books) for rule in RULES),
@@ -66,21 +68,21 @@ def page() -> str:
         "There the rule below judges alone, and the end of time.",
         *(_rule(rule, books) for rule in SHOOT_OUT),
         "## The match around them",
-        *(_around(module) for module in AROUND),
+        *(_procedure(module) for module in PROCEDURES),
         "## What people decide",
-        "\n".join(f"* **{matter}.** {answer}" for matter, answer in BY_HAND),
+        "\n".join(f"* **{matter}.** {answer}" for matter, answer in DECIDED_BY_PEOPLE),
         "## Every number",
         *(_section(name, section, books) for name, section in SECTIONS.items()),
     ]
     return "\n\n".join(parts) + "\n"
 
 
-def said_of(rule: Rule) -> tuple[str, dict[str, str]]:
+def parts_of_rule(rule: Rule) -> tuple[str, dict[str, str]]:
     """What a rule's docstring says: what it is, then the labelled sentences."""
-    return said_by(sys.modules[rule.judge.__module__])
+    return parts_of_module(sys.modules[rule.judge.__module__])
 
 
-def said_by(module: ModuleType) -> tuple[str, dict[str, str]]:
+def parts_of_module(module: ModuleType) -> tuple[str, dict[str, str]]:
     """What a module's docstring says: what it is about, then the labelled sentences."""
     doc = cleandoc(module.__doc__ or "")
     text, labelled, label = [], dict[str, list[str]](), ""
@@ -96,13 +98,13 @@ def said_by(module: ModuleType) -> tuple[str, dict[str, str]]:
 
 
 def _rule(rule: Rule, books: Sequence[RuleBook]) -> str:
-    text, labelled = said_of(rule)
+    text, labelled = parts_of_rule(rule)
     listed = "\n".join(f"* {label}: {sentence}" for label, sentence in labelled.items())
     return "\n\n".join([f"### `{rule.name}`", text, listed, *_numbers(rule.numbers, books)])
 
 
-def _around(module: ModuleType) -> str:
-    text, labelled = said_by(module)
+def _procedure(module: ModuleType) -> str:
+    text, labelled = parts_of_module(module)
     listed = "\n".join(f"* {label}: {sentence}" for label, sentence in labelled.items())
     return "\n\n".join([f"### `{module.__name__.rpartition('.')[2]}`", text, listed])
 
@@ -112,7 +114,9 @@ def _numbers(numbers: Iterable[str], books: Sequence[RuleBook]) -> list[str]:
     for number in numbers:
         section, field = number.split(".")
         meaning = meanings(SECTIONS[section])[field]
-        rows.append((f"`{number}`", *(_value(book, section, field) for book in books), _unit(meaning), meaning.says))
+        rows.append(
+            (f"`{number}`", *(_value(book, section, field) for book in books), _unit(meaning), meaning.description)
+        )
     return [_table(("number", *(book.name for book in books), "unit", "meaning"), rows)] if rows else []
 
 
@@ -147,7 +151,7 @@ def _unit(meaning: Any) -> str:
 
 
 def _range(meaning: Any) -> str:
-    return f"{meaning.low:g} to {meaning.high:g}" if isinstance(meaning, Quantity) else ", ".join(meaning.words)
+    return f"{meaning.low:g} to {meaning.high:g}" if isinstance(meaning, Quantity) else ", ".join(meaning.options)
 
 
 def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

@@ -5,13 +5,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from schemas.sections import Sensing
+from schemas.config.sections import Sensing
 from sim_host.sensing.hulls import Hulls
+from sim_host.sensing.random_streams import (
+    SMALL_BATCH,
+    BatchedDraws,
+    Floats,
+    RandomStreams,
+    StreamId,
+    Vectors,
+    normal_pairs,
+)
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.sight_lines import Flags
-from sim_host.sensing.streams import MANY_AT_ONCE, Block, Floats, Streams, Vectors, What, normal_pairs
 from sim_host.sensing.team_frames import TeamFrames
-from sim_host.snapshot import BallState, Motions, ObstacleState, Roster, Snapshot
+from sim_host.snapshot import BallState, ObstacleState, RobotMotions, Roster, Snapshot
 
 BALL = "ball"
 """No robot and no obstacle has this name."""
@@ -40,7 +48,7 @@ class Picture(NamedTuple):
         """What is known before the first picture."""
         return cls(0, [], [False] * robots, [[] for _ in range(robots)])
 
-    def of(self, places: Sequence[int | None]) -> "Picture":
+    def for_robots(self, places: Sequence[int | None]) -> "Picture":
         """The same picture of other robots, each with its place in this one; one that has none sees nothing in it."""
         seen = [None if place is None or not self.ball else place for place in places]
         return Picture(
@@ -50,16 +58,16 @@ class Picture(NamedTuple):
             [[] if place is None else self.obstacles[place] for place in places],
         )
 
-    def turned(self) -> "Picture":
+    def rotated(self) -> "Picture":
         """The same picture in team frames that have turned by π since."""
         obstacles = [
             [-number if place % PER_OBSTACLE < 2 else number for place, number in enumerate(numbers)]
             for numbers in self.obstacles
         ]
-        return Picture(self.tick, [turned_ball(ball) for ball in self.ball], self.found, obstacles)
+        return Picture(self.tick, [rotated_ball(ball) for ball in self.ball], self.found, obstacles)
 
 
-def turned_ball(ball: list[float]) -> list[float]:
+def rotated_ball(ball: list[float]) -> list[float]:
     """x, y, z, vx, vy in a frame that has turned by π."""
     x, y, z, vx, vy = ball
     return [-x, -y, z, -vx, -vy]
@@ -68,7 +76,7 @@ def turned_ball(ball: list[float]) -> list[float]:
 class Camera:
     """Things are the ball and then the bodies: robots, and static obstacles. Arrays are robots × things."""
 
-    def __init__(self, sensing: Sensing, roster: Roster, streams: Streams, shutter: Shutter) -> None:
+    def __init__(self, sensing: Sensing, roster: Roster, streams: RandomStreams, shutter: Shutter) -> None:
         self._sensing = sensing
         self._streams = streams
         self._shutter = shutter
@@ -77,10 +85,10 @@ class Camera:
         self._growth = np.array([sensing.range_noise, sensing.bearing_noise])[:, None, None] ** 2
         self._ball_growth = np.array(sensing.ball_velocity_growth)
         self._ball_velocity = np.array(sensing.ball_velocity**2)
-        self._ball_luck = Block(self._draw_ball)
-        self._lay_out(())
+        self._ball_draws = BatchedDraws(self._draw_ball)
+        self._prepare(())
 
-    def _lay_out(self, obstacles: tuple[ObstacleState, ...]) -> None:
+    def _prepare(self, obstacles: tuple[ObstacleState, ...]) -> None:
         """What is the same in every picture of the same bodies."""
         s, roster = self._sensing, self._roster
         self._obstacles = obstacles
@@ -91,7 +99,7 @@ class Camera:
         self._range = np.array([s.ball_range] + [s.obstacle_range] * bodies)
         self._dropout = np.array([s.ball_dropout] + [s.obstacle_dropout] * bodies)
         self._is_other = np.arange(-1, bodies) != self._rows
-        self._luck = Block(self._draw, MANY_AT_ONCE)
+        self._draws = BatchedDraws(self._draw, SMALL_BATCH)
         robots = len(roster.names)
         self._blur = np.empty((robots, 1 + bodies), dtype=complex)
         self._blur_parts = np.moveaxis(self._blur.view(float).reshape(robots, 1 + bodies, 2), 2, 0)
@@ -99,41 +107,41 @@ class Camera:
         self._bodies[..., 2] = self._hulls.reach
         self._first_body = bodies * self._rows
 
-    def take(self, snapshot: Snapshot, robots: Motions, frames: TeamFrames) -> Picture:
+    def take_picture(self, snapshot: Snapshot, robots: RobotMotions, frames: TeamFrames) -> Picture:
         """A picture, in a tick in which one is taken."""
         if snapshot.obstacles != self._obstacles:
-            self._lay_out(snapshot.obstacles)
+            self._prepare(snapshot.obstacles)
         number, ball = self._shutter.number(snapshot.tick), snapshot.ball
-        luck, is_noticed = self._luck.at(number)
-        places = self._hulls.places(complex(ball.x, ball.y), robots.place) - robots.place[:, None]
+        draws, is_detected = self._draws.at(number)
+        places = self._hulls.places(complex(ball.x, ball.y), robots.position) - robots.position[:, None]
         distance = np.abs(places)
         found: Flags = distance <= self._range
-        found &= is_noticed
+        found &= is_detected
         if self._sensing.occlusion == "hulls":
             found &= ~self._hulls.hidden(places, distance, robots.heading, ball.z)
-        self._blur_by(distance, luck)
+        self._blur_by(distance, draws)
         blurred = places + places * self._blur
         seen = frames.turn[:, None] * blurred
-        seen += (frames.sign * robots.place + frames.shift)[:, None]
+        seen += (frames.sign * robots.position + frames.shift)[:, None]
         away = np.where(found, np.abs(blurred), _NOWHERE)
         return Picture(
             tick=snapshot.tick,
-            ball=self._ball(ball, seen[:, 0], distance[:, 0], frames.turn, self._ball_luck.at(number)),
+            ball=self._ball(ball, seen[:, 0], distance[:, 0], frames.turn, self._ball_draws.at(number)),
             found=found[:, 0].tolist(),
             obstacles=self._nearest_first(away[:, 1:], seen[:, 1:], found[:, 1:]),
         )
 
-    def _blur_by(self, distance: Floats, luck: Floats) -> None:
+    def _blur_by(self, distance: Floats, draws: Floats) -> None:
         """The noise along the line of sight and across it, as a share of the way from the eye: along + i·across."""
         share = self._growth * distance
         share *= distance
         share += self._near
         np.sqrt(share, out=share)
         share /= distance + _NO_DISTANCE
-        np.multiply(share, luck, out=self._blur_parts)
+        np.multiply(share, draws, out=self._blur_parts)
 
     def _ball(
-        self, ball: BallState, place: Vectors, distance: Floats, turn: Vectors, luck: Floats
+        self, ball: BallState, place: Vectors, distance: Floats, turn: Vectors, draws: Floats
     ) -> list[list[float]]:
         """The ball of each robot that sees it at this place: with its height and velocity, and their noise."""
         sigma = self._ball_growth * distance
@@ -143,8 +151,8 @@ class Camera:
         velocity = turn * complex(ball.vx, ball.vy)
         seen = np.empty((5, len(place)))
         seen[0], seen[1] = place.real, place.imag
-        np.add(luck[0], ball.z, out=seen[2])
-        np.multiply(luck[1:], sigma, out=seen[3:])
+        np.add(draws[0], ball.z, out=seen[2])
+        np.multiply(draws[1:], sigma, out=seen[3:])
         seen[3] += velocity.real
         seen[4] += velocity.imag
         numbers: list[list[float]] = seen.T.tolist()
@@ -164,16 +172,16 @@ class Camera:
 
     def _draw(self, numbers: range) -> list[tuple[Floats, Flags]]:
         """Per picture: noise along and across the line of sight, (2, robots, things), and what luck lets be noticed."""
-        drawn = self._streams.between(What.SEEN, self._roster.names, self._names, self._ticks(numbers))
+        drawn = self._streams.pairwise_uniforms(StreamId.SEEN, self._roster.names, self._names, self._ticks(numbers))
         noise = normal_pairs(drawn[..., :2]) * (drawn[..., 3:] < self._sensing.noise_rate)
-        is_noticed = (drawn[..., 2] >= self._dropout) & self._is_other
-        return list(zip(np.ascontiguousarray(np.moveaxis(noise, -1, 1)), is_noticed, strict=True))
+        is_detected = (drawn[..., 2] >= self._dropout) & self._is_other
+        return list(zip(np.ascontiguousarray(np.moveaxis(noise, -1, 1)), is_detected, strict=True))
 
     def _draw_ball(self, numbers: range) -> list[Floats]:
         """Per picture: noise of the ball's height in m, of vx and vy as drawn, noisy when its place is; (3, robots)."""
         ticks, s = self._ticks(numbers), self._streams
         robots = self._roster.names
-        is_noisy = s.between(What.SEEN, robots, (BALL,), ticks)[:, :, 0, 3:] < self._sensing.noise_rate
-        noise = np.ascontiguousarray(np.moveaxis(s.normals(What.BALL, robots, ticks, 3) * is_noisy, 2, 1))
+        is_noisy = s.pairwise_uniforms(StreamId.SEEN, robots, (BALL,), ticks)[:, :, 0, 3:] < self._sensing.noise_rate
+        noise = np.ascontiguousarray(np.moveaxis(s.normals(StreamId.BALL, robots, ticks, 3) * is_noisy, 2, 1))
         noise[:, 0] *= self._sensing.ball_position
         return list(noise)

@@ -7,8 +7,8 @@ same standard deviation at all times.
 
 import numpy as np
 
-from schemas.sections import Sensing
-from sim_host.sensing.streams import Streams, Vectors, What
+from schemas.config.sections import Sensing
+from sim_host.sensing.random_streams import RandomStreams, StreamId, Vectors
 from sim_host.sensing.team_frames import TeamFrames
 from sim_host.snapshot import Roster
 
@@ -18,7 +18,7 @@ _PARTS = 3
 class Drift:
     """That of all robots of a match."""
 
-    def __init__(self, sensing: Sensing, roster: Roster, streams: Streams, tick: float) -> None:
+    def __init__(self, sensing: Sensing, roster: Roster, streams: RandomStreams, tick: float) -> None:
         self._names = roster.names
         self._streams = streams
         self._sigma = np.array([sensing.drift_position] * 2 + [sensing.drift_heading])
@@ -36,7 +36,7 @@ class Drift:
         way = np.array(ticks) / self._ticks
         before = way.astype(int)
         first, last = int(before[0]), int(before[-1]) + 1
-        knots = self._streams.normals(What.DRIFT, self._names, range(first, last + 1), _PARTS)
+        knots = self._streams.normals(StreamId.DRIFT, self._names, range(first, last + 1), _PARTS)
         turn = 0.5 * np.pi * (way - before)[:, None, None]
         drift = np.cos(turn) * knots[before - first] + np.sin(turn) * knots[before - first + 1]
         x, y, heading = np.moveaxis(drift * self._sigma, 2, 0)

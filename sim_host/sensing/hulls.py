@@ -5,10 +5,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from schemas.obstacle import Shape
-from schemas.robot_model import RobotModel
+from schemas.config.obstacle import Shape
+from schemas.config.robot_model import RobotModel
+from sim_host.sensing.random_streams import Floats, Vectors
 from sim_host.sensing.sight_lines import Flags, through_boxes, through_circles
-from sim_host.sensing.streams import Floats, Vectors
 from sim_host.snapshot import ObstacleState
 
 
@@ -51,13 +51,13 @@ class Hulls:
         is_tall = np.concatenate((self._height[:, None] > 0.0, self._height[:, None] >= self._height), axis=1)
         is_tall[bodies, bodies + 1] = False
         self._may_hide = is_tall[:, None, :] & self._is_others[:, :, None]
-        self._steps: list[float] = sorted(self._height.tolist())
+        self._sorted_heights: list[float] = sorted(self._height.tolist())
         self._lower: int | None = None
         """How many hulls are lower than the ball, which hides behind none of these; nothing before the first look."""
 
-    def _mind_ball(self, height: float) -> None:
+    def _update_ball_height(self, height: float) -> None:
         """Take in which hulls are high enough to hide a ball at this height: most of the time those of before."""
-        lower = bisect_left(self._steps, height)
+        lower = bisect_left(self._sorted_heights, height)
         if lower != self._lower:
             self._lower = lower
             self._may_hide[:, :, 0] = (self._height >= height)[:, None] & self._is_others
@@ -74,7 +74,7 @@ class Hulls:
         `places` of the things as seen from each robot, m, shape (robots, things), and their `distance`. A thing is
         hidden when the line to its middle passes through a hull that does not stand farther away.
         """
-        self._mind_ball(ball_height)
+        self._update_ball_height(ball_height)
         hides = through_circles(places, distance, places[:, 1:], self._radius)
         hides &= self._may_hide
         found: Flags = np.logical_or.reduce(hides, axis=0)

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from schemas.sections import Sensing
-from sim_host.sensing.streams import Block, Floats, Streams, What
+from schemas.config.sections import Sensing
+from sim_host.sensing.random_streams import BatchedDraws, Floats, RandomStreams, StreamId
 from sim_host.sensing.team_frames import TeamFrames
-from sim_host.snapshot import Motions, Roster
+from sim_host.snapshot import RobotMotions, Roster
 
 _PARTS = 6
 _PI, _TAU = np.array(np.pi), np.array(2.0 * np.pi)
@@ -15,38 +15,38 @@ _PI, _TAU = np.array(np.pi), np.array(2.0 * np.pi)
 class OwnMotion:
     """That of all robots of a match."""
 
-    def __init__(self, sensing: Sensing, roster: Roster, streams: Streams) -> None:
+    def __init__(self, sensing: Sensing, roster: Roster, streams: RandomStreams) -> None:
         s = sensing
         self._streams = streams
         self._names = roster.names
         self._sigma = np.array([s.own_position] * 2 + [s.own_heading] + [s.own_velocity] * 2 + [s.own_turn_rate])
         self._rate = s.noise_rate
-        self._noise = Block(self._draw)
+        self._noise = BatchedDraws(self._draw)
         seen = self._seen = np.empty((len(roster.names), _PARTS))
         self._place, self._velocity = seen[:, 0:2].view(complex)[:, 0], seen[:, 3:5].view(complex)[:, 0]
         self._heading, self._omega = seen[:, 2], seen[:, 5]
 
-    def at(self, tick: int, robots: Motions, frames: TeamFrames) -> list[list[float]]:
+    def at(self, tick: int, robots: RobotMotions, frames: TeamFrames) -> list[list[float]]:
         """x, y, heading, vx, vy, omega of each robot in its team frame."""
         seen = self._seen
-        np.multiply(frames.sign, robots.place, out=self._place)
+        np.multiply(frames.sign, robots.position, out=self._place)
         np.add(self._place, frames.shift, out=self._place)
         np.multiply(frames.turn, robots.velocity, out=self._velocity)
         self._heading[...], self._omega[...] = robots.heading, robots.omega
         seen += self._noise.at(tick)
-        _turn(self._heading, frames.angle)
+        _rotate(self._heading, frames.angle)
         numbers: list[list[float]] = seen.tolist()
         return numbers
 
     def _draw(self, ticks: range) -> list[Floats]:
         """The noise of each of these ticks, shape (robots, 6); a reading that has none is 0 throughout."""
-        noise: Floats = self._streams.normals(What.OWN, self._names, ticks, _PARTS) * self._sigma
+        noise: Floats = self._streams.normals(StreamId.OWN, self._names, ticks, _PARTS) * self._sigma
         if self._rate < 1.0:
-            noise *= self._streams.uniforms(What.OWN_LUCK, self._names, ticks, 1) < self._rate
+            noise *= self._streams.uniforms(StreamId.OWN_LUCK, self._names, ticks, 1) < self._rate
         return list(noise)
 
 
-def _turn(directions: Floats, angle: Floats) -> None:
+def _rotate(directions: Floats, angle: Floats) -> None:
     """Turn directions by an angle, in place; they lie in (−π, π] then."""
     directions += angle
     np.subtract(_PI, directions, out=directions)

@@ -11,14 +11,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from schemas.sections import Sensing
-from sim_host.sensing.camera import Camera, Picture, turned_ball
+from schemas.config.sections import Sensing
+from sim_host.sensing.camera import Camera, Picture, rotated_ball
 from sim_host.sensing.drift import Drift
 from sim_host.sensing.own_motion import OwnMotion
+from sim_host.sensing.random_streams import BatchedDraws, RandomStreams
 from sim_host.sensing.shutter import Shutter
-from sim_host.sensing.streams import Block, Streams
 from sim_host.sensing.team_frames import TeamFrames
-from sim_host.snapshot import Motions, Roster, Snapshot
+from sim_host.snapshot import RobotMotions, Roster, Snapshot
 
 
 class Percept(NamedTuple):
@@ -48,14 +48,14 @@ class LastSeen(NamedTuple):
 class Perception:
     """The sensors of all robots of a match, all robots at once."""
 
-    def __init__(self, sensing: Sensing, roster: Roster, streams: Streams, tick: float) -> None:
+    def __init__(self, sensing: Sensing, roster: Roster, streams: RandomStreams, tick: float) -> None:
         self._roster = roster
         self._streams = streams
         self._tick_s = tick
         self._cyan_attacks: int | None = None
         self._under_way: deque[Picture] = deque()
         """Pictures that were taken and are not known yet."""
-        self._exposed: tuple[Snapshot, Motions, TeamFrames] | None = None
+        self._undeveloped: tuple[Snapshot, RobotMotions, TeamFrames] | None = None
         """What the newest picture shows, while it is not developed."""
         self._known = Picture.nothing(len(roster.names))
         self._balls: list[LastSeen | None] = [None] * len(roster.names)
@@ -69,25 +69,26 @@ class Perception:
         drift = Drift(sensing, roster, streams, self._tick_s)
         signs = {attacks: [complex(side.attack(attacks)) for side in roster.sides] for attacks in (1, -1)}
         self._frames = {
-            attacks: Block(partial(drift.frames, sign=np.array(signs_then))) for attacks, signs_then in signs.items()
+            attacks: BatchedDraws(partial(drift.frames, sign=np.array(signs_then)))
+            for attacks, signs_then in signs.items()
         }
         """Sign of the x direction that cyan attacks → the team frames as the robots believe them to lie."""
         self._own = OwnMotion(sensing, roster, streams)
         self._camera = Camera(sensing, roster, streams, self._shutter)
 
-    def handed_on(self, sensing: Sensing, roster: Roster) -> "Perception":
+    def with_roster(self, sensing: Sensing, roster: Roster) -> "Perception":
         """For other robots: who stays on its side has seen what it saw."""
         self.develop()
-        heir, before = Perception(sensing, roster, self._streams, self._tick_s), self._roster
+        successor, before = Perception(sensing, roster, self._streams, self._tick_s), self._roster
         places = [
             before.names.index(name) if name in before.names and before.side_of(name) is side else None
             for name, side in zip(roster.names, roster.sides, strict=True)
         ]
-        heir._cyan_attacks = self._cyan_attacks
-        heir._under_way = deque(picture.of(places) for picture in self._under_way)
-        heir._known = self._known.of(places)
-        heir._balls = [None if place is None else self._balls[place] for place in places]
-        return heir
+        successor._cyan_attacks = self._cyan_attacks
+        successor._under_way = deque(picture.for_robots(places) for picture in self._under_way)
+        successor._known = self._known.for_robots(places)
+        successor._balls = [None if place is None else self._balls[place] for place in places]
+        return successor
 
     def at(self, snapshot: Snapshot, cyan_attacks: int) -> list[Percept]:
         """Everyone's percept, in the order of the roster; to be asked for once in every tick, in order."""
@@ -98,11 +99,11 @@ class Perception:
         tick, robots = snapshot.tick, snapshot.robots.motions
         frames = self._frames[cyan_attacks].at(tick)
         if self._shutter.takes(tick):
-            self._exposed = snapshot, robots, frames
+            self._undeveloped = snapshot, robots, frames
             if self._shutter.latency == 0:
                 self.develop()
         while self._under_way and self._under_way[0].tick <= tick - self._shutter.latency:
-            self._take_in(self._under_way.popleft())
+            self._receive(self._under_way.popleft())
         own = self._own.at(tick, robots, frames)
         known, tick_s = self._known, self._tick_s
         age = (tick - known.tick) * tick_s
@@ -115,12 +116,12 @@ class Perception:
 
     def develop(self) -> None:
         """Work out a picture that was taken and is not known before a later tick; robots can think meanwhile."""
-        if self._exposed is not None:
-            snapshot, robots, frames = self._exposed
-            self._exposed = None
-            self._under_way.append(self._camera.take(snapshot, robots, frames))
+        if self._undeveloped is not None:
+            snapshot, robots, frames = self._undeveloped
+            self._undeveloped = None
+            self._under_way.append(self._camera.take_picture(snapshot, robots, frames))
 
-    def _take_in(self, picture: Picture) -> None:
+    def _receive(self, picture: Picture) -> None:
         """A picture becomes known."""
         self._known = picture
         for place, found in enumerate(picture.found):
@@ -129,6 +130,6 @@ class Perception:
 
     def _change_sides(self) -> None:
         """Team frames have turned: what was seen before lies on their other side now."""
-        self._known = self._known.turned()
-        self._under_way = deque(picture.turned() for picture in self._under_way)
-        self._balls = [None if ball is None else LastSeen(ball.tick, turned_ball(ball.place)) for ball in self._balls]
+        self._known = self._known.rotated()
+        self._under_way = deque(picture.rotated() for picture in self._under_way)
+        self._balls = [None if ball is None else LastSeen(ball.tick, rotated_ball(ball.place)) for ball in self._balls]

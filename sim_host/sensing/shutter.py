@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-from schemas.sections import Sensing
+from schemas.config.sections import Sensing
 
 _FINEST = 1_000_000
 """Pictures in a tick are a fraction with no larger a denominator: 0.1 + 0.2 ticks are three tenths again."""

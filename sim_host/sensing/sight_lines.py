@@ -6,7 +6,7 @@ Arrays are (hulls, eyes, things). All places are relative to the eye, x + iy in 
 import numpy as np
 from numpy.typing import NDArray
 
-from sim_host.sensing.streams import Floats, Vectors
+from sim_host.sensing.random_streams import Floats, Vectors
 
 Flags = NDArray[np.bool_]
 

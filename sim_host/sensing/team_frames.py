@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from sim_host.sensing.streams import Floats, Vectors
+from sim_host.sensing.random_streams import Floats, Vectors
 
 
 class TeamFrames(NamedTuple):

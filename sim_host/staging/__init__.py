@@ -1,1 +1,1 @@
-"""What an operator may do to the pitch between two ticks: pure decisions; the simulation carries them out."""
+"""Operations on the pitch between two ticks: pure decisions, which the simulation carries out."""

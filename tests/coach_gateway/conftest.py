@@ -8,25 +8,25 @@ from typing import Any
 
 import pytest
 
-from coach_gateway.live import Live
+from coach_gateway.match.live import LiveMatch
 from robot_agent.runner import Runner
 from schemas.bus.contract import Bus
-from schemas.bus.in_process import Medium
-from schemas.clock import SteppedClock, WallClock
-from schemas.coach import CoachOrder
-from schemas.command import Command, Radio
+from schemas.bus.in_process_bus import Medium
+from schemas.config.match_config import MatchConfig, load_match
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
 from schemas.game import ActionReply, EventKind, GameEvent, GameState, Phase, RefereeAction
-from schemas.host import Belief, Setup
-from schemas.match_config import MatchConfig, load_match
-from schemas.profile import load_profile
-from schemas.rule_book import load_rule_book
+from schemas.messages.coach import CoachOrder
+from schemas.messages.command import Command, Radio
+from schemas.messages.host import Belief, Setup
+from schemas.messages.sight import Sight
+from schemas.messages.world import BallTruth, RobotTruth, World
+from schemas.process.clock import SteppedClock, WallClock
 from schemas.side import Side
-from schemas.sight import Sight
 from schemas.topics import ACTION, BELIEF, EVENT, ORDER, SETUP, STATE, WORLD
-from schemas.world import BallTruth, RobotTruth, World
-from sim_host.host import Host
-from sim_host.pace import Lockstep
-from sim_host.referee.state import RefereeState
+from sim_host.referee.game.referee_state import RefereeState
+from sim_host.server.host import Host
+from sim_host.server.pace import Lockstep
 
 LIMIT_S = 90.0
 """Only what never comes fails: a match that is stepped beside the bridges may take long on a busy machine."""
@@ -47,7 +47,7 @@ class Stage:
     def __init__(self, medium: Medium, config: MatchConfig) -> None:
         self.medium = medium
         self.config = config
-        self.bus: Bus = medium.seat(MATCH, WallClock())
+        self.bus: Bus = medium.open_bus(MATCH, WallClock())
         self._setups, self._actions = self.bus.serve(SETUP), self.bus.serve(ACTION)
         self._states, self._events = self.bus.publisher(STATE), self.bus.publisher(EVENT)
         self._worlds = self.bus.publisher(WORLD)
@@ -100,12 +100,12 @@ class Stage:
 
     async def serve(self, stop: asyncio.Event) -> None:
         while not stop.is_set():
-            while (question := self._setups.receive()) is not None:
-                question.answer(self.setup)
-            while (question := self._actions.receive()) is not None:
-                action = question.message()
+            while (query := self._setups.receive()) is not None:
+                query.reply(self.setup)
+            while (query := self._actions.receive()) is not None:
+                action = query.message()
                 self.asked.append(action)
-                question.answer(self.answer(action))
+                query.reply(self.answer(action))
             while (received := self._orders.receive()) is not None:
                 self.orders.append((Side(received.chunks["side"]), received.message()))
             await asyncio.sleep(0.002)
@@ -130,15 +130,15 @@ class Pitch:
 
     def __init__(self, medium: Medium, config: MatchConfig) -> None:
         clock = SteppedClock()
-        self.host = Host(config, medium.seat(MATCH, clock))
+        self.host = Host(config, medium.open_bus(MATCH, clock))
         self.brains = {name: Attentive() for side in Side for name in config.robots(side)}
         self._runners = []
         for name, brain in self.brains.items():
-            bus = medium.seat(MATCH, SteppedClock())
+            bus = medium.open_bus(MATCH, SteppedClock())
             self._runners.append(Runner(bus, brain, name))
             bus.declare_alive("agent", name)
         assert isinstance(self.host.pace, Lockstep)
-        self.host.pace.idle = lambda: (self._answer(), clock.sleep_until(clock.now() + 0.001))
+        self.host.pace.step_agents = lambda: (self._answer(), clock.sleep_until(clock.now() + 0.001))
 
     @property
     def state(self) -> RefereeState:
@@ -163,7 +163,7 @@ class Bench:
 
     stage: Any
     """The host: a `Stage` or a `Pitch`."""
-    live: Live
+    live: LiveMatch
     stop: asyncio.Event = field(default_factory=asyncio.Event)
     tasks: list[asyncio.Task[None]] = field(default_factory=list)
     said: list[str] = field(default_factory=list)
@@ -184,7 +184,7 @@ async def opened(**teams: Any) -> AsyncIterator[Bench]:
     medium = Medium()
     sizes = {f"teams.{side}.size": 3 for side in Side}
     stage = Stage(medium, load_match(None, {**sizes, **teams}))
-    bench = Bench(stage, Live(medium.seat(MATCH, WallClock())))
+    bench = Bench(stage, LiveMatch(medium.open_bus(MATCH, WallClock())))
     bench.start(stage)
     bench.start(bench.live)
     try:
@@ -203,7 +203,7 @@ async def kicked_off(**words: Any) -> AsyncIterator[Bench]:
     medium = Medium()
     sizes = {"teams.cyan.size": 2, "teams.magenta.size": 1}
     pitch = Pitch(medium, load_match(None, {**sizes, "pace": "lockstep", "record.wait": False, **words}))
-    bench = Bench(pitch, Live(medium.seat(MATCH, WallClock())))
+    bench = Bench(pitch, LiveMatch(medium.open_bus(MATCH, WallClock())))
     bench.start(bench.live)
     bench.start(pitch)
     try:

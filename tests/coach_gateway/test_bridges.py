@@ -12,20 +12,20 @@ from typing import Any
 
 import pytest
 
-from coach_gateway.__main__ import main, say
+from coach_gateway.__main__ import log, main
 from coach_gateway.bridges import Bridges, bridges_of
 from coach_gateway.refbox.client import BoxAddress
-from coach_gateway.refbox.framing import Protocol
-from coach_gateway.refbox.server import Door
-from schemas.bus.endpoint import with_port
-from schemas.bus.zenoh_bus import open_host
-from schemas.clock import WallClock
+from coach_gateway.refbox.framing import BoxProtocol
+from coach_gateway.refbox.server import ServerAddress
+from schemas.bus.endpoint import with_free_port
+from schemas.bus.zenoh.bus import open_host
+from schemas.config.match_config import load_match
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.game import GameState, Phase
-from schemas.host import Setup
-from schemas.match_config import load_match
-from schemas.profile import load_profile
-from schemas.rule_book import load_rule_book
+from schemas.messages.host import Setup
+from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import SETUP, STATE
 
@@ -34,7 +34,13 @@ LIMIT_S = 60.0
 
 
 def asked(**words: Any) -> Bridges:
-    nothing: dict[str, Any] = {"udp": None, "refbox_at": None, "teams": [], "protocol": Protocol.AUTO, "doors": []}
+    nothing: dict[str, Any] = {
+        "udp": None,
+        "refbox_at": None,
+        "teams": [],
+        "protocol": BoxProtocol.AUTO,
+        "server_addresses": [],
+    }
     return bridges_of(**{**nothing, "audience": [], "listen": "127.0.0.1", **words})
 
 
@@ -47,11 +53,11 @@ def test_words_are_addresses_and_doors() -> None:
         udp=0,
         refbox_at="box.local",
         teams=list(Side),
-        doors=["28097", "magenta:28098"],
+        server_addresses=["28097", "magenta:28098"],
         audience=["127.0.0.1:12345", "[::1]:9"],
     )
     assert wanted.boxes == (BoxAddress(Side.CYAN, "box.local", 28097), BoxAddress(Side.MAGENTA, "box.local", 28097))
-    assert wanted.doors == (Door(28097), Door(28098, Side.MAGENTA))
+    assert wanted.server_addresses == (ServerAddress(28097), ServerAddress(28098, Side.MAGENTA))
     assert wanted.audience == (("127.0.0.1", 12345), ("::1", 9))
     assert asked(refbox_at="10.0.0.2:9000", teams=[Side.CYAN]).boxes[0].port == 9000
 
@@ -64,9 +70,9 @@ def test_words_are_addresses_and_doors() -> None:
         ({"refbox_at": "box:0", "teams": [Side.CYAN]}, '--refbox is "box:0"; it is HOST or HOST:PORT'),
         ({"refbox_at": "box:port", "teams": [Side.CYAN]}, "HOST or HOST:PORT"),
         ({"audience": ["12345"]}, '--audience is "12345"; it is HOST:PORT'),
-        ({"doors": ["blue:28097"]}, '--refbox-server is "blue:28097"'),
-        ({"doors": ["99999"]}, "--refbox-server"),
-        ({"doors": ["-1"]}, "--refbox-server"),
+        ({"server_addresses": ["blue:28097"]}, '--refbox-server is "blue:28097"'),
+        ({"server_addresses": ["99999"]}, "--refbox-server"),
+        ({"server_addresses": ["-1"]}, "--refbox-server"),
         ({"udp": 70000}, "--udp is 70000; a port is 0 to 65535"),
         ({"udp": -1}, "--udp is -1"),
         ({"refbox_at": "box..local", "teams": [Side.CYAN]}, '--refbox is "box..local"'),
@@ -89,11 +95,11 @@ def test_a_port_that_is_taken_is_told_before_there_is_a_host(capsys: pytest.Capt
 
 
 def test_a_port_that_is_asked_for_twice_is_told_too() -> None:
-    port = with_port("tcp/127.0.0.1:0").rpartition(":")[2]
+    port = with_free_port("tcp/127.0.0.1:0").rpartition(":")[2]
     with pytest.raises(TouchlineError, match=rf"--refbox-server {port} cannot be listened on"):
-        asked(doors=[port, f"cyan:{port}"]).try_ports()
-    asked(doors=[port]).try_ports()
-    asked(doors=["0", "0"]).try_ports()
+        asked(server_addresses=[port, f"cyan:{port}"]).try_ports()
+    asked(server_addresses=[port]).try_ports()
+    asked(server_addresses=["0", "0"]).try_ports()
 
 
 @pytest.mark.parametrize("address", ["192.0.2.1", "a..b"])
@@ -103,7 +109,7 @@ def test_an_address_that_is_not_this_machines_is_told_as_such(address: str) -> N
 
 
 def test_what_strangers_say_does_not_speak_to_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
-    say("base station 1: \x1b[2J, \ud800\n, Zoë")
+    log("base station 1: \x1b[2J, \ud800\n, Zoë")
     assert capsys.readouterr().out == "base station 1: \ufffd[2J, \ufffd\ufffd, Zoë\n"
 
 
@@ -118,7 +124,7 @@ def test_bridges_need_no_web_server() -> None:
 
 @pytest.mark.processes
 def test_one_process_has_all_bridges_and_ends_when_it_is_told(tmp_path: Path) -> None:
-    endpoint = with_port("tcp/127.0.0.1:0")
+    endpoint = with_free_port("tcp/127.0.0.1:0")
     setup = Setup.of(load_match(None, {}), load_profile("msl"), load_rule_book("friendly"))
     tokens = tmp_path / "tokens.json"
     command = [sys.executable, "-m", "coach_gateway", "--connect", endpoint, "--tokens", str(tokens), "--udp", "0"]
@@ -132,9 +138,9 @@ def test_one_process_has_all_bridges_and_ends_when_it_is_told(tmp_path: Path) ->
             lines = [process.stdout.readline() for _ in range(4)]
             assert lines[0] == f"tokens: {tokens}\n"
             ports = {line.split(" on ")[0]: int(line.rsplit(":", 1)[1]) for line in lines[1:]}
-            question = setups.receive(LIMIT_S)
-            assert question is not None
-            question.answer(setup)
+            query = setups.receive(LIMIT_S)
+            assert query is not None
+            query.reply(setup)
             asyncio.run(_meet(ports, json.loads(tokens.read_text("utf-8"))["cyan"], states))
             process.send_signal(signal.SIGINT)
             rest, _ = process.communicate(timeout=LIMIT_S)

@@ -7,14 +7,14 @@ from pathlib import Path
 import pytest
 import typer
 
-from arena.__main__ import app
+from coach_gateway.access.rights import RIGHTS
 from coach_gateway.refbox.forwarding import FORWARD
 from coach_gateway.udp import protocol
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode
-from coach_gateway.web.access import RIGHTS
-from coach_gateway.web.protocol import ASK, Role
-from schemas.coach import NEEDS
+from coach_gateway.web.protocol import PAGE_REQUEST, Role
 from schemas.message import Part
+from schemas.messages.coach import REQUIRED_FIELDS
+from touchline.__main__ import app
 
 
 @pytest.fixture(scope="module")
@@ -27,10 +27,16 @@ def kinds(*models: type[Part]) -> set[str]:
 
 
 def test_every_datagram_both_ways_has_its_row(page: str) -> None:
-    asked = (protocol.Hello, protocol.AskOrder, protocol.AskMatchMode, protocol.AskAction, protocol.AskEvents)
-    said = (protocol.Ack, protocol.Frame, protocol.BeliefNews, protocol.EventNews, protocol.Farewell)
+    asked = (
+        protocol.Hello,
+        protocol.ProgramOrder,
+        protocol.ProgramMatchMode,
+        protocol.ProgramAction,
+        protocol.ProgramEvents,
+    )
+    said = (protocol.Ack, protocol.Frame, protocol.BeliefUpdate, protocol.EventUpdate, protocol.SessionEnd)
     named = set(re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE))
-    assert kinds(*asked, protocol.StayAlive, protocol.Bye, *said) <= named
+    assert kinds(*asked, protocol.KeepAlive, protocol.Bye, *said) <= named
 
 
 def test_every_match_mode_and_test_mode_has_the_number_that_the_page_says(page: str) -> None:
@@ -45,7 +51,7 @@ def test_every_match_mode_and_test_mode_has_the_number_that_the_page_says(page: 
 def test_every_test_stands_in_its_table_with_what_it_needs(page: str) -> None:
     rows = re.findall(r"^\| `(\w+)` \| (.*?) \|", page.split("| test | needs |")[1].split("\n\n")[0], re.MULTILINE)
     assert {test: tuple(re.findall(r"`(\w+)`", needs)) for test, needs in rows} == {
-        test.value: needs for test, needs in NEEDS.items()
+        test.value: needs for test, needs in REQUIRED_FIELDS.items()
     }
 
 
@@ -69,7 +75,7 @@ def test_its_command_lines_can_be_typed(page: str, fenced: Callable[[str, str], 
 
 def test_what_a_program_says_to_the_page_s_server_can_be_said(page: str) -> None:
     part = page.partition("## The page")[2].partition("## Coach programs")[0]
-    asks = [ASK.validate_json(line[2:]) for line in part.splitlines() if line.startswith("→ {")]
+    asks = [PAGE_REQUEST.validate_json(line[2:]) for line in part.splitlines() if line.startswith("→ {")]
     assert [ask.deed for ask in asks] == ["action", "action"]
 
 

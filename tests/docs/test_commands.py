@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import typer
 
-from arena.__main__ import app
+from touchline.__main__ import app
 
 ROOT_COMMAND: Any = typer.main.get_command(app)
 

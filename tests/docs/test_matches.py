@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from arena.brains import check_teams
-from arena.in_process import play
+from schemas.config.match_config import MatchConfig, load_match
+from schemas.config.rule_book import load_rule_book
+from schemas.config.scene import Scene
 from schemas.game import EventKind
-from schemas.match_config import MatchConfig, load_match
-from schemas.rule_book import load_rule_book
-from schemas.scene import Scene
 from schemas.side import Side
-from sim_host.simulation import Tick
+from sim_host.match.simulation import TickResult
+from touchline.launch.check_brains import check_teams
+from touchline.play import play_match
 
 HERE = Path(__file__).parents[2]
 FILES = sorted([*HERE.glob("matches/*.toml"), *HERE.glob("examples/*.toml")])
@@ -72,7 +72,7 @@ def test_the_papers_match_is_three_a_side_on_its_own_pitch(root: Path) -> None:
     config = load_match(root / "matches" / "paper.toml")
     assert [len(config.robots(side)) for side in Side] == [3, 3]
     assert config.load_profile().field.length == 18.0
-    played = play(config, until=12.0)
+    played = play_match(config, until=12.0)
     assert [event.kind for event in played.events][:3] == [EventKind.RESTART, EventKind.START, EventKind.IN_PLAY]
 
 
@@ -81,14 +81,14 @@ def test_the_first_brain_gets_the_ball_carries_it_and_shoots(root: Path) -> None
     held: list[float] = []
     kicks: list[float] = []
 
-    def watch(tick: Tick) -> None:
+    def watch(tick: TickResult) -> None:
         robot = tick.world["robots"]["cyan1"]
         if tick.world["possession"] == "cyan1":
             held.append(robot["x"])
         if tick.applied["inputs"]["cyan1"].kick is not None and tick.refused.get("cyan1", 0) == 0:
             kicks.append(robot["x"])
 
-    played = play(config, watch=watch, until=20.0)
+    played = play_match(config, watch=watch, until=20.0)
     in_play = next(event for event in played.events if event.kind is EventKind.IN_PLAY)
     assert in_play.robot == "cyan1"
     assert max(held) - min(held) > 3.0

@@ -17,7 +17,7 @@ DOCUMENTS = (
     "docs/physics.md",
     "docs/parity.md",
 )
-PACKAGES = ("schemas", "sim_host", "robot_agent", "coach_gateway", "recordings", "arena")
+PACKAGES = ("schemas", "sim_host", "robot_agent", "coach_gateway", "recordings", "touchline")
 FILES = r"`([\w.]+/[\w./]*\.\w+)`"
 
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from schemas.profile import load_profile
-from schemas.sections import SECTIONS
+from schemas.config.profile import load_profile
+from schemas.config.sections import SECTIONS
 
 
 def load(root: Path, name: str) -> ModuleType:
@@ -82,10 +82,10 @@ def test_the_benchmark_steps_more_robots_than_a_match_file_allows(drive: str, ro
     bench = importlib.util.module_from_spec(spec)
     sys.modules["bench_physics"] = bench
     spec.loader.exec_module(bench)
-    hall = bench.Hall(drive, 22)
-    for body in (hall.tick, hall.ready, hall.step_raw, hall.sense):
+    rig = bench.TickRig(drive, 22)
+    for body in (rig.tick, rig.ready, rig.step_raw, rig.sense):
         body()
-    assert len(hall.snapshot.robots) == 22
+    assert len(rig.snapshot.robots) == 22
     assert bench.exponent([size**1.5 for size in bench.SIZES]) == approx(1.5)
-    hall.close()
+    rig.close()
     del sys.modules["bench_physics"]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from recordings.reader import open_recording
+from recordings.reading.recording import open_recording
 from schemas.topics import COMMAND, HEALTH
 
 
@@ -18,7 +18,9 @@ def test_a_robot_of_zenoh_and_json_alone_answers_every_sight(root: Path, tmp_pat
     teams = f"[teams.cyan]\nsize = 1\ncommand = {program}\n[teams.magenta]\nsize = 1\n"
     (tmp_path / "plain.toml").write_text(f"patience.answer = 60\n{teams}")  # also on a machine that is busy otherwise
     words = ["match", "plain.toml", "--duration=2", "--listen=tcp/127.0.0.1:0", "--record=plain.mcap", "--json"]
-    subprocess.run([sys.executable, "-m", "arena", *words], cwd=tmp_path, check=True, capture_output=True, timeout=100)
+    subprocess.run(
+        [sys.executable, "-m", "touchline", *words], cwd=tmp_path, check=True, capture_output=True, timeout=100
+    )
     recording = open_recording(tmp_path / "plain.mcap")
     assert recording.result is not None
     key = COMMAND.fill(robot="cyan1")

@@ -7,17 +7,17 @@ from pathlib import Path
 
 import pytest
 
-from arena.processes import PROCESSES, Kind
-from arena.supervisor import AFTER_THE_MATCH
-from schemas.bus import session, zenoh_sample
-from schemas.command import Command
+from schemas.bus.zenoh import sample, session
+from schemas.config.profile import load_profile
 from schemas.message import BadMessageError, Message
-from schemas.profile import load_profile
+from schemas.messages.command import Command
 from schemas.protocol.examples import examples
-from schemas.protocol.fields import in_words, is_part, parts_of, rows
+from schemas.protocol.fields import is_part, parts_of, rows, type_text
 from schemas.protocol.page import page
 from schemas.topics import TOPICS
-from sim_host import inbox, pace
+from sim_host.server import inbox, pace
+from touchline.launch.processes import PROCESSES, ProcessKind
+from touchline.launch.supervisor import AFTER_THE_MATCH
 
 MESSAGES = list(dict.fromkeys(kind for row in TOPICS.values() for kind in (row.message, row.reply) if kind is not None))
 
@@ -34,7 +34,7 @@ def test_the_page_is_fresh(text: str) -> None:
 def test_every_topic_stands_in_its_table(text: str) -> None:
     for topic in TOPICS.values():
         (row,) = [line for line in text.splitlines() if line.startswith(f"| `{topic.key}` |")]
-        assert topic.says in row
+        assert topic.description in row
 
 
 @pytest.mark.parametrize("kind", MESSAGES, ids=lambda kind: kind.__name__)
@@ -64,18 +64,18 @@ def test_limits_and_choices_are_said_in_words() -> None:
     said = {row.name: row.type for row in rows(Command, lambda kind: kind.__name__)}
     assert said["answers_tick"] == "whole number (at least 0)"
     assert said["kick"] == "Kick or null"
-    assert in_words(dict[str, list[int]], str) == "text → list of whole number"
+    assert type_text(dict[str, list[int]], str) == "text → list of whole number"
 
 
 def test_the_environment_is_the_one_that_a_robot_is_launched_with(text: str) -> None:
-    row = PROCESSES[Kind.AGENT]
+    row = PROCESSES[ProcessKind.AGENT]
     said = set(re.findall(r"^\| `(TOUCHLINE_\w+)` \|", text, re.MULTILINE))
     assert said == {name for name in row.environment if name.startswith("TOUCHLINE_")}
     assert row.restarts == 3 and "three times at most" in text
 
 
 def test_the_attachment_is_the_one_that_is_sent(text: str) -> None:
-    assert (zenoh_sample.STAMP.format, zenoh_sample.STAMP.size) == ("<QQq", 24)
+    assert (sample.STAMP.format, sample.STAMP.size) == ("<QQq", 24)
     assert "carries 24 bytes" in text and "| 16–23 | signed |" in text
 
 
@@ -89,7 +89,9 @@ def test_the_settings_are_those_of_a_client(text: str, fenced: Callable[[str, st
 def test_the_times_that_it_names_are_those_of_the_host(text: str) -> None:
     said = " ".join(text.split())
     watchdog = {load_profile(name).safety.watchdog for name in ("msl", "paper")}
-    kill = next(step.after for step in AFTER_THE_MATCH if Kind.AGENT in step.kinds and step.number.name == "SIGKILL")
+    kill = next(
+        step.after for step in AFTER_THE_MATCH if ProcessKind.AGENT in step.kinds and step.number.name == "SIGKILL"
+    )
     assert watchdog == {0.2} and "(0.2 s of simulated time)" in said
     assert f"SIGKILL {kill:g} s later" in said
     assert f"anew every {pace._RESEND_S * 1000:g} ms" in said

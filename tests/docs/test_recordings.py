@@ -5,16 +5,16 @@ from pathlib import Path
 
 import pytest
 
-from arena.in_process import play
-from recordings.head import attachments, manifest_of
-from recordings.manifest import Ended, Result, to_metadata
-from recordings.writer import RecordingWriter
-from schemas.bus.contract import Received, Stamp
-from schemas.clock import SteppedClock
-from schemas.match_config import load_match
+from recordings.container.header import make_attachments, make_manifest
+from recordings.container.manifest import EndReason, Result, to_metadata
+from recordings.recorder.recording_writer import RecordingWriter
+from schemas.bus.contract import ReceivedMessage, Stamp
+from schemas.config.match_config import load_match
 from schemas.message import VERSION
+from schemas.process.clock import SteppedClock
 from schemas.topics import WORLD
-from sim_host.simulation import Simulation, Tick
+from sim_host.match.simulation import Simulation, TickResult
+from touchline.play import play_match
 
 
 def test_the_lines_that_read_a_file_with_the_stock_package_alone(
@@ -29,17 +29,17 @@ def test_the_lines_that_read_a_file_with_the_stock_package_alone(
     config, clock = load_match(None, {"duration": 5.0}), SteppedClock()
     simulation = Simulation(config)
     writer = RecordingWriter(tmp_path / "match.mcap", clock, config.name)
-    head = manifest_of(config.name, "test", clock, simulation.setup(), config, sights=False)
+    head = make_manifest(config.name, "test", clock, simulation.setup(), config, sights=False)
     simulation.close()
-    files = attachments(config)
+    files = make_attachments(config)
     writer.begin(head, files)
-    said: list[Tick] = []
-    play(config, watch=said.append, until=0.2)
+    said: list[TickResult] = []
+    play_match(config, watch=said.append, until=0.2)
     for number, tick in enumerate(said):
         stamp = Stamp(number, 1, round(tick.time * 1e9))
         payload = to_json({"version": VERSION, **tick.world})
-        writer.write([(stamp.sim_ns, Received(WORLD, WORLD.key, payload, stamp))])
-    writer.finish(to_metadata(Result(ended=Ended.STOPPED, finished="")))
+        writer.write([(stamp.sim_ns, ReceivedMessage(WORLD, WORLD.key, payload, stamp))])
+    writer.finish(to_metadata(Result(ended=EndReason.STOPPED, finished="")))
     page = (root / "docs" / "recordings.md").read_text("utf-8")
     code = next(piece for piece in fenced(page, "python") if "make_reader" in piece)
     assert "recordings" not in code and "schemas" not in code

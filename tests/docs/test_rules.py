@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from schemas.rule_book import SECTIONS, SHIPPED, load_rule_book
-from sim_host.referee.document import AROUND, BY_HAND, LABELS, page, said_by, said_of
+from schemas.config.rule_book import SECTIONS, SHIPPED, load_rule_book
+from sim_host.referee.document import DECIDED_BY_PEOPLE, LABELS, PROCEDURES, page, parts_of_module, parts_of_rule
 from sim_host.referee.rules import RULES, SHOOT_OUT
 
 TEXT = (Path(__file__).parents[2] / "docs" / "rules.md").read_text("utf-8")
@@ -19,7 +19,7 @@ def test_the_page_is_fresh():
 
 @pytest.mark.parametrize("rule", ALL, ids=lambda rule: rule.name)
 def test_every_rule_says_its_section_what_it_measures_and_what_it_does_not_judge(rule):
-    text, labelled = said_of(rule)
+    text, labelled = parts_of_rule(rule)
     assert text and tuple(labelled) == LABELS and all(labelled.values())
     assert f"### `{rule.name}`" in TEXT and labelled["Measures"] in TEXT
 
@@ -32,9 +32,9 @@ def test_every_rule_has_the_name_of_its_file_and_numbers_that_exist(rule):
         assert field in {one.name for one in fields(SECTIONS[section])}
 
 
-@pytest.mark.parametrize("module", AROUND, ids=lambda module: module.__name__)
+@pytest.mark.parametrize("module", PROCEDURES, ids=lambda module: module.__name__)
 def test_what_happens_around_the_rules_is_told_in_the_same_way(module):
-    text, labelled = said_by(module)
+    text, labelled = parts_of_module(module)
     assert text in TEXT and tuple(labelled) == LABELS and all(sentence in TEXT for sentence in labelled.values())
 
 
@@ -50,4 +50,4 @@ def test_every_number_of_every_book_stands_on_the_page_with_its_origin(book):
 
 
 def test_what_people_decide_is_listed():
-    assert all(f"**{matter}.**" in TEXT for matter, _ in BY_HAND)
+    assert all(f"**{matter}.**" in TEXT for matter, _ in DECIDED_BY_PEOPLE)

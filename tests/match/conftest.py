@@ -12,12 +12,12 @@ from typing import Any
 import pytest
 
 from schemas.bus.contract import Subscription
-from schemas.bus.endpoint import with_port
-from schemas.bus.zenoh_bus import ZenohBus, open_client
-from schemas.clock import WallClock
-from schemas.host import Applied, Health, Invalid, RobotHealth
+from schemas.bus.endpoint import with_free_port
+from schemas.bus.zenoh.bus import ZenohBus, open_client
+from schemas.messages.host import Applied, Health, Invalid, RobotHealth
+from schemas.messages.world import World
+from schemas.process.clock import WallClock
 from schemas.topics import APPLIED, EVENT, HEALTH, INVALID, STATE, WORLD
-from schemas.world import World
 
 LIMIT = 90.0
 """Seconds after which something that should have happened will not; nothing depends on how soon it does."""
@@ -219,7 +219,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def endpoint() -> str:
-    return with_port("tcp/127.0.0.1:0")
+    return with_free_port("tcp/127.0.0.1:0")
 
 
 @pytest.fixture(scope="module")

@@ -6,12 +6,12 @@ import time
 
 import pytest
 
-from recordings.manifest import Ended
-from recordings.reader import open_recording
-from schemas.command import Command, Drive
+from recordings.container.manifest import EndReason
+from recordings.reading.recording import open_recording
 from schemas.message import BadMessageError
-from schemas.topics import root
-from sim_host.inbox import SILENT_TICKS
+from schemas.messages.command import Command, Drive
+from schemas.topics import key_prefix
+from sim_host.server.inbox import SILENT_TICKS
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
@@ -19,7 +19,7 @@ CRASH_TICK = 200
 WATCHDOG_TICKS = 10
 """0.2 s of simulated time."""
 MIND = f"""
-from schemas.command import Command, Drive
+from schemas.messages.command import Command, Drive
 
 class Circles:
     def __init__(self, briefing):
@@ -67,7 +67,7 @@ class Story:
         self.interrupted()
 
     def bad_messages(self):
-        session, prefix = self.heard.bus.session, root("harmed")
+        session, prefix = self.heard.bus.session, key_prefix("harmed")
         for payload in RUBBISH.values():
             session.put(f"{prefix}robot/cyan1/command", payload)
         session.put(f"{prefix}robot/cyan7/command", Command(answers_tick=1).encode())
@@ -124,7 +124,7 @@ def story(start, listen, folder, endpoint):
     (folder / "mind.py").write_text(MIND)
     (folder / "match.toml").write_text(MATCH)
     words = ("match.toml", "--seed", "7", "--pace", "lockstep", "--record", "m.mcap", "--json", "--listen", endpoint)
-    program = start("arena", "match", *words, folder=folder)
+    program = start("touchline", "match", *words, folder=folder)
     return Story(program, listen("harmed", endpoint, program))
 
 
@@ -171,7 +171,7 @@ def test_ctrl_c_ends_everything_soon_with_status_130_and_leaves_nobody(story, is
 
 def test_ctrl_c_leaves_a_finished_recording_and_says_where(recording, story, folder):
     assert recording.complete
-    assert recording.result.ended in (Ended.HOST_GONE, Ended.STOPPED)
+    assert recording.result.ended in (EndReason.HOST_GONE, EndReason.STOPPED)
     assert "touchline: match ended by hand; m.mcap is what it left" in story.program.err
     assert not (folder / "m.mcap.part").exists()
 

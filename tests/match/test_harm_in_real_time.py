@@ -7,15 +7,15 @@ import signal
 
 import pytest
 
-from recordings.reader import open_recording
-from schemas.command import Drive
+from recordings.reading.recording import open_recording
+from schemas.messages.command import Drive
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
 WATCHDOG_TICKS = 10
 """0.2 s of simulated time."""
 MIND = """
-from schemas.command import Command, Drive
+from schemas.messages.command import Command, Drive
 
 class Circles:
     def __init__(self, briefing):
@@ -103,7 +103,7 @@ class Story:
         place = ("--connect", self._endpoint, "--match", "live")
         if case == "start":
             self.heard.until(ball_lies, "the ball on its spot")
-        asked = self._start("arena", "coach", *words, *place, folder=self.program.folder, name=name)
+        asked = self._start("touchline", "coach", *words, *place, folder=self.program.folder, name=name)
         return asked.status(), asked.out, asked.err
 
 
@@ -141,7 +141,7 @@ def story(start, listen, folder, endpoint):
     (folder / "mind.py").write_text(MIND)
     (folder / "match.toml").write_text(MATCH)
     words = ("match.toml", "--seed", "7", "--pace", "realtime", "--record", "m.mcap", "--json", "--listen", endpoint)
-    program = start("arena", "match", *words, folder=folder)
+    program = start("touchline", "match", *words, folder=folder)
     return Story(program, listen("live", endpoint, program), start, endpoint)
 
 

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from recordings.reader import open_recording
+from recordings.reading.recording import open_recording
 from schemas.topics import APPLIED
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
@@ -36,7 +36,7 @@ def played(start, folder):
 def recorded(start, folder, name, *words):
     """A match of real processes, and its recording."""
     words = ("--record", f"{name}.mcap", *words, "--listen", "tcp/127.0.0.1:0", "--json")
-    program = start("arena", "match", "match.toml", *words, folder=folder, name=name)
+    program = start("touchline", "match", "match.toml", *words, folder=folder, name=name)
     assert program.status() == 0, program.err
     return open_recording(folder / f"{name}.mcap", whole=True)
 
@@ -63,7 +63,7 @@ def test_a_ghost_goes_on_with_what_it_did_when_the_live_side_does_something_else
 
 
 def against(start, folder, name, agent):
-    program = start("arena", "replay", "first.mcap", "--agent", agent, "--json", folder=folder, name=name)
+    program = start("touchline", "replay", "first.mcap", "--agent", agent, "--json", folder=folder, name=name)
     return program.status(), json.loads(program.out)
 
 

@@ -5,10 +5,10 @@ import json
 import pytest
 from mcap.reader import make_reader
 
-from arena.in_process import play
-from recordings.reader import open_recording
-from schemas.host import Applied
-from schemas.match_config import load_match
+from recordings.reading.recording import open_recording
+from schemas.config.match_config import load_match
+from schemas.messages.host import Applied
+from touchline.play import play_match
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
@@ -34,7 +34,7 @@ def run(start, folder, match_file):
     def run(name):
         words = ("--seed", "7", "--pace", "lockstep", "--record", f"{name}.mcap", "--json")
         program = start(
-            "arena", "match", match_file.name, *words, "--listen", "tcp/127.0.0.1:0", folder=folder, name=name
+            "touchline", "match", match_file.name, *words, "--listen", "tcp/127.0.0.1:0", folder=folder, name=name
         )
         assert program.status() == 0, program.err
         return program
@@ -56,7 +56,7 @@ def result(first):
 def alone(match_file):
     """The same match without processes: tick → chain."""
     chains = []
-    play(load_match(match_file), watch=lambda tick: chains.append(tick.applied["chain"]))
+    play_match(load_match(match_file), watch=lambda tick: chains.append(tick.applied["chain"]))
     return chains
 
 
@@ -108,6 +108,6 @@ def test_one_process_plays_the_same_match_as_ten(folder, first, alone):
 
 def test_another_seed_is_another_match(match_file, alone):
     others = []
-    play(load_match(match_file, {"seed": 8}), watch=lambda tick: others.append(tick.applied["chain"]), until=1.0)
+    play_match(load_match(match_file, {"seed": 8}), watch=lambda tick: others.append(tick.applied["chain"]), until=1.0)
     assert len(others) == 50
     assert others[-1] != alone[len(others) - 1]

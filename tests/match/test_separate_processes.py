@@ -5,15 +5,15 @@ import signal
 
 import pytest
 
-from recordings.manifest import Ended
-from recordings.reader import open_recording
-from schemas.match_config import MatchConfig
+from recordings.container.manifest import EndReason
+from recordings.reading.recording import open_recording
+from schemas.config.match_config import MatchConfig
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
 TEAMS = {"cyan": {"robots": ["cyan1"]}, "magenta": {"robots": ["magenta1"]}}
 MIND = """
-from schemas.command import Command, Drive
+from schemas.messages.command import Command, Drive
 
 class Marked:
     made = 0
@@ -30,7 +30,7 @@ class Marked:
         return Command(answers_tick=sight.tick, drive=Drive(vx=1.0, omega=1.0))
 """
 WITHOUT = """
-import arena.__main__, coach_gateway.__main__, recordings.__main__, robot_agent.__main__, sim_host.__main__
+import touchline.__main__, coach_gateway.__main__, recordings.__main__, robot_agent.__main__, sim_host.__main__
 try:
     import pybullet
 except ModuleNotFoundError:
@@ -90,7 +90,7 @@ def story(start, listen, folder, endpoint, without_pybullet):
 def test_a_recorder_whose_host_was_killed_ends_by_itself_and_finishes_its_file(story, folder):
     assert story.recorder_status == 0
     recording = open_recording(folder / "m.mcap", whole=True)
-    assert recording.result.ended is Ended.HOST_GONE
+    assert recording.result.ended is EndReason.HOST_GONE
 
 
 def test_the_recording_of_a_killed_host_is_readable_to_its_last_half_second(story, folder):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from recordings.reader import open_recording
+from recordings.reading.recording import open_recording
 from schemas.game import EventKind
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
@@ -22,14 +22,16 @@ BY_HAND = (
 def recording(start, listen, folder, endpoint):
     """The recording of a match that was set up by hand, and ended."""
     match = start(
-        *("arena", "match", *WORDS, "--listen", endpoint, "--record", "m.mcap", "--json"), folder=folder, name="match"
+        *("touchline", "match", *WORDS, "--listen", endpoint, "--record", "m.mcap", "--json"),
+        folder=folder,
+        name="match",
     )
     heard = listen("by_hand", endpoint, match)
     heard.until_tick(20)
     for number, words in enumerate((*BY_HAND, ("coach", "end-game"))):
         heard.for_ticks(20)
         meeting = ("--connect", endpoint, "--match", "by_hand")
-        program = start("arena", *words, *meeting, folder=folder, name=f"word{number}")
+        program = start("touchline", *words, *meeting, folder=folder, name=f"word{number}")
         assert program.status() == 0, program.err
     assert match.status() == 0, match.err
     return open_recording(folder / "m.mcap", whole=True)

@@ -12,27 +12,27 @@ from typing import Any
 import pytest
 from rich.text import Text
 
-from arena.watch.picture import picture
-from arena.watch.pitch import MARGIN
-from coach_gateway.closeup import Closeup
-from coach_gateway.gateway import Gateway
-from coach_gateway.orders import Fate
+from coach_gateway.match.detailed_follower import DetailedFollower
+from coach_gateway.match.host_client import HostClient
+from coach_gateway.match.orders import OrderStatus
 from robot_agent.contract import Briefing, load_brain
 from robot_agent.runner import Runner
 from robot_agent.teams.nubot import NuBot
 from robot_agent.teams.nubot.machine import State
 from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
-from schemas.bus.contract import Answer, Bus
-from schemas.bus.in_process import Medium
-from schemas.clock import SteppedClock
-from schemas.coach import CoachMode, CoachTest
+from schemas.bus.contract import Bus, PendingReply
+from schemas.bus.in_process_bus import Medium
+from schemas.config.match_config import load_match
+from schemas.config.scene import Scene, SceneOperation, SceneRequest, load_scene
 from schemas.game import ActionName, Phase, RefereeAction, TeamPhase
-from schemas.match_config import load_match
-from schemas.scene import Scene, SceneDeed, SceneRequest, load_scene
+from schemas.messages.coach import CoachMode, CoachTest
+from schemas.messages.sight import Sight
+from schemas.process.clock import SteppedClock
 from schemas.side import Side
-from schemas.sight import Sight
-from sim_host.host import Host
-from sim_host.pace import Lockstep
+from sim_host.server.host import Host
+from sim_host.server.pace import Lockstep
+from touchline.watch.drawing import picture
+from touchline.watch.pitch import MARGIN
 
 CYAN = ("cyan1", "cyan2", "cyan3")
 RIVALS = ("magenta1", "magenta2", "magenta3")
@@ -46,22 +46,22 @@ class Experiment:
         config = load_match(None, {"scene": scene, "referee.mode": "manual", **brains, **flags})
         self.scene: Scene = load_scene(scene)
         medium = Medium()
-        coach = self._attended(medium.seat(config.name, SteppedClock()))
-        self.gateway, self.seen = Gateway(coach), Closeup(coach)
-        self.gateway.orders.update()
-        self.host = Host(config, medium.seat(config.name, SteppedClock()))
+        coach = self._attended(medium.open_bus(config.name, SteppedClock()))
+        self.client, self.seen = HostClient(coach), DetailedFollower(coach)
+        self.client.orders.update()
+        self.host = Host(config, medium.open_bus(config.name, SteppedClock()))
         setup = self.host.simulation.setup()
         self.setup = setup
         self.agents: dict[str, Runner] = {}
         self.sights: dict[str, Sight] = {}
         """Robot → what it was shown last."""
         for robot in (robot for side in Side for robot in config.robots(side)):
-            bus = medium.seat(config.name, SteppedClock())
+            bus = medium.open_bus(config.name, SteppedClock())
             brain = load_brain("robot_agent.teams.nubot:NuBot", Briefing.of(robot, setup))
             self.agents[robot] = Runner(bus, brain, robot)
             bus.declare_alive("agent", robot)
         assert isinstance(self.host.pace, Lockstep)
-        self.host.pace.idle = self._let_agents_answer
+        self.host.pace.step_agents = self._let_agents_answer
         self.host.wait_for_all()
         self.host.begin()
         self.trace: list[dict[str, Any]] = []
@@ -86,19 +86,19 @@ class Experiment:
 
     def _attended(self, coach: Bus) -> Bus:
         """A seat whose questions are answered in the next tick: how long asking takes changes nothing of the match."""
-        ask = coach.ask
+        query = coach.query
 
-        def ask_and_tick(*words: Any, **more: Any) -> Answer:
-            answer = ask(*words, **more)
+        def query_and_tick(*words: Any, **more: Any) -> PendingReply:
+            reply = query(*words, **more)
             self.tick()
-            return answer
+            return reply
 
-        setattr(coach, "ask", ask_and_tick)  # noqa: B010  in place of a method
+        setattr(coach, "query", query_and_tick)  # noqa: B010  in place of a method
         return coach
 
     def order(self, **content: Any) -> int:
         """Order cyan; the number of the order."""
-        return self.gateway.order(Side.CYAN, **content).sequence
+        return self.client.order(Side.CYAN, **content).sequence
 
     def machine(self, robot: str) -> State:
         """The state of a robot's behaviour machine."""
@@ -190,7 +190,7 @@ def test_one_every_robot_receives_the_coachs_order(static: Experiment) -> None:
         assert order is not None and (order.sequence, order.mode, order.max_speed) == (number, CoachMode.HOLD, 1.5)
     static.gateway.orders.update()
     receipt = static.gateway.orders.book.receipt(Side.CYAN, number)
-    assert (receipt.fate, receipt.acknowledged, receipt.missing) == (Fate.STANDS, CYAN, ())
+    assert (receipt.fate, receipt.acknowledged, receipt.missing) == (OrderStatus.STANDS, CYAN, ())
 
 
 COMMANDS = {
@@ -274,7 +274,7 @@ def test_two_after_the_world_is_reset_the_machine_runs_again(static: Experiment)
     """Reference 13, row 22: Gazebo's Reset World."""
     static.order(mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a="cyan2")
     assert static.play(lambda: static.machine("cyan2") is State.HOME, 60.0)
-    reply = static.gateway.scene(SceneRequest(deed=SceneDeed.RESET))
+    reply = static.gateway.scene(SceneRequest(operation=SceneOperation.RESET))
     assert reply.accepted and reply.episode == 2
     assert static.play(lambda: static.machine("cyan2") is State.CHASE_BALL, 1.0)
     assert static.play(lambda: static.machine("cyan2") is State.HOME, 60.0)

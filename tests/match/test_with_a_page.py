@@ -15,7 +15,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.sync.client import ClientConnection, connect
 
-from schemas.bus.endpoint import with_port
+from schemas.bus.endpoint import with_free_port
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
@@ -119,7 +119,7 @@ def test_a_match_with_a_page_says_where_it_is_lives_through_the_server_s_death_a
     start: Callable[..., Any], config: Path, tmp_path: Path, is_running: Callable[[int], bool]
 ) -> None:
     match = start(
-        *("arena", "match", str(config), "--web", "--web-port", "0", "--listen", with_port("tcp/127.0.0.1:0")),
+        *("touchline", "match", str(config), "--web", "--web-port", "0", "--listen", with_free_port("tcp/127.0.0.1:0")),
         folder=tmp_path,
     )
     address = said_address(match)
@@ -155,11 +155,11 @@ def test_a_match_with_a_page_says_where_it_is_lives_through_the_server_s_death_a
 def test_a_page_that_is_served_apart_outlives_the_host_and_meets_the_next_one(
     start: Callable[..., Any], config: Path, tmp_path: Path
 ) -> None:
-    endpoint = with_port("tcp/127.0.0.1:0")
+    endpoint = with_free_port("tcp/127.0.0.1:0")
     meeting = ("--connect", endpoint, "--match", "small")
-    server = start("arena", "coach", "serve", "--port", "0", *meeting, folder=tmp_path, name="server")
+    server = start("touchline", "coach", "serve", "--port", "0", *meeting, folder=tmp_path, name="server")
     address = said_address(server)
-    host_words = ("arena", "host", str(config), "--listen", endpoint, "--pace", "realtime")
+    host_words = ("touchline", "host", str(config), "--listen", endpoint, "--pace", "realtime")
     first = start(*host_words, folder=tmp_path, name="first")
     with page_at(address) as page:
         page.hear("host", there=True)
@@ -181,10 +181,19 @@ def test_a_replay_with_a_page_is_sought_and_paused_from_it_and_leaves_nothing(
     start: Callable[..., Any], config: Path, tmp_path: Path, is_running: Callable[[int], bool]
 ) -> None:
     recording = tmp_path / "small.mcap"
-    words = ("--duration", "4", "--listen", with_port("tcp/127.0.0.1:0"), "--record", str(recording))
-    assert start("arena", "match", str(config), *words, folder=tmp_path).status() == 0
+    words = ("--duration", "4", "--listen", with_free_port("tcp/127.0.0.1:0"), "--record", str(recording))
+    assert start("touchline", "match", str(config), *words, folder=tmp_path).status() == 0
     replay = start(
-        *("arena", "replay", str(recording), "--web", "--web-port", "0", "--listen", with_port("tcp/127.0.0.1:0")),
+        *(
+            "touchline",
+            "replay",
+            str(recording),
+            "--web",
+            "--web-port",
+            "0",
+            "--listen",
+            with_free_port("tcp/127.0.0.1:0"),
+        ),
         folder=tmp_path,
         name="replay",
     )
@@ -194,8 +203,8 @@ def test_a_replay_with_a_page_is_sought_and_paused_from_it_and_leaves_nothing(
         events = [page.hear("event")["event"]]
         while events[-1]["kind"] != "full_time":
             events.append(page.hear("event")["event"])
-        assert page.ask("replay", request={"deed": "pause"})["accepted"]
-        sought = page.ask("replay", request={"deed": "seek", "to": "2.5"})
+        assert page.ask("replay", request={"operation": "pause"})["accepted"]
+        sought = page.ask("replay", request={"operation": "seek", "to": "2.5"})
         assert sought["answer"]["time"] == pytest.approx(2.5, abs=0.05)
         while page.hear("frame")["time"] != pytest.approx(2.5, abs=0.05):
             pass
@@ -215,8 +224,8 @@ def test_a_port_that_is_taken_is_named_before_anything_is_launched(
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         port = taken.getsockname()[1]
-        words = ("--listen", with_port("tcp/127.0.0.1:0"), "--web", "--web-port", str(port))
-        match = start("arena", "match", str(config), *words, folder=tmp_path)
+        words = ("--listen", with_free_port("tcp/127.0.0.1:0"), "--web", "--web-port", str(port))
+        match = start("touchline", "match", str(config), *words, folder=tmp_path)
         assert match.status() == 2
     assert match.err == (
         f"touchline: the page cannot be served on 127.0.0.1 port {port} (Address already in use); "
@@ -239,14 +248,14 @@ def test_without_the_extra_a_page_says_how_to_get_it_and_everything_else_goes_on
 ) -> None:
     (tmp_path / "sitecustomize.py").write_text(NO_WEB)
     path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
-    free = ("--listen", with_port("tcp/127.0.0.1:0"))
+    free = ("--listen", with_free_port("tcp/127.0.0.1:0"))
     for number, words in enumerate((("match", "--web", *free), ("coach", "serve"))):
-        program = start("arena", *words, folder=tmp_path, name=f"without{number}", PYTHONPATH=path)
+        program = start("touchline", *words, folder=tmp_path, name=f"without{number}", PYTHONPATH=path)
         assert program.status() == 2
         needs = "the page needs starlette, uvicorn and websockets; pip install 'touchline[coach]'"
         assert program.err == f"touchline: {needs}\n"
     stop = start(
-        *("arena", "coach", "stop", "--connect", with_port("tcp/127.0.0.1:0")),
+        *("touchline", "coach", "stop", "--connect", with_free_port("tcp/127.0.0.1:0")),
         folder=tmp_path,
         name="stop",
         PYTHONPATH=path,
@@ -256,8 +265,8 @@ def test_without_the_extra_a_page_says_how_to_get_it_and_everything_else_goes_on
 
 
 def test_a_person_runs_a_whole_match_from_the_page(start: Callable[..., Any], config: Path, tmp_path: Path) -> None:
-    words = ("--referee", "manual", "--web", "--web-port", "0", "--listen", with_port("tcp/127.0.0.1:0"), "--json")
-    match = start("arena", "match", str(config), *words, folder=tmp_path)
+    words = ("--referee", "manual", "--web", "--web-port", "0", "--listen", with_free_port("tcp/127.0.0.1:0"), "--json")
+    match = start("touchline", "match", str(config), *words, folder=tmp_path)
     with page_at(said_address(match)) as page:
         page.hear("frame")
         for action in (

@@ -45,7 +45,7 @@ def refused(program, words):
 def test_a_wrong_match_file_is_refused_in_one_line(start, tmp_path, case):
     text, words = WRONG[case]
     (tmp_path / "match.toml").write_text(text)
-    refused(start("arena", "match", "match.toml", "--listen", "tcp/127.0.0.1:0", folder=tmp_path), words)
+    refused(start("touchline", "match", "match.toml", "--listen", "tcp/127.0.0.1:0", folder=tmp_path), words)
     assert not (tmp_path / "runs").exists()
 
 
@@ -54,7 +54,7 @@ def test_a_port_in_use_is_refused_in_one_line(start, tmp_path):
         other.bind(("127.0.0.1", 0))
         other.listen()
         endpoint = f"tcp/127.0.0.1:{other.getsockname()[1]}"
-        refused(start("arena", "match", "--listen", endpoint, folder=tmp_path), f"{endpoint} cannot be listened on")
+        refused(start("touchline", "match", "--listen", endpoint, folder=tmp_path), f"{endpoint} cannot be listened on")
     assert not (tmp_path / "runs").exists()
 
 
@@ -67,13 +67,13 @@ def test_a_port_of_a_bridge_in_use_is_refused_before_anything_is_launched(start,
         if kind is socket.SOCK_STREAM:
             other.listen()
         port = str(other.getsockname()[1])
-        program = start("arena", "match", "--listen", "tcp/127.0.0.1:0", option, port, folder=tmp_path)
+        program = start("touchline", "match", "--listen", "tcp/127.0.0.1:0", option, port, folder=tmp_path)
         refused(program, f"{option} {port} cannot be listened on at 127.0.0.1")
     assert not (tmp_path / "runs").exists()
 
 
 def test_without_pybullet_the_pip_line_that_brings_it_is_named(start, tmp_path, without_pybullet):
-    program = start("arena", "match", "--listen", "tcp/127.0.0.1:0", folder=tmp_path, **without_pybullet)
+    program = start("touchline", "match", "--listen", "tcp/127.0.0.1:0", folder=tmp_path, **without_pybullet)
     refused(program, "pip install 'touchline[sim]'")
     assert not (tmp_path / "runs").exists()
 
@@ -83,7 +83,7 @@ def test_a_pybullet_that_is_there_and_cannot_be_imported_is_named_by_the_host(st
     (tmp_path / "broken" / "pybullet.py").write_text(BROKEN)
     others = os.environ.get("PYTHONPATH")
     path = os.pathsep.join([str(tmp_path / "broken"), *([others] if others else [])])
-    program = start("arena", "match", "--json", "--listen", "tcp/127.0.0.1:0", folder=tmp_path, PYTHONPATH=path)
+    program = start("touchline", "match", "--json", "--listen", "tcp/127.0.0.1:0", folder=tmp_path, PYTHONPATH=path)
     assert program.status() == 2
     assert program.out == ""
     assert "pip install 'touchline[sim]'" in program.err.splitlines()[-1]

@@ -4,32 +4,34 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from threading import Event
+from typing import Any
 
 import pytest
 
-from arena.in_process import Table
-from recordings.account import Account
-from recordings.output import ONE_FILE, Limits, Output
-from recordings.reader import Recording, open_recording
-from recordings.record import output_at
-from recordings.recorder import Recorder, RecordingSummary
-from recordings.selection import EVERYTHING, Selection
+from recordings.container.key_selection import EVERYTHING, KeySelection
+from recordings.reading.recording import Recording, open_recording
+from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.record import open_sink
+from recordings.recorder.recorder import Recorder, RecordingSummary
+from recordings.recorder.sink import ONE_FILE, FileLimits, Sink
+from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, Publisher
-from schemas.bus.in_process import Medium
-from schemas.bus.minutes import MinuteKeeper
-from schemas.clock import SteppedClock
-from schemas.command import Command, Drive
+from schemas.bus.in_process_bus import Medium
+from schemas.config.match_config import MatchConfig, load_match
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
 from schemas.game import EventKind, GameEvent, GameState, Phase, Score
-from schemas.host import Applied, AppliedInput, Setup
-from schemas.match_config import MatchConfig, load_match
-from schemas.profile import load_profile
-from schemas.rule_book import load_rule_book
+from schemas.messages.command import Command, Drive
+from schemas.messages.host import Applied, AppliedInput, Setup
+from schemas.messages.sight import Sight
+from schemas.messages.world import BallTruth, RobotTruth, World
+from schemas.process.clock import SteppedClock
 from schemas.side import Side
-from schemas.sight import Sight
 from schemas.topics import APPLIED, COMMAND, EVENT, ORDER, SETUP, STATE, WORLD
-from schemas.world import BallTruth, RobotTruth, World
-from sim_host.outbox import Outbox
-from sim_host.simulation import Simulation
+from sim_host.match.simulation import Simulation
+from sim_host.server.outbox import Outbox
+from touchline.play import InProcessMatch
 
 ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
 TICK = 0.02
@@ -62,7 +64,7 @@ def make_world(tick: int) -> World:
 
 
 @dataclass
-class HandMadeHost:
+class FakeHost:
     """Speaks as host and robots do, tick by tick; simulated time is the host's."""
 
     bus: Bus
@@ -70,21 +72,21 @@ class HandMadeHost:
     setup: Setup
     writers: dict[str, Publisher] = field(default_factory=dict)
     is_prompt: bool = True
-    """It sends the minutes of each tick at once, so that nobody has to wait for them."""
+    """It sends the record batch of each tick at once, so that nobody has to wait for them."""
 
     def __post_init__(self) -> None:
         self.server = self.bus.serve(SETUP)
         self.bus.declare_alive("host", "host")
         self.ears = [self.bus.subscribe(topic) for topic in (COMMAND, ORDER)]
-        self.minutes = MinuteKeeper(self.bus)
+        self.batches = BatchPublisher(self.bus)
         for topic in (WORLD, APPLIED, STATE, EVENT):
-            self.writers[topic.key] = self.minutes.publisher(topic)
+            self.writers[topic.key] = self.batches.publisher(topic)
         for name in ROBOTS:
             self.writers[COMMAND.fill(robot=name)] = self.robots.publisher(COMMAND, robot=name)
 
     def answer(self) -> None:
-        while (question := self.server.receive()) is not None:
-            question.answer(self.setup)
+        while (query := self.server.receive()) is not None:
+            query.reply(self.setup)
 
     def play(self, tick: int) -> None:
         """One tick: truth, the inputs that led to it, the robots' answers to it."""
@@ -101,17 +103,17 @@ class HandMadeHost:
         came = 0
         for ear in self.ears:
             while (received := ear.receive(MOMENT if came < count else 0.0)) is not None:
-                self.minutes.note(received)
+                self.batches.add_received(received)
                 came += 1
-        self.minutes.end_tick(tick)
+        self.batches.end_tick(tick)
         if self.is_prompt:
-            self.minutes.send()
+            self.batches.send()
 
     def referee(self, tick: int, phase: Phase, score: Score, side: Side | None = None) -> None:
         self.writers["game/state"].put(
             GameState(tick=tick, time=tick * TICK, phase=phase, side=side, clock=tick * TICK, score=score)
         )
-        self.minutes.send()
+        self.batches.send()
 
     def goal(self, tick: int) -> None:
         self.writers["game/event"].put(
@@ -122,13 +124,13 @@ class HandMadeHost:
 
 
 @dataclass
-class Stage:
+class RecorderRig:
     """A host, a recorder, and the file between them."""
 
-    host: HandMadeHost
+    host: FakeHost
     recorder: Recorder
     recorder_bus: Bus
-    output: Output
+    sink: Sink
     path: Path
 
     def begin(self) -> None:
@@ -144,7 +146,7 @@ class Stage:
 
     def leave(self) -> RecordingSummary:
         """The host leaves; the recorder takes in the rest."""
-        self.host.minutes.send()
+        self.host.batches.send()
         self.host.bus.close()
         return self.recorder.run(lambda: False)
 
@@ -152,61 +154,74 @@ class Stage:
         return open_recording(self.path)
 
 
-StageMaker = Callable[..., Stage]
+RigMaker = Callable[..., RecorderRig]
 
 
 @pytest.fixture
-def make_stage(tmp_path: Path) -> Iterator[StageMaker]:
-    stages: list[Stage] = []
+def make_rig(tmp_path: Path) -> Iterator[RigMaker]:
+    rigs: list[RecorderRig] = []
 
     def make(
         sights: bool = False,
         config: MatchConfig | None = None,
         path: Path | None = None,
-        limits: Limits = ONE_FILE,
-        selection: Selection = EVERYTHING,
-    ) -> Stage:
+        limits: FileLimits = ONE_FILE,
+        selection: KeySelection = EVERYTHING,
+    ) -> RecorderRig:
         medium = Medium()
         wall = SteppedClock()
-        host_bus, robot_bus = medium.seat("friendly", SteppedClock()), medium.seat("friendly", SteppedClock())
-        bus = medium.seat("friendly", wall)
+        host_bus, robot_bus = medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", SteppedClock())
+        bus = medium.open_bus("friendly", wall)
         path = path or tmp_path / "match.mcap"
-        account = Account()
-        output = output_at(path, wall, "friendly", account, limits)
-        host = HandMadeHost(host_bus, robot_bus, make_setup())
-        recorder = Recorder(bus, output, account, name="recorder", sights=sights, config=config, selection=selection)
-        stages.append(Stage(host, recorder, bus, output, path))
-        return stages[-1]
+        loss_counts = LossCounts()
+        sink = open_sink(path, wall, "friendly", loss_counts, limits)
+        host = FakeHost(host_bus, robot_bus, make_setup())
+        recorder = Recorder(bus, sink, loss_counts, name="recorder", sights=sights, config=config, selection=selection)
+        rigs.append(RecorderRig(host, recorder, bus, sink, path))
+        return rigs[-1]
 
     yield make
-    for stage in stages:
-        stage.output.abandon()
+    for rig in rigs:
+        rig.sink.abandon()
 
 
 @pytest.fixture
-def stage(make_stage: StageMaker) -> Stage:
+def rig(make_rig: RigMaker) -> RecorderRig:
     """A recorder that knows the host's setup and has begun."""
-    stage = make_stage(config=MatchConfig(seed=7))
-    stage.begin()
-    return stage
+    rig = make_rig(config=MatchConfig(seed=7))
+    rig.begin()
+    return rig
 
 
 @pytest.fixture
-def recorded(stage: Stage) -> Recording:
+def recorded(rig: RecorderRig) -> Recording:
     """A finished recording of 200 ticks with one goal."""
-    stage.host.referee(0, Phase.PLAY, Score())
-    stage.play(range(100))
-    stage.host.goal(100)
-    stage.play(range(100, 200))
-    stage.host.referee(199, Phase.FULL_TIME, Score(cyan=1))
-    stage.leave()
-    return stage.read()
+    rig.host.referee(0, Phase.PLAY, Score())
+    rig.play(range(100))
+    rig.host.goal(100)
+    rig.play(range(100, 200))
+    rig.host.referee(199, Phase.FULL_TIME, Score(cyan=1))
+    rig.leave()
+    return rig.read()
 
 
 @pytest.fixture
-def hand_made_host() -> Callable[[Bus, Bus], HandMadeHost]:
+def make_fake_host() -> Callable[[Bus, Bus], FakeHost]:
     """Seats a hand-made host on a bus of the test's own."""
-    return lambda bus, robots: HandMadeHost(bus, robots, make_setup())
+    return lambda bus, robots: FakeHost(bus, robots, make_setup())
+
+
+@pytest.fixture
+def wait_until_written() -> Callable[[Any], None]:
+    """Waits until what a recorder has handed on is in its file."""
+
+    def wait(rig) -> None:
+        done = Event()
+        rig.sink.sync()
+        rig.sink._writer._hand_over(done.set)
+        assert done.wait(30.0)
+
+    return wait
 
 
 def record_match(
@@ -214,7 +229,7 @@ def record_match(
     config: MatchConfig,
     until: float,
     between: Callable[[Simulation], None] = lambda _: None,
-    limits: Limits = ONE_FILE,
+    limits: FileLimits = ONE_FILE,
     viz: bool = True,
 ) -> None:
     """Play a real match with the teams that ship, in this process and without a network, and record it.
@@ -222,32 +237,34 @@ def record_match(
     `between` is called before each tick, for what operators do.
     """
     medium = Medium()
-    host_bus, bus = medium.seat(config.name, SteppedClock()), medium.seat(config.name, SteppedClock())
-    table, server = Table(config), host_bus.serve(SETUP)
+    host_bus, bus = medium.open_bus(config.name, SteppedClock()), medium.open_bus(config.name, SteppedClock())
+    table, server = InProcessMatch(config), host_bus.serve(SETUP)
     simulation = table.simulation
     host_bus.declare_alive("host", "host")
-    minutes = MinuteKeeper(host_bus)
-    outbox = Outbox(minutes, simulation.roster, simulation.profile.time.tick)
-    account = Account()
-    recorder = Recorder(bus, output_at(path, bus.clock, config.name, account, limits, viz=viz), account, config=config)
+    batches = BatchPublisher(host_bus)
+    outbox = Outbox(batches, simulation.roster, simulation.profile.time.tick)
+    loss_counts = LossCounts()
+    recorder = Recorder(
+        bus, open_sink(path, bus.clock, config.name, loss_counts, limits, viz=viz), loss_counts, config=config
+    )
     ear = host_bus.subscribe(COMMAND)
     commands = {name: host_bus.publisher(COMMAND, robot=name) for name in table.brains}
     recorder.pump()
-    while (question := server.receive()) is not None:
-        question.answer(simulation.setup())
+    while (query := server.receive()) is not None:
+        query.reply(simulation.setup())
     tick = simulation.now
     while True:
         host_bus.clock.sim_ns = round(tick.time * 1e9)
-        outbox.truth(tick, simulation.state)
+        outbox.publish_tick(tick, simulation.state)
         while (received := ear.receive()) is not None:
-            minutes.note(received)
-        minutes.end_tick(tick.tick)
+            batches.add_received(received)
+        batches.end_tick(tick.tick)
         if tick.tick % 25 == 0:
             recorder.pump()
         if simulation.over or tick.time >= until:
             break
         between(simulation)
-        outbox.follow(simulation.roster)
+        outbox.set_roster(simulation.roster)
         playing = {name: brain for name, brain in table.brains.items() if name in tick.sights}
         said = {
             name: Command.decode(brain.act(Sight.decode(tick.sights[name])).encode()) for name, brain in playing.items()
@@ -255,7 +272,7 @@ def record_match(
         for name, command in said.items():
             commands[name].put(command)
         tick = simulation.step(said)
-    minutes.send()
+    batches.send()
     simulation.close()
     host_bus.close()
     recorder.run(lambda: False)

@@ -6,17 +6,17 @@ from typing import Any
 
 import pytest
 
-from robot_agent.bodies import Body, Limits
+from robot_agent.bodies import Body, DriveLimits
 from robot_agent.contract import Briefing
-from schemas.command import Drive
+from schemas.config.match_config import MatchConfig
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
 from schemas.frames import from_body, wrap
 from schemas.game import GameView, TeamPhase
-from schemas.host import Setup
-from schemas.match_config import MatchConfig
-from schemas.profile import load_profile
-from schemas.rule_book import load_rule_book
+from schemas.messages.command import Drive
+from schemas.messages.host import Setup
+from schemas.messages.sight import BallSight, Motion, Obstacle, ReceivedRadio, Sight
 from schemas.side import Side
-from schemas.sight import BallSight, Heard, Motion, Obstacle, Sight
 
 
 def setup_of(profile_name: str = "msl", rules_name: str = "friendly") -> Setup:
@@ -53,7 +53,7 @@ def make_sight(
     running: bool = True,
     spot: Any = None,
     obstacles: tuple[tuple[float, float], ...] = (),
-    radio: dict[str, Heard] | None = None,
+    radio: dict[str, ReceivedRadio] | None = None,
     **more: Any,
 ) -> Sight:
     """A sight at tick `tick` of 20 ms; `ball` is x, y and perhaps vx, vy."""
@@ -86,7 +86,7 @@ def make_sight(
 class Plant:
     """An ideal drive: the velocity goes straight to the demand at the limits; heading and position follow."""
 
-    def __init__(self, limits: Limits, body: Body) -> None:
+    def __init__(self, limits: DriveLimits, body: Body) -> None:
         self.limits = limits
         self.body = body
 
@@ -105,10 +105,10 @@ class Plant:
 
 
 @pytest.fixture
-def plant(limits: Limits) -> Callable[..., Plant]:
+def plant(limits: DriveLimits) -> Callable[..., Plant]:
     return lambda *body: Plant(limits, Body(*body))
 
 
 @pytest.fixture(scope="session")
-def limits(setup: Setup) -> Limits:
-    return Limits.of(setup)
+def limits(setup: Setup) -> DriveLimits:
+    return DriveLimits.of(setup)

@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from robot_agent.bodies import Ball, Body, Limits
+from robot_agent.bodies import Ball, Body, DriveLimits
 
 
 def test_a_rolling_ball_goes_v_t_minus_half_a_t_squared():
@@ -24,4 +24,4 @@ def test_a_capped_drive_is_never_faster_than_the_real_one(limits):
     assert limits.capped(2.0, 1.0)[:2] == (2.0, 1.0)
     assert limits.capped(99.0, 99.0) == limits
     assert limits.capped() == limits
-    assert isinstance(limits, Limits)
+    assert isinstance(limits, DriveLimits)

@@ -2,17 +2,17 @@ from pathlib import Path
 
 import pytest
 
-from robot_agent.bodies import Limits
+from robot_agent.bodies import DriveLimits
 from robot_agent.contract import Briefing, load_brain
+from schemas.config.match_config import load_match
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
-from schemas.host import Setup
-from schemas.match_config import load_match
-from schemas.profile import load_profile
-from schemas.rule_book import load_rule_book
+from schemas.messages.host import Setup
 from schemas.side import Side
 
 STUDENT = """
-from schemas.command import Command
+from schemas.messages.command import Command
 
 class Team:
     def __init__(self, briefing):
@@ -99,5 +99,5 @@ def test_a_briefing_has_the_numbers_of_the_robots_own_type() -> None:
     config = load_match(None, {"teams.cyan.types": types})
     setup = Setup.of(config, load_profile("msl"), load_rule_book("msl"))
     slow, keeper, plain = (Briefing.of(name, setup).setup for name in ("cyan3", "cyan1", "magenta3"))
-    assert Limits.of(slow).speed == 2.0 < Limits.of(plain).speed
+    assert DriveLimits.of(slow).speed == 2.0 < DriveLimits.of(plain).speed
     assert keeper.robot.reach > plain.robot.reach == plain.robot.radius

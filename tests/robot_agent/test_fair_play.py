@@ -6,17 +6,17 @@ import pytest
 
 from robot_agent.bodies import Ball, Body
 from robot_agent.contract import Briefing
-from robot_agent.fair_play import HALFWAY, Asked, Control, carried, control_after
+from robot_agent.fair_play import HALFWAY, Possession, RuleLimits, carry_after, possession_after
 from robot_agent.teams.simple import Simple
-from robot_agent.world_model import Mate, Scene, SeenBall
+from robot_agent.world_model import SeenBall, Teammate, WorldBelief
+from schemas.config.match_config import MatchConfig
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
 from schemas.game import GameView, TeamPhase
-from schemas.host import Setup
-from schemas.match_config import MatchConfig
-from schemas.profile import load_profile
-from schemas.rule_book import load_rule_book
-from schemas.sight import Heard, Motion
+from schemas.messages.host import Setup
+from schemas.messages.sight import Motion, ReceivedRadio
 
-AT, NOBODYS = Body(-3.0, 0.0, 0.0), Control()
+AT, NOBODYS = Body(-3.0, 0.0, 0.0), Possession()
 PASS = 1.0
 """m of free roll."""
 
@@ -28,38 +28,38 @@ def league():
 
 def scene(ball=(0.0, 0.0), me=AT, holding=False, mates=(), opponents=(), phase=TeamPhase.PLAY):
     game = GameView(phase=phase, running=True, clock=0.0, our_score=0, their_score=0)
-    found = {f"cyan{number}": Mate(Body(x, y, 0.0), "", "", None) for number, x, y in mates}
-    return Scene(1, 0.02, me, holding, SeenBall(Ball(*ball), 0.0), found, list(opponents), game)
+    found = {f"cyan{number}": Teammate(Body(x, y, 0.0), "", "", None) for number, x, y in mates}
+    return WorldBelief(1, 0.02, me, holding, SeenBall(Ball(*ball), 0.0), found, list(opponents), game)
 
 
 def after(*scenes, before=NOBODYS):
     for one in scenes:
-        before = control_after(before, one, "cyan2", PASS)
+        before = possession_after(before, one, "cyan2", PASS)
     return before
 
 
 def test_a_friendly_asks_nothing_but_to_keep_out_of_areas(setup, league):
-    assert Asked.of(setup) == Asked(math.inf, math.inf, True, True, False, False, 1.0)
-    assert Asked.of(league) == Asked(3.0, 1.0, True, True, False, True, 1.0)
+    assert RuleLimits.of(setup) == RuleLimits(math.inf, math.inf, True, True, False, False, 1.0)
+    assert RuleLimits.of(league) == RuleLimits(3.0, 1.0, True, True, False, True, 1.0)
 
 
 def test_where_a_crowded_penalty_area_is_a_foul_at_once_robots_know():
     simulation_league = Setup.of(MatchConfig(), load_profile("msl"), load_rule_book("china-sim-2020"))
-    assert Asked.of(simulation_league).at_once
+    assert RuleLimits.of(simulation_league).at_once
 
 
 def test_a_setup_that_is_older_than_these_rules_asks_nothing(league):
     old = league.model_copy(update={"handling": None, "scoring": None, "fouls": None})
-    assert Asked.of(old) == Asked(math.inf, math.inf, False, False, False, False, 0.0)
+    assert RuleLimits.of(old) == RuleLimits(math.inf, math.inf, False, False, False, False, 0.0)
 
 
 def test_a_carry_knows_its_way_from_the_catch_and_the_way_backward():
-    carry = carried(None, scene((0.0, 0.0), holding=True))
+    carry = carry_after(None, scene((0.0, 0.0), holding=True))
     back = Body(0.0, 0.0, 0.0, vx=-1.0)
     for x in (-0.5, -1.0):
-        carry = carried(carry, scene((x, 0.0), me=back, holding=True))
+        carry = carry_after(carry, scene((x, 0.0), me=back, holding=True))
     assert carry.caught == (0.0, 0.0) and carry.way == 1.0 and carry.backward == pytest.approx(0.04)
-    assert carried(carry, scene((0.0, 0.0))) is None
+    assert carry_after(carry, scene((0.0, 0.0))) is None
 
 
 @pytest.mark.parametrize(("x", "may_score"), [(HALFWAY + 0.1, True), (-1.0, False)])
@@ -80,7 +80,7 @@ def test_an_opponent_at_the_ball_alone_has_it():
 
 def test_in_a_duel_the_ball_stays_with_whom_it_was():
     duel = scene((2.0, 0.0), mates=[(3, 2.3, 0.0)], opponents=[(1.7, 0.0)])
-    assert after(duel, before=Control(False)).ours is False
+    assert after(duel, before=Possession(False)).ours is False
     assert after(scene((2.0, 0.0), holding=True), duel).ours is True
 
 
@@ -123,7 +123,7 @@ def test_the_second_of_two_stays_out_of_the_penalty_area_while_the_nearer_one_is
     """The first plays the ball there; the second, who wants to hold its place near it, comes no nearer."""
     front = league.pitch.goal_line - league.pitch.penalty_area_depth
     robot = Simple(Briefing.of("cyan2", league))
-    word = Heard(age=0.0, self=Motion(x=-10.0, y=2.0, heading=0.0), role="striker")
+    word = ReceivedRadio(age=0.0, self=Motion(x=-10.0, y=2.0, heading=0.0), role="striker")
     seen = {"ball": (-10.2, 2.2), "radio": {"cyan3": word}, "at": (-front + 0.1, 0.5, 0.0)}
     for tick in range(3):
         drive = robot.act(sight_of(tick, **seen)).drive

@@ -6,9 +6,9 @@ import sys
 import pytest
 
 from robot_agent.__main__ import main
-from schemas.bus.endpoint import with_port
-from schemas.bus.zenoh_bus import open_host
-from schemas.clock import WallClock
+from schemas.bus.endpoint import with_free_port
+from schemas.bus.zenoh.bus import open_host
+from schemas.process.clock import WallClock
 from schemas.topics import COMMAND, SETUP, SIGHT
 
 BRAIN = "robot_agent.teams.nubot:NuBot"
@@ -35,7 +35,7 @@ def test_a_missing_option_is_asked_for_by_name(bare, capsys, missing):
 @pytest.mark.processes
 def test_without_a_host_the_process_ends_with_one_line_and_status_2():
     arguments = ["--match", "m", "--robot", "cyan1", "--brain", BRAIN, "--patience", "0"]
-    nobody = with_port("tcp/127.0.0.1:0")
+    nobody = with_free_port("tcp/127.0.0.1:0")
     ended = subprocess.run(
         [sys.executable, "-m", "robot_agent", "--connect", nobody, *arguments],
         capture_output=True,
@@ -51,7 +51,7 @@ def test_without_a_host_the_process_ends_with_one_line_and_status_2():
 @pytest.mark.processes
 @pytest.mark.parametrize("polite", [signal.SIGTERM, signal.SIGINT])
 def test_a_robot_told_by_the_environment_answers_a_host_and_ends_politely(setup, sight_of, polite):
-    endpoint = with_port("tcp/127.0.0.1:0")
+    endpoint = with_free_port("tcp/127.0.0.1:0")
     told = {"CONNECT": endpoint, "MATCH": "friendly", "ROBOT": "cyan2", "BRAIN": BRAIN}
     environment = os.environ | {f"TOUCHLINE_{name}": value for name, value in told.items()}
     with open_host("friendly", WallClock(), endpoint) as host:
@@ -59,9 +59,9 @@ def test_a_robot_told_by_the_environment_answers_a_host_and_ends_politely(setup,
         commands, sights = host.subscribe(COMMAND), host.publisher(SIGHT, robot="cyan2")
         robot = subprocess.Popen([sys.executable, "-m", "robot_agent"], env=environment, stderr=subprocess.PIPE)
         try:
-            question = server.receive(LIMIT_S)
-            assert question is not None
-            question.answer(setup)
+            query = server.receive(LIMIT_S)
+            assert query is not None
+            query.reply(setup)
             arrived = presence.receive(LIMIT_S)
             assert arrived is not None and (arrived.kind, arrived.name) == ("agent", "cyan2")
             received = None

@@ -2,10 +2,10 @@ import pytest
 
 from robot_agent.contract import LightCommand
 from robot_agent.runner import BrainError, Runner, ask_setup, serve
-from schemas.bus.in_process import Medium
-from schemas.clock import SteppedClock
-from schemas.command import Command, Drive
+from schemas.bus.in_process_bus import Medium
 from schemas.errors import TouchlineError
+from schemas.messages.command import Command, Drive
+from schemas.process.clock import SteppedClock
 from schemas.topics import COMMAND, SETUP, SIGHT
 
 
@@ -28,7 +28,7 @@ class Raising:
 @pytest.fixture
 def seats():
     medium = Medium()
-    return medium.seat("friendly", SteppedClock()), medium.seat("friendly", SteppedClock())
+    return medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", SteppedClock())
 
 
 @pytest.fixture
@@ -123,7 +123,7 @@ def test_after_forgetting_an_equal_tick_is_a_new_sight(played, sight_of):
     sights.put(sight_of(0))
     runner.answer_next(0.0)
     fresh = Counting()
-    runner.forget(fresh)
+    runner.restart(fresh)
     sights.put(sight_of(0))
     assert runner.answer_next(0.0)
     assert (fresh.seen, runner.repeated) == ([0], 0)
@@ -148,16 +148,16 @@ class Impatient(SteppedClock):
 def stage(setup, monkeypatch):
     """A host that answers every question for the setup at once, and a robot that never sleeps."""
     medium = Medium()
-    host, robot = medium.seat("friendly", SteppedClock()), medium.seat("friendly", Impatient())
+    host, robot = medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", Impatient())
     host.declare_alive("host", "host")
     server = host.serve(SETUP)
 
-    def ask(topic, question, timeout=2.0):
-        answer = type(robot).ask(robot, topic, question, timeout)
-        server.receive().answer(setup)
+    def query(topic, request, timeout=2.0):
+        answer = type(robot).query(robot, topic, request, timeout)
+        server.receive().reply(setup)
         return answer
 
-    monkeypatch.setattr(robot, "ask", ask)
+    monkeypatch.setattr(robot, "query", query)
     monkeypatch.setattr("robot_agent.runner._IDLE", 0.0)
     return host, robot
 
@@ -187,8 +187,8 @@ def test_a_sight_of_the_next_match_is_not_shown_to_the_brain_of_the_last(stage, 
     built = []
 
     def host_is_replaced(kind, name):
-        host.medium.change_alive("friendly", ("friendly/host", "host"), -1)
-        host.medium.change_alive("friendly", ("friendly/host", "host"), +1)
+        host.medium.count_token("friendly", ("friendly/host", "host"), -1)
+        host.medium.count_token("friendly", ("friendly/host", "host"), +1)
         sights.put(sight_of(0))
 
     def build(setup):

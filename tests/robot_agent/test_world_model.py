@@ -6,9 +6,9 @@ import pytest
 from robot_agent.bodies import Ball
 from robot_agent.opponents import REMEMBERED
 from robot_agent.world_model import LOST, STALE, WorldModel
-from schemas.command import BallBelief
 from schemas.game import Point, TeamPhase
-from schemas.sight import BallSight, Heard, Motion
+from schemas.messages.command import BallBelief
+from schemas.messages.sight import BallSight, Motion, ReceivedRadio
 
 
 @pytest.fixture
@@ -17,19 +17,19 @@ def world(briefing):
 
 
 def word(x, y, age=0.0, ball=None, vx=0.0, **more):
-    return Heard(age=age, self=Motion(x=x, y=y, heading=0.0, vx=vx), ball=ball, **more)
+    return ReceivedRadio(age=age, self=Motion(x=x, y=y, heading=0.0, vx=vx), ball=ball, **more)
 
 
 def test_a_first_sight_is_believed_as_it_is(world, sight_of):
-    scene = world.take_in(sight_of(at=(1.0, 2.0, 0.5), ball=(3.0, 4.0, 1.0, 0.0)))
-    assert scene.me[:3] == (1.0, 2.0, 0.5)
-    assert scene.ball.now == (3.0, 4.0, 1.0, 0.0)
-    assert scene.dt == 0.0
+    belief = world.update(sight_of(at=(1.0, 2.0, 0.5), ball=(3.0, 4.0, 1.0, 0.0)))
+    assert belief.me[:3] == (1.0, 2.0, 0.5)
+    assert belief.ball.now == (3.0, 4.0, 1.0, 0.0)
+    assert belief.dt == 0.0
 
 
 def test_time_between_sights_is_measured_not_assumed(world, sight_of):
-    world.take_in(sight_of(10))
-    assert world.take_in(sight_of(13)).dt == pytest.approx(0.06)
+    world.update(sight_of(10))
+    assert world.update(sight_of(13)).dt == pytest.approx(0.06)
 
 
 def test_noise_is_smoothed_to_less_than_its_size(world, sight_of):
@@ -37,22 +37,22 @@ def test_noise_is_smoothed_to_less_than_its_size(world, sight_of):
     errors = []
     for tick in range(200):
         ball = (3.0 + noise.gauss(0, 0.03), noise.gauss(0, 0.03), noise.gauss(0, 0.1), noise.gauss(0, 0.1))
-        scene = world.take_in(sight_of(tick, at=(noise.gauss(0, 0.02), 0.0, 0.0), ball=ball))
-        errors.append((abs(scene.ball.now.x - 3.0), abs(scene.me.x)))
+        belief = world.update(sight_of(tick, at=(noise.gauss(0, 0.02), 0.0, 0.0), ball=ball))
+        errors.append((abs(belief.ball.now.x - 3.0), abs(belief.me.x)))
     ball_error, own_error = (sum(column) / 200 for column in zip(*errors, strict=True))
     assert ball_error < 0.7 * 0.03 * math.sqrt(2 / math.pi)
     assert own_error < 0.7 * 0.02 * math.sqrt(2 / math.pi)
 
 
 def test_a_kick_and_a_robot_set_down_elsewhere_are_believed_at_once(world, sight_of):
-    world.take_in(sight_of(0, ball=(3.0, 0.0)))
-    scene = world.take_in(sight_of(1, at=(-5.0, 0.0, 3.0), ball=(3.2, 0.0, 10.0, 0.0)))
-    assert scene.ball.now.vx == 10.0
-    assert (scene.me.x, scene.me.heading) == (-5.0, 3.0)
+    world.update(sight_of(0, ball=(3.0, 0.0)))
+    belief = world.update(sight_of(1, at=(-5.0, 0.0, 3.0), ball=(3.2, 0.0, 10.0, 0.0)))
+    assert belief.ball.now.vx == 10.0
+    assert (belief.me.x, belief.me.heading) == (-5.0, 3.0)
 
 
 def test_a_held_ball_is_before_the_robot(world, sight_of, setup):
-    ball = world.take_in(sight_of(at=(1.0, 1.0, math.pi / 2), ball=(9.0, 9.0), holding=True)).ball
+    ball = world.update(sight_of(at=(1.0, 1.0, math.pi / 2), ball=(9.0, 9.0), holding=True)).ball
     assert ball.now[:2] == pytest.approx((1.0, 1.0 + setup.dribble.gap))
     assert ball.age == 0.0
 
@@ -65,42 +65,42 @@ def test_a_ball_out_of_sight_is_where_the_teammate_who_saw_it_last_believes_it_r
         "cyan3": word(0.0, 0.0, 0.1, BallBelief(x=1.0, y=0.0, vx=2.0, vy=0.0, age=0.4)),
         "cyan4": word(0.0, 0.0, 0.1, BallBelief(x=-7.0, y=0.0, age=1.5)),
     }
-    ball = world.take_in(sight_of(ball=own, radio=radio)).ball
+    ball = world.update(sight_of(ball=own, radio=radio)).ball
     assert ball.age == pytest.approx(0.5)
     assert ball.now.x == pytest.approx(1.0 + 2.0 * 0.1 - 0.25 * 0.01)
 
 
 def test_an_own_ball_in_sight_is_believed_before_any_teammates(world, sight_of):
     radio = {"cyan3": word(0.0, 0.0, 0.0, BallBelief(x=-7.0, y=0.0))}
-    assert world.take_in(sight_of(ball=(3.0, 0.0), radio=radio)).ball.now.x == 3.0
+    assert world.update(sight_of(ball=(3.0, 0.0), radio=radio)).ball.now.x == 3.0
 
 
 def test_a_picture_is_moved_on_by_its_age_and_said_twice_it_says_nothing_new(world, sight_of):
     seen = BallSight(x=2.0, y=0.0, vx=3.0, vy=0.0, age=0.02)
-    first = world.take_in(sight_of(5, ball=seen)).ball.now
+    first = world.update(sight_of(5, ball=seen)).ball.now
     assert first.x == pytest.approx(2.0 + 3.0 * 0.02, abs=1e-3)
-    again = world.take_in(sight_of(6, ball=seen.model_copy(update={"age": 0.04}))).ball.now
+    again = world.update(sight_of(6, ball=seen.model_copy(update={"age": 0.04}))).ball.now
     assert again == pytest.approx(Ball(*first).after(0.02, 0.5))
 
 
 def test_a_ball_just_lost_rolls_on_before_any_teammates_word_counts(world, sight_of):
     lost = BallSight(x=2.0, y=0.0, vx=3.0, vy=0.0, age=0.15, visible=False)
     radio = {"cyan3": word(0.0, 0.0, 0.02, BallBelief(x=-7.0, y=0.0))}
-    assert world.take_in(sight_of(ball=lost, radio=radio)).ball.now.x == pytest.approx(2.45, abs=0.01)
+    assert world.update(sight_of(ball=lost, radio=radio)).ball.now.x == pytest.approx(2.45, abs=0.01)
 
 
 def test_a_ball_not_seen_for_long_is_nowhere_in_play_and_on_its_spot_at_a_restart(world, sight_of):
     lost = BallSight(x=2.0, y=0.0, vx=0.0, vy=0.0, age=LOST + 0.1, visible=False)
-    assert world.take_in(sight_of(0, ball=lost)).ball is None
+    assert world.update(sight_of(0, ball=lost)).ball is None
     spot = Point(x=-4.0, y=3.0)
-    there = world.take_in(sight_of(1, ball=lost, phase=TeamPhase.THEIR_FREE_KICK, running=False, spot=spot)).ball
+    there = world.update(sight_of(1, ball=lost, phase=TeamPhase.THEIR_FREE_KICK, running=False, spot=spot)).ball
     assert there.now[:2] == (-4.0, 3.0)
 
 
 def test_an_opponent_is_remembered_for_a_while_when_it_is_hidden_or_overlooked(world, sight_of):
-    assert world.take_in(sight_of(0, obstacles=((3.0, 1.0),))).opponents == [(3.0, 1.0)]
-    assert world.take_in(sight_of(10)).opponents == [(3.0, 1.0)]
-    assert world.take_in(sight_of(10 + round(REMEMBERED / 0.02) + 1)).opponents == []
+    assert world.update(sight_of(0, obstacles=((3.0, 1.0),))).opponents == [(3.0, 1.0)]
+    assert world.update(sight_of(10)).opponents == [(3.0, 1.0)]
+    assert world.update(sight_of(10 + round(REMEMBERED / 0.02) + 1)).opponents == []
 
 
 def test_a_moving_opponent_is_moved_on_by_the_age_of_the_picture(world, sight_of):
@@ -108,19 +108,19 @@ def test_a_moving_opponent_is_moved_on_by_the_age_of_the_picture(world, sight_of
     for tick in range(60):
         pictured = tick // 2 * 2 - 1
         at = ((1.0 + 2.0 * 0.02 * pictured, 1.0),)
-        scene = world.take_in(sight_of(tick, obstacles=at, obstacles_age=0.02 * (tick - pictured)))
-    ((x, y),) = scene.opponents
+        belief = world.update(sight_of(tick, obstacles=at, obstacles_age=0.02 * (tick - pictured)))
+    ((x, y),) = belief.opponents
     assert x == pytest.approx(1.0 + 2.0 * 0.02 * 59, abs=0.03)
     assert y == 1.0
 
 
 def test_a_ball_nobody_has_seen_is_nowhere(world, sight_of):
-    assert world.take_in(sight_of(ball=None)).ball is None
+    assert world.update(sight_of(ball=None)).ball is None
 
 
 def test_teammates_are_moved_on_by_the_age_of_their_word_and_forgotten_when_it_is_stale(world, sight_of):
     radio = {"cyan3": word(1.0, 0.0, 0.1, vx=2.0, role="striker"), "cyan4": word(0.0, 0.0, STALE + 0.01)}
-    mates = world.take_in(sight_of(radio=radio)).mates
+    mates = world.update(sight_of(radio=radio)).mates
     assert list(mates) == ["cyan3"]
     assert mates["cyan3"].body.x == pytest.approx(1.2)
     assert mates["cyan3"].role == "striker"
@@ -129,9 +129,9 @@ def test_teammates_are_moved_on_by_the_age_of_their_word_and_forgotten_when_it_i
 def test_opponents_are_the_obstacles_that_no_teammate_accounts_for(world, sight_of):
     radio = {"cyan3": word(1.0, 0.0, 0.1, vx=2.0), "cyan4": word(-3.0, 0.0)}
     obstacles = ((1.25, 0.1), (-3.0, 0.6), (4.0, 4.0))
-    assert world.take_in(sight_of(obstacles=obstacles, radio=radio)).opponents == [(-3.0, 0.6), (4.0, 4.0)]
+    assert world.update(sight_of(obstacles=obstacles, radio=radio)).opponents == [(-3.0, 0.6), (4.0, 4.0)]
 
 
 def test_an_opponent_beside_a_teammate_stays_an_opponent(world, sight_of):
     obstacles = ((1.45, 0.0), (1.0, 0.02))
-    assert world.take_in(sight_of(obstacles=obstacles, radio={"cyan3": word(1.0, 0.0)})).opponents == [(1.45, 0.0)]
+    assert world.update(sight_of(obstacles=obstacles, radio={"cyan3": word(1.0, 0.0)})).opponents == [(1.45, 0.0)]

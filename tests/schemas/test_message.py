@@ -8,14 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from schemas.command import Command, Drive, Kick, KickMode, Radio
+from schemas.config.scene import SceneOperation, SceneRequest
 from schemas.game import ActionName, Phase, RefereeAction, TeamPhase
 from schemas.message import BadMessageError, Message
-from schemas.parameters import ParameterDeed, ParametersRequest
-from schemas.scene import SceneDeed, SceneRequest
+from schemas.messages.command import Command, Drive, Kick, KickMode, Radio
+from schemas.messages.parameters import ParameterOperation, ParametersRequest
+from schemas.messages.world import BallTruth, World
 from schemas.side import Side
 from schemas.topics import TOPICS
-from schemas.world import BallTruth, World
 
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 
@@ -106,8 +106,8 @@ def test_each_side_sees_its_own_restarts_as_its_own(side: Side) -> None:
 
 ASKED = (
     RefereeAction(action=ActionName.STOP),
-    SceneRequest(deed=SceneDeed.RESET),
-    ParametersRequest(deed=ParameterDeed.RESET),
+    SceneRequest(operation=SceneOperation.RESET),
+    ParametersRequest(operation=ParameterOperation.RESET),
 )
 
 

@@ -37,5 +37,5 @@ def test_nothing_that_robots_read_every_tick_makes_the_host_wait() -> None:
 
 def test_every_topic_says_what_it_is_for_and_who_reads_it() -> None:
     for topic in TOPICS.values():
-        assert topic.says and topic.readers and topic.rate
+        assert topic.description and topic.readers and topic.rate
         assert (topic.delivery is Delivery.QUERY) == (topic.reply is not None)

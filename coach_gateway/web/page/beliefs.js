@@ -1,8 +1,8 @@
 // What robots believe, beside what is true: their own place and the ball, as they said it on the radio, and passes.
 
-import { SIDES, circle, head, line, write } from "./brush.js";
+import { SIDES, circle, arrowHead, line, write } from "./shapes.js";
 import { bodyPath, drawnRadius } from "./bodies.js";
-import { numberOf } from "./words.js";
+import { numberOf } from "./text.js";
 
 /** Turns what is said in the frame of a side into the field's. */
 export function onField(match, side, { x, y, heading = 0, ...rest }) {
@@ -11,58 +11,58 @@ export function onField(match, side, { x, y, heading = 0, ...rest }) {
 }
 
 /** Beliefs of the robots that are looked through: `whose` is a robot's name, a side, or `all`. */
-export function drawBeliefs(context, view, match, world, whose) {
+export function drawBeliefs(context, projection, match, world, whose) {
   for (const name of Object.keys(world.robots)) {
     const side = match.sideOf(name);
     if (whose !== "all" && whose !== side && whose !== name) continue;
-    const word = match.wordOf(name);
-    if (word !== null) drawBelief(context, view, match, name, side, word, world);
+    const word = match.radioOf(name);
+    if (word !== null) drawBelief(context, projection, match, name, side, word, world);
   }
 }
 
 /** Who means to pass to whom. */
-export function drawPasses(context, view, match, world) {
+export function drawPasses(context, projection, match, world) {
   for (const [name, robot] of Object.entries(world.robots)) {
-    const mate = world.robots[match.wordOf(name)?.pass_to];
+    const mate = world.robots[match.radioOf(name)?.pass_to];
     if (mate === undefined) continue;
     context.strokeStyle = "#ffffff";
     context.lineWidth = 2;
     context.setLineDash([9, 6]);
-    line(context, view, robot, mate);
+    line(context, projection, robot, mate);
     context.setLineDash([]);
-    head(context, view, robot, mate, 13);
+    arrowHead(context, projection, robot, mate, 13);
   }
 }
 
-function drawBelief(context, view, match, name, side, word, world) {
+function drawBelief(context, projection, match, name, side, word, world) {
   const colours = SIDES[side];
-  const radius = drawnRadius(view, match.radiusOf(name));
+  const radius = drawnRadius(projection, match.radiusOf(name));
   context.strokeStyle = colours.line;
   context.lineWidth = 1.6;
   context.setLineDash([4, 3]);
   const own = word.self ? onField(match, side, word.self) : world.robots[name];
   if (word.self) {
     context.save();
-    context.translate(view.x(own.x), view.y(own.y));
-    context.rotate(view.angle(own.heading));
+    context.translate(projection.x(own.x), projection.y(own.y));
+    context.rotate(projection.angle(own.heading));
     bodyPath(context, side, 1.18 * radius);
     context.stroke();
     context.restore();
-    line(context, view, own, world.robots[name]);
+    line(context, projection, own, world.robots[name]);
   }
-  if (word.ball) drawBall(context, view, onField(match, side, word.ball), own, colours, name, match, side);
+  if (word.ball) drawBall(context, projection, onField(match, side, word.ball), own, colours, name, match, side);
   context.setLineDash([]);
 }
 
 /** A believed ball: hollow, with the number of who believes it, the fainter the older. */
-function drawBall(context, view, ball, own, colours, name, match, side) {
+function drawBall(context, projection, ball, own, colours, name, match, side) {
   context.globalAlpha = Math.max(0.3, 1 - 0.25 * ball.age);
   context.setLineDash([2, 4]);
-  line(context, view, own, ball);
+  line(context, projection, own, ball);
   context.setLineDash([]);
-  circle(context, view, ball, 7 / view.scale);
+  circle(context, projection, ball, 7 / projection.scale);
   context.stroke();
   const number = numberOf(name, match.setup.teams[side].robots);
-  write(context, number, view.x(ball.x) + 12, view.y(ball.y) - 9, 10, { colour: colours.line });
+  write(context, number, projection.x(ball.x) + 12, projection.y(ball.y) - 9, 10, { colour: colours.line });
   context.globalAlpha = 1;
 }

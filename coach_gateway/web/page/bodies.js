@@ -1,7 +1,7 @@
 // Robots, ball and obstacles. Sides differ in shape and brightness, not in hue alone: cyan is round, magenta square.
 
-import { SIDES, circle, write } from "./brush.js";
-import { numberOf } from "./words.js";
+import { SIDES, circle, write } from "./shapes.js";
+import { numberOf } from "./text.js";
 
 const LARGER = 1.35; // than they are, or nobody could read their numbers
 const LEAST_PX = 8.5;
@@ -9,7 +9,7 @@ const AHEAD_S = 0.5; // how far a line of velocity leads
 const BALL = { fill: "#ffb000", edge: "#4a3000", line: "#ffd978" };
 
 /** Radius of a robot as it is drawn, in pixels. */
-export const drawnRadius = (view, radius) => view.length(LARGER * radius, LEAST_PX);
+export const drawnRadius = (projection, radius) => projection.length(LARGER * radius, LEAST_PX);
 
 /** The path of a robot's body, about the origin. */
 export function bodyPath(context, side, radius) {
@@ -19,15 +19,15 @@ export function bodyPath(context, side, radius) {
 }
 
 /** One robot; `look` says whether it is selected, holds the ball, and what stands below it. */
-export function drawRobot(context, view, match, name, robot, look) {
+export function drawRobot(context, projection, match, name, robot, look) {
   const side = match.sideOf(name);
   const colours = SIDES[side];
-  const radius = drawnRadius(view, match.radiusOf(name));
+  const radius = drawnRadius(projection, match.radiusOf(name));
   context.save();
-  context.translate(view.x(robot.x), view.y(robot.y));
+  context.translate(projection.x(robot.x), projection.y(robot.y));
   if (robot.off_field) context.globalAlpha = 0.45;
   if (look.selected || look.holding) ring(context, radius, look);
-  context.rotate(view.angle(robot.heading));
+  context.rotate(projection.angle(robot.heading));
   context.fillStyle = colours.edge;
   context.beginPath();
   context.moveTo(1.5 * radius, 0);
@@ -40,7 +40,7 @@ export function drawRobot(context, view, match, name, robot, look) {
   bodyPath(context, side, radius);
   context.fill();
   context.stroke();
-  context.rotate(-view.angle(robot.heading));
+  context.rotate(-projection.angle(robot.heading));
   const number = numberOf(name, match.setup.teams[side].robots);
   write(context, number, 0, 0, 1.3 * radius, { colour: colours.ink, weight: 700 });
   if (robot.off_field) cross(context, radius);
@@ -50,23 +50,23 @@ export function drawRobot(context, view, match, name, robot, look) {
 }
 
 /** Where a robot will be in half a second if it goes on. */
-export function drawVelocity(context, view, body, colour) {
+export function drawVelocity(context, projection, body, colour) {
   if (Math.hypot(body.vx, body.vy) < 0.15) return;
   context.strokeStyle = colour;
   context.lineWidth = 1.6;
   context.lineCap = "round";
   context.beginPath();
-  context.moveTo(view.x(body.x), view.y(body.y));
-  context.lineTo(view.x(body.x + AHEAD_S * body.vx), view.y(body.y + AHEAD_S * body.vy));
+  context.moveTo(projection.x(body.x), projection.y(body.y));
+  context.lineTo(projection.x(body.x + AHEAD_S * body.vx), projection.y(body.y + AHEAD_S * body.vy));
   context.stroke();
 }
 
 /** The ball with its shadow, the higher the farther apart. */
-export function drawBall(context, view, ball, radius, withVelocity) {
-  const left = view.x(ball.x), top = view.y(ball.y);
-  const size = view.length(1.35 * radius, 4);
+export function drawBall(context, projection, ball, radius, withVelocity) {
+  const left = projection.x(ball.x), top = projection.y(ball.y);
+  const size = projection.length(1.35 * radius, 4);
   const lift = Math.max(0, ball.z - radius);
-  if (withVelocity) drawVelocity(context, view, ball, BALL.line);
+  if (withVelocity) drawVelocity(context, projection, ball, BALL.line);
   context.fillStyle = "#00000066";
   context.beginPath();
   context.arc(left + 1, top + 1.5, size, 0, 2 * Math.PI);
@@ -75,24 +75,24 @@ export function drawBall(context, view, ball, radius, withVelocity) {
   context.strokeStyle = BALL.edge;
   context.lineWidth = 1.3;
   context.beginPath();
-  context.arc(left, top - view.length(0.5 * lift), size * (1 + 0.2 * Math.min(lift, 3)), 0, 2 * Math.PI);
+  context.arc(left, top - projection.length(0.5 * lift), size * (1 + 0.2 * Math.min(lift, 3)), 0, 2 * Math.PI);
   context.fill();
   context.stroke();
   if (lift > 0.25) {
-    const above = top - view.length(0.5 * lift) - 2.2 * size - 4;
+    const above = top - projection.length(0.5 * lift) - 2.2 * size - 4;
     write(context, `${ball.z.toFixed(1)} m high`, left, above, 11, { ground: "#0b1c14cc" });
   }
 }
 
 /** Something that stands on the pitch and is no robot. */
-export function drawObstacle(context, view, obstacle) {
+export function drawObstacle(context, projection, obstacle) {
   context.save();
-  context.translate(view.x(obstacle.x), view.y(obstacle.y));
-  context.rotate(view.angle(obstacle.heading));
+  context.translate(projection.x(obstacle.x), projection.y(obstacle.y));
+  context.rotate(projection.angle(obstacle.heading));
   context.fillStyle = "#c9c2b4";
   context.strokeStyle = "#3a352a";
   context.lineWidth = 1.5;
-  const wide = view.length(obstacle.size_x, 4), high = view.length(obstacle.size_y, 4);
+  const wide = projection.length(obstacle.size_x, 4), high = projection.length(obstacle.size_y, 4);
   context.beginPath();
   if (obstacle.shape === "box") context.rect(-wide / 2, -high / 2, wide, high);
   else context.arc(0, 0, wide / 2, 0, 2 * Math.PI);
@@ -102,11 +102,11 @@ export function drawObstacle(context, view, obstacle) {
 }
 
 /** Where a body that is being dragged would be set down. */
-export function drawGhost(context, view, body) {
+export function drawGhost(context, projection, body) {
   context.strokeStyle = "#ffffff";
   context.lineWidth = 2;
   context.setLineDash([5, 4]);
-  circle(context, view, body, body.radius + 4 / view.scale);
+  circle(context, projection, body, body.radius + 4 / projection.scale);
   context.stroke();
   context.setLineDash([]);
 }

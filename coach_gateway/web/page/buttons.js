@@ -1,6 +1,6 @@
 // The referee's buttons: a table of groups of rows, each button with the action that it asks for.
 
-import { byId, element, mark, offer, say, show } from "./elements.js";
+import { byId, element, mark, offer, setText, show } from "./elements.js";
 
 const SURE_MS = 3000;
 const RESTARTS = [
@@ -67,8 +67,8 @@ const GROUPS = [
 export class Buttons {
   #buttons = [];
 
-  constructor(match, desk, seat) {
-    Object.assign(this, { match, desk, seat });
+  constructor(match, requests, selection) {
+    Object.assign(this, { match, requests, selection });
     const place = byId("buttons");
     for (const [title, rows] of GROUPS) place.append(this.#group(title, rows));
     byId("stop").addEventListener("click", () => this.stop(byId("stop")));
@@ -88,21 +88,21 @@ export class Buttons {
 
   /** Why a button cannot be pressed, or nothing. */
   why({ action, order, side, robot }) {
-    const { match, seat } = this;
+    const { match, selection } = this;
     if (!match.live) return "this is a recording";
     const deed = action ?? "order";
-    const of = side ?? (robot && seat.robot ? match.sideOf(seat.robot) : null);
+    const of = side ?? (robot && selection.robot ? match.sideOf(selection.robot) : null);
     if (!match.may(deed, of)) {
       return match.role === "spectator" ? "spectators watch; a token lets you command" : `not for the coach of ${match.role}`;
     }
     if (!match.hostThere) return "the host is not there";
     if (action && action !== "stop" && match.refbox.connected) return "the referee box commands the match";
-    return robot && !seat.robot ? "choose a robot first" : null;
+    return robot && !selection.robot ? "choose a robot first" : null;
   }
 
   /** Lets buttons be pressed that may be, and says of the others why not. */
   update() {
-    const { match, seat } = this;
+    const { match, selection } = this;
     for (const { button, row } of this.#buttons) {
       const why = this.why(row);
       button.disabled = why !== null;
@@ -110,14 +110,14 @@ export class Buttons {
     }
     if (match.setup !== null) {
       for (const side of ["cyan", "magenta"]) {
-        for (const name of document.querySelectorAll(`[data-team=${side}]`)) say(name, match.setup.teams[side].name);
+        for (const name of document.querySelectorAll(`[data-team=${side}]`)) setText(name, match.setup.teams[side].name);
       }
     }
     offer(byId("robot"), [["", "none chosen"], ...match.robots.map((name) => [name, name])]);
-    if (byId("robot").value !== (seat.robot ?? "")) byId("robot").value = seat.robot ?? "";
+    if (byId("robot").value !== (selection.robot ?? "")) byId("robot").value = selection.robot ?? "";
     const proposal = match.state?.proposal ?? null;
     show(byId("proposal"), proposal !== null && match.live);
-    say(byId("proposed"), proposal ?? "");
+    setText(byId("proposed"), proposal ?? "");
     for (const id of ["confirm", "overrule"]) byId(id).disabled = this.why({ action: id }) !== null;
     show(byId("stop"), match.live && (match.may("stop") || match.may("order", match.role)));
     byId("stop").disabled = !match.hostThere; // also while a referee box commands the match: a stop is always heard
@@ -138,7 +138,7 @@ export class Buttons {
   }
 
   #robotChoice() {
-    const select = element("select", { id: "robot", on: { change: () => this.seat.choose(select.value || null) } });
+    const select = element("select", { id: "robot", on: { change: () => this.selection.choose(select.value || null) } });
     return element("label", { class: "field" }, "Robot", select);
   }
 
@@ -162,24 +162,24 @@ export class Buttons {
   #press(button, row) {
     if (row.sure && !button.classList.contains("sure")) {
       mark(button, "sure", true);
-      say(button, "Press again");
+      setText(button, "Press again");
       setTimeout(() => {
         mark(button, "sure", false);
-        say(button, row.text);
+        setText(button, row.text);
       }, SURE_MS);
       return;
     }
     mark(button, "sure", false);
-    say(button, row.text);
+    setText(button, row.text);
     this.#ask(button, row);
   }
 
   #ask(source, { text, action, order, side = null, robot }) {
-    if (order) return this.desk.ask(source, `${text}, ${side}`, "order", { side, order: { mode: order } });
+    if (order) return this.requests.ask(source, `${text}, ${side}`, "order", { side, order: { mode: order } });
     const asked = { action };
     if (side) asked.side = side;
-    if (robot) asked.robot = this.seat.robot;
+    if (robot) asked.robot = this.selection.robot;
     const whom = side ?? asked.robot;
-    return this.desk.ask(source, whom ? `${text}, ${whom}` : text, "action", { action: asked });
+    return this.requests.ask(source, whom ? `${text}, ${whom}` : text, "action", { action: asked });
   }
 }

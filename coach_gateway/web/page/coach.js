@@ -1,10 +1,10 @@
 // Orders to a side: what the team shall do, and the test mode with points and angles picked on the field.
 
-import { circle, write } from "./brush.js";
+import { circle, write } from "./shapes.js";
 import { onField } from "./beliefs.js";
-import { byId, choice, element, mark, offer, say, show } from "./elements.js";
-import { FIELDS, TESTS } from "./tests.js";
-import { degrees, headed, radians, spoken } from "./words.js";
+import { byId, choice, element, mark, offer, setText, show } from "./elements.js";
+import { FIELDS, TESTS } from "./coach_tests.js";
+import { degrees, capitalized, radians, readable } from "./text.js";
 
 const MODES = ["play", "hold", "park", "test"];
 const LIMITS = ["max_speed", "max_turn_rate"];
@@ -13,15 +13,15 @@ const OF_TESTS = ["radius", "kick_mode", "with_ball", "avoid"]; // fields that n
 export class Coach {
   #inputs = {};
 
-  constructor(match, stage, desk, seat) {
-    Object.assign(this, { match, stage, desk, seat });
+  constructor(match, pitchCanvas, requests, selection) {
+    Object.assign(this, { match, pitchCanvas, requests, selection });
     this.#lay();
     match.on("welcome orders host", () => this.update());
     byId("order-side").addEventListener("change", () => this.update());
     byId("order-mode").addEventListener("change", () => this.#fit());
     byId("order-test").addEventListener("change", () => this.#fit());
     byId("order-give").addEventListener("click", () => this.#give());
-    stage.over.push((context, view) => this.#draw(context, view));
+    pitchCanvas.over.push((context, projection) => this.#draw(context, projection));
   }
 
   get side() {
@@ -40,12 +40,12 @@ export class Coach {
     const why = !match.live ? "this is a recording" : sides.length ? "" : "orders are for the coach of a side, and the referee";
     byId("order-give").disabled = why !== "" || !match.hostThere;
     byId("order-give").title = why;
-    byId("standing").replaceChildren(...["cyan", "magenta"].flatMap((side) => this.#standing(side)));
+    byId("active-orders").replaceChildren(...["cyan", "magenta"].flatMap((side) => this.#orderLine(side)));
     this.#fit();
   }
 
   #lay() {
-    offer(byId("order-mode"), MODES.map((mode) => [mode, headed(mode)]));
+    offer(byId("order-mode"), MODES.map((mode) => [mode, capitalized(mode)]));
     offer(byId("order-test"), Object.entries(TESTS).map(([word, [name]]) => [word, name]));
     for (const [key, [words, kind, knows]] of Object.entries(FIELDS)) {
       this.#inputs[key] = KINDS[kind](this, key, words, knows);
@@ -58,7 +58,7 @@ export class Coach {
     const mode = byId("order-mode").value;
     const [, sentence, needed, taken] = TESTS[byId("order-test").value];
     show(byId("order-test-row"), mode === "test");
-    say(byId("order-says"), mode === "test" ? sentence : MODE_WORDS[mode]);
+    setText(byId("order-says"), mode === "test" ? sentence : MODE_WORDS[mode]);
     for (const [key, { row }] of Object.entries(this.#inputs)) {
       const fits = { test: [...needed, ...taken].includes(key), play: !OF_TESTS.includes(key) };
       show(row, fits[mode] ?? LIMITS.includes(key));
@@ -75,15 +75,15 @@ export class Coach {
       const value = row.hidden ? null : read();
       if (value !== null) order[key] = value;
     }
-    const words = order.mode === "test" ? `Test ${spoken(order.test)}` : headed(order.mode);
-    return this.desk.ask(byId("order-give"), `${words}, ${this.side}`, "order", { side: this.side, order });
+    const words = order.mode === "test" ? `Test ${readable(order.test)}` : capitalized(order.mode);
+    return this.requests.ask(byId("order-give"), `${words}, ${this.side}`, "order", { side: this.side, order });
   }
 
-  #standing(side) {
-    const standing = this.match.orders[side];
-    if (!standing?.order) return [];
-    const { order, acknowledged } = standing;
-    const what = order.mode === "test" ? `test ${spoken(order.test ?? "")}` : order.mode;
+  #orderLine(side) {
+    const active = this.match.orders[side];
+    if (!active?.order) return [];
+    const { order, acknowledged } = active;
+    const what = order.mode === "test" ? `test ${readable(order.test ?? "")}` : order.mode;
     const robots = Object.entries(acknowledged);
     const taken = robots.filter(([, has]) => has).length;
     return [
@@ -96,19 +96,19 @@ export class Coach {
   }
 
   /** The points of the form while it is seen, and those of the standing orders of a test. */
-  #draw(context, view) {
+  #draw(context, projection) {
     if (byId("order-fields").offsetParent !== null) {
       for (const key of ["point_a", "point_b"]) {
         const { row, onPitch } = this.#inputs[key];
         const place = row.hidden ? null : onPitch();
-        if (place) cross(context, view, place, key === "point_a" ? "A" : "B");
+        if (place) cross(context, projection, place, key === "point_a" ? "A" : "B");
       }
     }
-    for (const [side, standing] of Object.entries(this.match.orders)) {
-      const order = standing?.order;
+    for (const [side, active] of Object.entries(this.match.orders)) {
+      const order = active?.order;
       if (order?.mode !== "test") continue;
       for (const [letter, point] of [["A", order.point_a], ["B", order.point_b]]) {
-        if (point) cross(context, view, onField(this.match, side, point), letter);
+        if (point) cross(context, projection, onField(this.match, side, point), letter);
       }
     }
   }
@@ -131,7 +131,7 @@ const KINDS = {
     return { row: labelled(key, words, input), read: () => numberIn(input) };
   },
   word(coach, key, words, all) {
-    const select = choice(all.map((word) => [word, spoken(word)]), { id: `order-${key}` });
+    const select = choice(all.map((word) => [word, readable(word)]), { id: `order-${key}` });
     return { row: labelled(key, words, select), read: () => select.value };
   },
   switch(coach, key, words) {
@@ -151,7 +151,7 @@ const KINDS = {
     const x = numeric(`order-${key}-x`, { step: 0.1 }), y = numeric(`order-${key}-y`, { step: 0.1 });
     const pick = element("button", { type: "button", id: `order-${key}-pick` }, "Pick");
     pick.addEventListener("click", () =>
-      coach.seat.pick(words, (place, angle) => {
+      coach.selection.pick(words, (place, angle) => {
         x.value = place.x.toFixed(2);
         y.value = place.y.toFixed(2);
         const beside = byId(`order-${key.replace("point", "angle")}`);
@@ -181,10 +181,10 @@ const labelled = (key, words, input) => element("label", { class: "field", data:
 const numeric = (id, limits) => element("input", { id, type: "number", step: "any", autocomplete: "off", ...limits });
 const numberIn = (input) => (input.value.trim() === "" || !Number.isFinite(input.valueAsNumber) ? null : input.valueAsNumber);
 
-function cross(context, view, place, letter) {
+function cross(context, projection, place, letter) {
   context.strokeStyle = "#ffffff";
   context.lineWidth = 2;
-  circle(context, view, place, 7 / view.scale);
+  circle(context, projection, place, 7 / projection.scale);
   context.stroke();
-  write(context, letter, view.x(place.x) + 14, view.y(place.y) - 10, 12, { ground: "#0b1c14cc" });
+  write(context, letter, projection.x(place.x) + 14, projection.y(place.y) - 10, 12, { ground: "#0b1c14cc" });
 }

@@ -1,6 +1,6 @@
 // How far robots have to stay from the ball, while a restart is signalled and until the ball is in play.
 
-import { SIDES, circle, write } from "./brush.js";
+import { SIDES, circle, write } from "./shapes.js";
 
 const SIDED = new Set(["kick_off", "free_kick", "goal_kick", "throw_in", "corner", "penalty"]);
 
@@ -16,7 +16,7 @@ export function circlesOf(state, setup) {
   ];
 }
 
-export function drawDistances(context, view, match, world) {
+export function drawDistances(context, projection, match, world) {
   const { state, setup } = match;
   if (state === null) return;
   const spot = state.spot ?? world.ball;
@@ -25,13 +25,13 @@ export function drawDistances(context, view, match, world) {
     context.strokeStyle = side ? SIDES[side].line : "#ffffff";
     context.lineWidth = 2;
     context.setLineDash(place ? [3, 5] : [10, 6]);
-    circle(context, view, spot, radius);
+    circle(context, projection, spot, radius);
     context.stroke();
     context.setLineDash([]);
-    const ends = [-1, 1].map((end) => view.y(spot.y) + end * view.length(radius));
+    const ends = [-1, 1].map((end) => projection.y(spot.y) + end * projection.length(radius));
     const [first, second] = place ? ends.toReversed() : ends; // labels of two circles stand at two ends
-    const top = first > 12 && first < view.height - 12 ? first : second;
-    write(context, `${radius} m: ${who}`, clamp(view.x(spot.x), 70, view.width - 70), top, 11, {
+    const top = first > 12 && first < projection.height - 12 ? first : second;
+    write(context, `${radius} m: ${who}`, clamp(projection.x(spot.x), 70, projection.width - 70), top, 11, {
       colour: side ? SIDES[side].line : "#ffffff", ground: "#0b1c14cc",
     });
   });

@@ -1,7 +1,7 @@
 // Pointing at the field: choosing a robot, dragging ball and robots to a place, picking points.
 
-import { byId, say, show } from "./elements.js";
-import { metres } from "./words.js";
+import { byId, setText, show } from "./elements.js";
+import { metres } from "./text.js";
 
 const REACH_PX = 20; // a finger is thicker than a ball
 const MOVED_PX = 6; // less is a click
@@ -12,23 +12,23 @@ export class Drag {
   #drawn = null;
   #pointer = null; // the finger or mouse that does it; others are passed over
 
-  constructor(canvas, stage, match, desk, seat) {
-    Object.assign(this, { canvas, stage, match, desk, seat });
+  constructor(canvas, pitchCanvas, match, requests, selection) {
+    Object.assign(this, { canvas, pitchCanvas, match, requests, selection });
     canvas.addEventListener("pointerdown", (event) => this.#down(event));
     canvas.addEventListener("pointermove", (event) => this.#move(event));
     canvas.addEventListener("pointerup", (event) => this.#up(event));
     canvas.addEventListener("pointercancel", (event) => this.#follows(event) && this.cancel());
     // A finger on a body drags it; beside all bodies it scrolls the page.
     canvas.addEventListener("touchstart", (event) => this.#takesFinger(event) && event.preventDefault(), { passive: false });
-    seat.on(() => this.#hint());
-    stage.over.push((context, view) => this.#draw(context, view));
+    selection.on(() => this.#hint());
+    pitchCanvas.over.push((context, projection) => this.#draw(context, projection));
   }
 
   /** Lets everything lie where it is. */
   cancel() {
     this.#held = null;
     this.#drawn = null;
-    this.seat.cancel();
+    this.selection.cancel();
   }
 
   /** Why a body cannot be set down, or nothing. */
@@ -46,15 +46,15 @@ export class Drag {
   place(source, body, { x, y, heading }) {
     const words = `${body === "ball" ? "Ball" : body} to (${metres(x)}, ${metres(y)})`;
     if (body === "ball" && !byId("freely").checked) {
-      return this.desk.ask(source, words, "action", { action: { action: "place_ball", place: { x, y } } });
+      return this.requests.ask(source, words, "action", { action: { action: "place_ball", place: { x, y } } });
     }
-    const turned = heading ?? this.match.film.newest?.robots[body]?.heading ?? 0;
+    const turned = heading ?? this.match.frames.newest?.robots[body]?.heading ?? 0;
     const where = body === "ball" ? { body, x, y } : { body, x, y, heading: turned };
-    return this.desk.ask(source, words, "scene", { request: { deed: "place", place: [where] } });
+    return this.requests.ask(source, words, "scene", { request: { operation: "place", place: [where] } });
   }
 
   #takesFinger(event) {
-    return event.touches.length === 1 && (this.seat.picking !== null || this.#bodyAt(this.#at(event.touches[0])) !== null);
+    return event.touches.length === 1 && (this.selection.picking !== null || this.#bodyAt(this.#at(event.touches[0])) !== null);
   }
 
   #at(event) {
@@ -63,10 +63,10 @@ export class Drag {
   }
 
   #down(event) {
-    if (event.button !== 0 || this.stage.world === null || this.#held || this.#drawn) return;
+    if (event.button !== 0 || this.pitchCanvas.world === null || this.#held || this.#drawn) return;
     const at = this.#at(event);
-    const place = this.stage.view.onField(at.left, at.top);
-    if (this.seat.picking) {
+    const place = this.pitchCanvas.projection.onField(at.left, at.top);
+    if (this.selection.picking) {
       this.#drawn = { from: place, to: place };
     } else {
       const body = this.#bodyAt(at);
@@ -87,10 +87,10 @@ export class Drag {
   #move(event) {
     if (!this.#follows(event)) return;
     const at = this.#at(event);
-    const place = this.stage.view.onField(at.left, at.top);
+    const place = this.pitchCanvas.projection.onField(at.left, at.top);
     if (this.#drawn) this.#drawn.to = place;
     if (this.#held === null) {
-      this.canvas.style.cursor = this.seat.picking ? "crosshair" : this.#bodyAt(at) ? "grab" : "default";
+      this.canvas.style.cursor = this.selection.picking ? "crosshair" : this.#bodyAt(at) ? "grab" : "default";
       return;
     }
     const held = this.#held;
@@ -103,11 +103,11 @@ export class Drag {
       return;
     }
     held.moved = true;
-    this.seat.dragged = { ...place, radius: held.body === "ball" ? 0.2 : this.match.radiusOf(held.body) };
+    this.selection.dragged = { ...place, radius: held.body === "ball" ? 0.2 : this.match.radiusOf(held.body) };
   }
 
   #refuse(body, why) {
-    if (this.match.role !== "spectator") this.desk.show(byId("moving"), `Move ${body}`, { accepted: false, reason: why });
+    if (this.match.role !== "spectator") this.requests.show(byId("moving"), `Move ${body}`, { accepted: false, reason: why });
   }
 
   #up(event) {
@@ -115,53 +115,53 @@ export class Drag {
     const held = this.#held, drawn = this.#drawn;
     this.#held = null;
     this.#drawn = null;
-    this.seat.dragged = null;
+    this.selection.dragged = null;
     if (drawn) {
       const dx = drawn.to.x - drawn.from.x, dy = drawn.to.y - drawn.from.y;
-      this.seat.picked(drawn.from, Math.hypot(dx, dy) > TURN_M ? Math.atan2(dy, dx) : null);
+      this.selection.picked(drawn.from, Math.hypot(dx, dy) > TURN_M ? Math.atan2(dy, dx) : null);
     } else if (held?.moved && this.why(held.body) !== null) {
       this.#refuse(held.body, this.why(held.body)); // the game has gone on meanwhile
     } else if (held?.moved) {
       this.place(byId("drop"), held.body, held.place);
     } else if (held && held.body !== "ball") {
-      this.seat.choose(this.seat.robot === held.body ? null : held.body);
+      this.selection.choose(this.selection.robot === held.body ? null : held.body);
     }
   }
 
   /** What lies under a pointer, the nearest: a robot's name, `ball`, or nothing. */
   #bodyAt({ left, top }) {
-    const { view, world } = this.stage;
+    const { projection, world } = this.pitchCanvas;
     if (world === null) return null;
     let nearest = null, least = REACH_PX;
     for (const [body, { x, y }] of [["ball", world.ball], ...Object.entries(world.robots)]) {
-      const off = Math.hypot(view.x(x) - left, view.y(y) - top) - (body === "ball" ? 3 : 0);
+      const off = Math.hypot(projection.x(x) - left, projection.y(y) - top) - (body === "ball" ? 3 : 0);
       if (off < least) [nearest, least] = [body, off];
     }
     return nearest;
   }
 
-  #draw(context, view) {
+  #draw(context, projection) {
     const held = this.#held;
     const at = held?.moved ? held.place : null;
     if (at) {
-      Object.assign(this.seat.dragged, at);
+      Object.assign(this.selection.dragged, at);
       const drop = byId("drop");
-      drop.style.left = `${view.x(at.x)}px`;
-      drop.style.top = `${view.y(at.y)}px`;
+      drop.style.left = `${projection.x(at.x)}px`;
+      drop.style.top = `${projection.y(at.y)}px`;
     }
     if (!this.#drawn) return;
     const { from, to } = this.#drawn;
     context.strokeStyle = "#ffffff";
     context.lineWidth = 2;
     context.beginPath();
-    context.moveTo(view.x(from.x), view.y(from.y));
-    context.lineTo(view.x(to.x), view.y(to.y));
+    context.moveTo(projection.x(from.x), projection.y(from.y));
+    context.lineTo(projection.x(to.x), projection.y(to.y));
     context.stroke();
   }
 
   #hint() {
-    const { picking } = this.seat;
+    const { picking } = this.selection;
     show(byId("hint"), picking !== null);
-    if (picking) say(byId("hint"), `Point at the field: ${picking.words}. Draw on for a direction. Esc leaves it.`);
+    if (picking) setText(byId("hint"), `Point at the field: ${picking.words}. Draw on for a direction. Esc leaves it.`);
   }
 }

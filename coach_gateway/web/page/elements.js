@@ -17,7 +17,7 @@ export function element(tag, properties = {}, ...children) {
 }
 
 /** Says a text, and leaves the element alone that says it already. */
-export function say(node, text) {
+export function setText(node, text) {
   if (node.textContent !== text) node.textContent = text;
 }
 

@@ -1,7 +1,7 @@
 // The list of what happened; of a recording, each event leads to its moment.
 
 import { byId, element, mark } from "./elements.js";
-import { clockWords, headed } from "./words.js";
+import { clockText, capitalized } from "./text.js";
 
 const LESSER = new Set(["stop", "start", "in_play", "restart", "ball_out", "agent", "parameters", "action", "no_goal"]);
 const GREAT = new Set(["goal", "half_time", "full_time", "forfeit"]);
@@ -59,15 +59,15 @@ export class Events {
 
   #show() {
     const list = byId("events");
-    const { events, told } = this.match;
-    for (const event of events.slice(Math.max(0, events.length - (told - this.#shown)))) {
+    const { events, eventCount } = this.match;
+    for (const event of events.slice(Math.max(0, events.length - (eventCount - this.#shown)))) {
       if (!this.#all && LESSER.has(event.kind)) continue;
       const row = this.#row(event);
       this.#rows.push({ row, event });
       if (this.match.live) list.prepend(row);
       else list.append(row);
     }
-    this.#shown = told;
+    this.#shown = eventCount;
     while (this.match.live && list.childElementCount > MOST) {
       list.lastElementChild.remove();
       this.#rows.shift();
@@ -76,8 +76,8 @@ export class Events {
 
   #row(event) {
     const side = event.side ? element("span", { class: `mark ${event.side}`, aria: { label: event.side }, role: "img" }) : element("span");
-    const words = element("span", {}, element("b", {}, headed(event.kind)), " ", element("span", { class: "what" }, event.text));
-    const parts = [element("time", {}, clockWords(event.clock)), side, words];
+    const words = element("span", {}, element("b", {}, capitalized(event.kind)), " ", element("span", { class: "what" }, event.text));
+    const parts = [element("time", {}, clockText(event.clock)), side, words];
     const looks = GREAT.has(event.kind) ? "great" : "";
     if (this.match.live) return element("li", { class: looks }, ...parts);
     const button = element("button", { type: "button", on: { click: () => this.jump(event.time - LEAD_S) } }, ...parts);

@@ -5,12 +5,12 @@ const GROUND = 0, LOB = 1, DRIBBLES = [4, 5]; // buttons of the standard layout:
 let before = [];
 
 /** Ahead, left and counter-clockwise from −1 to 1, and buttons that were just pressed; nothing without a gamepad. */
-export function padHand() {
+export function readGamepad() {
   const pad = navigator.getGamepads?.().find((one) => one?.connected);
   if (!pad) return null;
   const now = pad.buttons.map(({ pressed }) => pressed);
   const fresh = (number) => now[number] && !before[number];
-  const hand = {
+  const state = {
     ahead: -stick(pad.axes[1]),
     left: -stick(pad.axes[0]),
     turn: -stick(pad.axes[2]),
@@ -18,7 +18,7 @@ export function padHand() {
     dribbles: DRIBBLES.some(fresh),
   };
   before = now;
-  return hand;
+  return state;
 }
 
 const stick = (value = 0) => (Math.abs(value) < DEAD ? 0 : value);

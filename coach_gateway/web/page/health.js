@@ -1,6 +1,6 @@
 // How the host is doing, its recorders and each robot's program, and how fast this page draws.
 
-import { byId, element, say } from "./elements.js";
+import { byId, element, setText } from "./elements.js";
 
 const EVERY_MS = 500;
 const COLUMNS = [
@@ -25,26 +25,26 @@ const LINES = [
 export class HealthPanel {
   #values = [];
 
-  constructor(match, stage) {
-    Object.assign(this, { match, stage });
+  constructor(match, pitchCanvas) {
+    Object.assign(this, { match, pitchCanvas });
     this.#values = LINES.map(([word, text]) => ({ text, ...this.#line(word) }));
     this.drawing = this.#line("this page draws");
     byId("health").append(...this.#values.map(({ row }) => row), this.drawing.row);
     match.on("health welcome", () => this.update());
-    setInterval(() => say(this.drawing.value, `${stage.rate} pictures a second`), EVERY_MS);
+    setInterval(() => setText(this.drawing.value, `${pitchCanvas.rate} pictures a second`), EVERY_MS);
   }
 
   update() {
     const { health } = this.match;
-    for (const { text, value } of this.#values) say(value, health ? text({ health }) : "–");
+    for (const { text, value } of this.#values) setText(value, health ? text({ health }) : "–");
     const table = byId("programs");
     const names = Object.keys(health?.robots ?? {});
     if (table.dataset.names !== names.join()) this.#layTable(table, names);
     names.forEach((name, place) => {
       const robot = health.robots[name];
       const cells = table.tBodies[0].rows[place].cells;
-      say(cells[0], robot.alive ? name : `${name} (no program)`);
-      COLUMNS.forEach(([, text], column) => say(cells[column + 1], String(text(robot))));
+      setText(cells[0], robot.alive ? name : `${name} (no program)`);
+      COLUMNS.forEach(([, text], column) => setText(cells[column + 1], String(text(robot))));
     });
   }
 

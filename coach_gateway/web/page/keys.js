@@ -20,12 +20,12 @@ export const KEYS = [
 ];
 const PICTURE_S = 0.02;
 
-export function listenForKeys({ match, buttons, drive, drag, replay, layers, seat }) {
+export function listenForKeys({ match, buttons, manualControl, drag, replay, layers, selection }) {
   const typed = {
     "?": () => byId("help").showModal(),
     v: () => layers.turn(),
-    "[": () => chooseNext(match, seat, -1),
-    "]": () => chooseNext(match, seat, 1),
+    "[": () => chooseNext(match, selection, -1),
+    "]": () => chooseNext(match, selection, 1),
   };
   const replayed = {
     n: () => replay.jump(1),
@@ -41,19 +41,19 @@ export function listenForKeys({ match, buttons, drive, drag, replay, layers, sea
     if (event.code === "Space" && stops()) {
       event.preventDefault();
       if (event.repeat) return;
-      drive.giveBack();
+      manualControl.giveBack();
       if (match.live) buttons.stop();
       else replay.toggle();
       return;
     }
     if (event.key === "Escape") {
       drag.cancel();
-      drive.giveBack();
+      manualControl.giveBack();
       return;
     }
     if (event.key === "Enter" && event.target.type === "checkbox") event.target.click();
     if (isTyping(event.target)) return;
-    if (drive.key(event, true)) {
+    if (manualControl.key(event, true)) {
       event.preventDefault();
       return;
     }
@@ -66,15 +66,15 @@ export function listenForKeys({ match, buttons, drive, drag, replay, layers, sea
   }, { capture: true });
   addEventListener("keyup", (event) => {
     if (event.code === "Space" && stops()) event.preventDefault(); // or a button with the focus would be pressed too
-    drive.key(event, false);
+    manualControl.key(event, false);
   }, { capture: true });
 }
 
 /** Whether keys go into a field. */
 const isTyping = (target) => target.matches?.("input:not([type=checkbox]):not([type=range]), select, textarea") ?? false;
 
-function chooseNext(match, seat, step) {
+function chooseNext(match, selection, step) {
   const all = match.robots;
-  const place = all.indexOf(seat.robot);
-  seat.choose(all[place < 0 ? (step > 0 ? 0 : all.length - 1) : (place + step + all.length) % all.length] ?? null);
+  const place = all.indexOf(selection.robot);
+  selection.choose(all[place < 0 ? (step > 0 ? 0 : all.length - 1) : (place + step + all.length) % all.length] ?? null);
 }

@@ -2,7 +2,7 @@
 
 import { byId, choice, element, offer } from "./elements.js";
 import { TRAILS } from "./trails.js";
-import { SEEN_FROM } from "./view.js";
+import { SEEN_FROM } from "./projection.js";
 
 const KEY = "touchline.layers";
 const SWITCHES = [

@@ -1,11 +1,11 @@
 // The match as the gateway tells it: what is known now, and who wants to hear when that changes.
 
-import { Film } from "./film.js";
+import { FrameBuffer } from "./frame_buffer.js";
 
 const MOST_EVENTS = 5000;
 
 /** What is known of a match of which nothing was heard yet. */
-const nothing = () => ({
+const emptyMatch = () => ({
   role: "spectator",
   live: true,
   name: "",
@@ -18,31 +18,31 @@ const nothing = () => ({
   orders: {},
   beliefs: {},
   events: [],
-  told: 0, // events so far, also those that are not kept any more
+  eventCount: 0, // events so far, also those that are not kept any more
   replay: null,
   refbox: { connected: false, team: null },
   hostThere: true,
   episode: 1,
-  film: new Film(),
+  frames: new FrameBuffer(),
 });
 
 /** Kind of message → what becomes of it. */
 const READERS = {
   welcome(match, { role, match: name, setup, live, deeds, beliefs, scenes }) {
-    Object.assign(match, nothing(), { role, name, setup, live, deeds: new Set(deeds), shown: beliefs, scenes });
+    Object.assign(match, emptyMatch(), { role, name, setup, live, deeds: new Set(deeds), shown: beliefs, scenes });
   },
   frame(match, { world, beliefs }) {
-    if (world.episode !== match.episode) match.film.cut();
+    if (world.episode !== match.episode) match.frames.clear();
     match.episode = world.episode;
     match.beliefs = beliefs;
-    match.film.add(world, performance.now());
+    match.frames.add(world, performance.now());
   },
   state(match, { state }) {
     match.state = state;
   },
   event(match, { event }) {
     match.events.push(event);
-    match.told += 1;
+    match.eventCount += 1;
     if (match.events.length > MOST_EVENTS) match.events.shift();
   },
   health(match, { health }) {
@@ -56,7 +56,7 @@ const READERS = {
   },
   replay(match, { replay }) {
     match.replay = replay;
-    match.film.still = replay.paused;
+    match.frames.still = replay.paused;
   },
   refbox(match, { connected, team }) {
     match.refbox = { connected, team };
@@ -64,27 +64,27 @@ const READERS = {
 };
 
 export class Match {
-  #hearers = new Map();
+  #handlers = new Map();
 
   constructor() {
-    Object.assign(this, nothing());
+    Object.assign(this, emptyMatch());
   }
 
   /** Has `does` called after each message of these kinds. */
   on(kinds, does) {
-    for (const kind of kinds.split(" ")) this.#hearers.set(kind, [...(this.#hearers.get(kind) ?? []), does]);
+    for (const kind of kinds.split(" ")) this.#handlers.set(kind, [...(this.#handlers.get(kind) ?? []), does]);
   }
 
   /** Takes in a message of the gateway; of a kind that this page does not know there is nothing to take. */
-  take(message) {
+  receive(message) {
     READERS[message.kind]?.(this, message);
-    for (const does of this.#hearers.get(message.kind) ?? []) does(this);
+    for (const does of this.#handlers.get(message.kind) ?? []) does(this);
   }
 
   /** All robots: those of the setup in order, then others that the pitch has. */
   get robots() {
     const listed = this.setup ? ["cyan", "magenta"].flatMap((side) => this.setup.teams[side].robots) : [];
-    const there = this.film.newest?.robots ?? {};
+    const there = this.frames.newest?.robots ?? {};
     return [...listed, ...Object.keys(there).filter((name) => !listed.includes(name))];
   }
 
@@ -112,9 +112,9 @@ export class Match {
   }
 
   /** What a robot last said, or nothing when that is older than `age` s. */
-  wordOf(robot, age = 1.5) {
+  radioOf(robot, age = 1.5) {
     const belief = this.beliefs[robot];
-    const now = this.film.newest?.time ?? 0;
+    const now = this.frames.newest?.time ?? 0;
     return belief && Math.abs(now - belief.time) <= age ? belief.radio : null;
   }
 }

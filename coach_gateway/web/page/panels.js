@@ -1,15 +1,15 @@
 // A panel for each robot: who it is, what it does and means to do, where it is, and how its program is doing.
 
-import { byId, element, mark, say, show } from "./elements.js";
-import { standingWords } from "./scoreboard.js";
-import { degreeWords, metres, numberOf, placeWords, spoken } from "./words.js";
+import { byId, element, mark, setText, show } from "./elements.js";
+import { disciplineText } from "./scoreboard.js";
+import { degreeText, metres, numberOf, placeText, readable } from "./text.js";
 
 const EVERY_MS = 200;
 const HIGH_M = 0.25; // the centre of a ball that is off the ground
 /** Key, word before it, and the text from what is known of the robot; an empty text hides the line. */
 const LINES = [
   ["intention", "means", ({ word }) => word?.intention ?? ""],
-  ["pose", "at", ({ body }) => (body ? `${placeWords(body)} ${degreeWords(body.heading)}` : "")],
+  ["pose", "at", ({ body }) => (body ? `${placeText(body)} ${degreeText(body.heading)}` : "")],
   ["speed", "speed", ({ body }) => (body ? `${metres(Math.hypot(body.vx, body.vy))} m/s` : "")],
   ["ball", "ball", ({ body, ball, holds }) => (holds ? "in hand" : body ? `${metres(Math.hypot(ball.x - body.x, ball.y - body.y))} m off` : "")],
   ["battery", "battery", ({ word }) => batteryWords(word?.extra?.battery)],
@@ -17,17 +17,17 @@ const LINES = [
   ["missed", "missed", ({ health }) => (health?.missed ? `${health.missed} of ${health.answers + health.missed}` : "")],
   ["refused", "refused", ({ health }) => (health?.refused ? String(health.refused) : "")],
   ["order", "order", ({ acknowledged }) => (acknowledged === undefined ? "" : acknowledged ? "taken in" : "not taken in yet")],
-  ["cards", "referee", ({ standing }) => (standing ? standingWords(standing) : "")],
+  ["cards", "referee", ({ discipline }) => (discipline ? disciplineText(discipline) : "")],
 ];
 
 export class Panels {
   #panels = new Map();
   #robots = "";
 
-  constructor(match, stage, seat) {
-    Object.assign(this, { match, stage, seat });
+  constructor(match, pitchCanvas, selection) {
+    Object.assign(this, { match, pitchCanvas, selection });
     setInterval(() => this.update(), EVERY_MS);
-    seat.on(() => this.update());
+    selection.on(() => this.update());
   }
 
   update() {
@@ -35,7 +35,7 @@ export class Panels {
     if (match.setup === null) return;
     if (match.robots.join() !== this.#robots) this.#lay();
     for (const [name, panel] of this.#panels) this.#fill(name, panel);
-    if (this.stage.world) say(byId("ball-says"), ballWords(this.stage.world));
+    if (this.pitchCanvas.world) setText(byId("ball-says"), ballWords(this.pitchCanvas.world));
   }
 
   #lay() {
@@ -54,7 +54,7 @@ export class Panels {
     const number = numberOf(name, this.match.setup.teams[side].robots);
     const head = element(
       "button",
-      { type: "button", class: "who", on: { click: () => this.seat.choose(this.seat.robot === name ? null : name) } },
+      { type: "button", class: "who", on: { click: () => this.selection.choose(this.selection.robot === name ? null : name) } },
       element("span", { class: `mark ${side}` }, number), element("b", {}, name), role, badge,
     );
     const lines = LINES.map(([key, word, text]) => {
@@ -67,29 +67,29 @@ export class Panels {
 
   #fill(name, { card, head, role, badge, lines }) {
     const { match } = this;
-    const world = this.stage.world;
+    const world = this.pitchCanvas.world;
     const body = world?.robots[name];
     const known = {
       body,
       ball: world?.ball,
       holds: world?.possession === name,
-      word: match.wordOf(name, 5),
+      word: match.radioOf(name, 5),
       health: match.health?.robots[name],
       acknowledged: match.orders[match.sideOf(name)]?.order ? match.orders[match.sideOf(name)].acknowledged[name] : undefined,
-      standing: match.state?.robots[name],
+      discipline: match.state?.robots[name],
     };
-    say(role, known.word?.role ? spoken(known.word.role) : "");
+    setText(role, known.word?.role ? readable(known.word.role) : "");
     const [word, looks] = stateOf(known);
-    say(badge, word);
+    setText(badge, word);
     badge.dataset.looks = looks;
     show(badge, word !== "");
     mark(card, "holds", known.holds);
     mark(card, "away", !body || body.off_field !== null);
-    head.setAttribute("aria-pressed", this.seat.robot === name);
+    head.setAttribute("aria-pressed", this.selection.robot === name);
     for (const { value, row, text } of lines) {
       const says = text(known);
       show(row, says !== "");
-      say(value, says);
+      setText(value, says);
     }
   }
 }
@@ -97,7 +97,7 @@ export class Panels {
 /** What is most to be known of a robot, in a word, and how that looks. */
 function stateOf({ body, holds, health }) {
   if (!body) return ["not there", "grey"];
-  if (body.off_field) return [spoken(body.off_field), "grey"];
+  if (body.off_field) return [readable(body.off_field), "grey"];
   if (health?.removed || health?.still) return ["stands still", "grey"];
   if (health && !health.alive) return ["no program", "bad"];
   if (body.stuck) return ["stuck", "bad"];
@@ -108,7 +108,7 @@ function stateOf({ body, holds, health }) {
 
 /** Where the ball is, how fast, how high, and who has it. */
 function ballWords({ ball, possession }) {
-  const words = [`at ${placeWords(ball)}`, `${metres(Math.hypot(ball.vx, ball.vy))} m/s`];
+  const words = [`at ${placeText(ball)}`, `${metres(Math.hypot(ball.vx, ball.vy))} m/s`];
   if (ball.z > HIGH_M) words.push(`${metres(ball.z)} m high`);
   return [...words, possession ? `${possession} has it` : "nobody has it"].join(", ");
 }

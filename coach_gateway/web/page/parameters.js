@@ -1,17 +1,17 @@
 // Live parameters, speeds and noise among them: listed with unit and range, set, and reset.
 
-import { byId, element, say, show } from "./elements.js";
-import { headed } from "./words.js";
+import { byId, element, setText, show } from "./elements.js";
+import { capitalized } from "./text.js";
 
 const FIRST = ["drive", "noise", "sensing", "radio", "ball"];
 
 export class Parameters {
   #rows = new Map();
 
-  constructor(match, desk) {
-    Object.assign(this, { match, desk });
+  constructor(match, requests) {
+    Object.assign(this, { match, requests });
     byId("parameter-filter").addEventListener("input", () => this.#filter());
-    byId("parameters-reset").addEventListener("click", () => this.#change(byId("parameters-reset"), "Reset all", { deed: "reset" }));
+    byId("parameters-reset").addEventListener("click", () => this.#change(byId("parameters-reset"), "Reset all", { operation: "reset" }));
     match.on("welcome host", () => this.#changed());
     match.on("event", ({ events }) => events.at(-1).kind === "parameters" && this.#changed());
   }
@@ -23,7 +23,7 @@ export class Parameters {
     this.again = this.loading;
     if (this.loading) return;
     this.loading = true;
-    const reply = await this.desk.line.ask("parameters", { request: { deed: "list" } });
+    const reply = await this.requests.connection.ask("parameters", { request: { operation: "list" } });
     this.loading = false;
     if (this.again) {
       this.load(); // they have changed since they were asked for
@@ -31,7 +31,7 @@ export class Parameters {
     }
     this.stale = !reply.accepted;
     if (reply.accepted) this.#lay(reply.answer.parameters);
-    else say(byId("parameters-state"), reply.reason);
+    else setText(byId("parameters-state"), reply.reason);
   }
 
   #changed() {
@@ -56,7 +56,7 @@ export class Parameters {
       byId("parameters").replaceChildren(...order.map((section) => this.#section(section, sections.get(section))));
     }
     for (const one of parameters) this.#fill(one);
-    say(byId("parameters-state"), `${parameters.filter(({ live }) => live).length} can be set while the match runs`);
+    setText(byId("parameters-state"), `${parameters.filter(({ live }) => live).length} can be set while the match runs`);
     this.#filter();
   }
 
@@ -64,14 +64,14 @@ export class Parameters {
     return element(
       "details",
       { data: { section: name }, ...(name === "drive" ? { open: true } : {}) },
-      element("summary", {}, headed(name)), ...parameters.map((one) => this.#row(one)),
+      element("summary", {}, capitalized(name)), ...parameters.map((one) => this.#row(one)),
     );
   }
 
   #row(one) {
     const id = `parameter-${one.name}`;
-    const input = one.words.length
-      ? element("select", { id }, ...one.words.map((word) => element("option", { value: word }, word)))
+    const input = one.options.length
+      ? element("select", { id }, ...one.options.map((word) => element("option", { value: word }, word)))
       : element("input", { id, type: "text", inputmode: "decimal", autocomplete: "off" });
     const set = element("button", { type: "button" }, "Set");
     const reset = element("button", { type: "button", aria: { label: `Reset ${one.name}` } }, "Reset");
@@ -79,14 +79,14 @@ export class Parameters {
     set.addEventListener("click", () => this.#set(set, one, input.value));
     input.addEventListener("input", () => { input.dataset.edited = "yes"; });
     input.addEventListener("keydown", (event) => event.key === "Enter" && this.#set(set, one, input.value));
-    reset.addEventListener("click", () => this.#change(reset, `Reset ${one.name}`, { deed: "reset", names: [one.name] }));
+    reset.addEventListener("click", () => this.#change(reset, `Reset ${one.name}`, { operation: "reset", names: [one.name] }));
     const range = element("span", { class: "quiet" }, rangeWords(one));
     const row = element(
       "div", { class: "parameter", data: { parameter: one.name } },
-      element("label", { for: id }, element("b", {}, one.name.split(".").at(-1)), ` ${one.says}`), range,
+      element("label", { for: id }, element("b", {}, one.name.split(".").at(-1)), ` ${one.description}`), range,
       element("div", { class: "setting" }, input, set, reset),
     );
-    this.#rows.set(one.name, { row, input, set, reset, words: `${one.name} ${one.says}`.toLowerCase() });
+    this.#rows.set(one.name, { row, input, set, reset, words: `${one.name} ${one.description}`.toLowerCase() });
     return row;
   }
 
@@ -96,7 +96,7 @@ export class Parameters {
     if (!input.dataset.edited) input.value = valueWords(one.value);
     for (const control of [input, set, reset]) {
       control.disabled = !may;
-      control.title = one.live ? "" : one.why_not;
+      control.title = one.live ? "" : one.fixed_reason;
     }
     row.classList.toggle("changed", valueWords(one.value) !== valueWords(one.initial));
     reset.disabled = !may || valueWords(one.value) === valueWords(one.initial);
@@ -105,14 +105,14 @@ export class Parameters {
   #set(source, one, text) {
     const value = valueOf(text, one);
     if (value === null) {
-      this.desk.show(source, `Set ${one.name}`, { accepted: false, reason: `${text} is no number` });
+      this.requests.show(source, `Set ${one.name}`, { accepted: false, reason: `${text} is no number` });
       return;
     }
-    this.#change(source, `${one.name} = ${text}`, { deed: "set", values: { [one.name]: value } });
+    this.#change(source, `${one.name} = ${text}`, { operation: "set", values: { [one.name]: value } });
   }
 
   async #change(source, words, request) {
-    const reply = await this.desk.ask(source, words, "parameters", { request });
+    const reply = await this.requests.ask(source, words, "parameters", { request });
     if (!reply.accepted) return;
     for (const name of Object.keys(request.values ?? {}).concat(request.names ?? (request.values ? [] : [...this.#rows.keys()]))) {
       delete this.#rows.get(name)?.input.dataset.edited;
@@ -137,8 +137,8 @@ function rank(section) {
   return (section.startsWith("types") ? 100 : 0) + (place < 0 ? FIRST.length : place);
 }
 
-function rangeWords({ unit, low, high, words }) {
-  if (words.length) return "a word";
+function rangeWords({ unit, low, high, options }) {
+  if (options.length) return "a word";
   const named = unit && unit !== "1" ? ` ${unit}` : "";
   if (low !== null && high !== null) return `${low} to ${high}${named}`;
   if (low !== null) return `from ${low}${named}`;
@@ -148,8 +148,8 @@ function rangeWords({ unit, low, high, words }) {
 const valueWords = (value) => (Array.isArray(value) ? value.join(", ") : String(value));
 
 /** What was typed as the protocol wants it, or nothing if it is no number. */
-function valueOf(text, { value, words }) {
-  if (words.length || typeof value === "string") return text;
+function valueOf(text, { value, options }) {
+  if (options.length || typeof value === "string") return text;
   const numbers = text.split(",").map((part) => Number(part.trim() === "" ? NaN : part));
   if (numbers.some((number) => !Number.isFinite(number))) return null;
   return Array.isArray(value) ? numbers : numbers.length === 1 ? numbers[0] : null;

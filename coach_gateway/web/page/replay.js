@@ -1,9 +1,9 @@
 // A recording is played here: a bar with the marks of its events, play, pause, step, rate, loop, and jumps.
 
-import { byId, mark, say, show } from "./elements.js";
+import { byId, mark, setText, show } from "./elements.js";
 import { LEAD_S } from "./events.js";
-import { SIDES } from "./brush.js";
-import { clockWords } from "./words.js";
+import { SIDES } from "./shapes.js";
+import { clockText } from "./text.js";
 
 const MARKED = { goal: "★", card: "▮", foul: "•", half_time: "|", full_time: "|" };
 
@@ -12,15 +12,15 @@ export class Replay {
   #asking = false;
   #holding = false;
 
-  constructor(match, desk) {
-    Object.assign(this, { match, desk });
+  constructor(match, requests) {
+    Object.assign(this, { match, requests });
     const scrub = byId("scrub");
     scrub.addEventListener("input", () => this.seek(Number(scrub.value)));
     scrub.addEventListener("pointerdown", () => { this.#holding = true; });
     for (const end of ["pointerup", "pointercancel", "change"]) scrub.addEventListener(end, () => { this.#holding = false; });
     byId("play").addEventListener("click", () => this.toggle());
     byId("step").addEventListener("click", () => this.step());
-    byId("loop").addEventListener("click", () => this.#ask("loop", "Loop", { deed: "loop" }));
+    byId("loop").addEventListener("click", () => this.#ask("loop", "Loop", { operation: "loop" }));
     byId("previous").addEventListener("click", () => this.jump(-1));
     byId("next").addEventListener("click", () => this.jump(1));
     byId("rate").addEventListener("change", () => this.setRate(byId("rate").value));
@@ -32,7 +32,7 @@ export class Replay {
 
   /** Simulated time in s that is shown. */
   get time() {
-    return this.#wanted ?? this.match.film.newest?.time ?? 0;
+    return this.#wanted ?? this.match.frames.newest?.time ?? 0;
   }
 
   update() {
@@ -70,22 +70,22 @@ export class Replay {
   /** The bar follows what is drawn, unless it is being dragged. */
   tick(world) {
     if (this.match.live || world === null) return;
-    say(byId("moment"), `${clockWords(this.#wanted ?? world.time)} of ${clockWords(this.match.replay?.end ?? 0)}`);
+    setText(byId("moment"), `${clockText(this.#wanted ?? world.time)} of ${clockText(this.match.replay?.end ?? 0)}`);
     if (!this.#holding && this.#wanted === null) byId("scrub").value = world.time;
   }
 
   toggle() {
     if (this.#why()) return null;
     const { paused } = this.match.replay;
-    return this.#ask("play", paused ? "Play" : "Pause", { deed: paused ? "play" : "pause" });
+    return this.#ask("play", paused ? "Play" : "Pause", { operation: paused ? "play" : "pause" });
   }
 
   step(ticks = 1) {
-    return this.#ask("step", "Step", { deed: "step", ticks });
+    return this.#ask("step", "Step", { operation: "step", ticks });
   }
 
   setRate(rate) {
-    return this.#ask("rate", `Rate ${rate}`, rate === "fast" ? { deed: "rate" } : { deed: "rate", rate: Number(rate) });
+    return this.#ask("rate", `Rate ${rate}`, rate === "fast" ? { operation: "rate" } : { operation: "rate", rate: Number(rate) });
   }
 
   /** Goes to a time in s; while one is on its way, only the newest wish counts. */
@@ -98,9 +98,9 @@ export class Replay {
     let went = null;
     while (this.#wanted !== went) {
       went = this.#wanted;
-      const reply = await this.desk.line.ask("replay", { request: { deed: "seek", to: String(went) } });
+      const reply = await this.requests.connection.ask("replay", { request: { operation: "seek", to: String(went) } });
       if (reply.accepted) continue;
-      this.desk.show(byId("scrub"), `Go to ${clockWords(went)}`, reply);
+      this.requests.show(byId("scrub"), `Go to ${clockText(went)}`, reply);
       break;
     }
     this.#wanted = null;
@@ -116,8 +116,8 @@ export class Replay {
   }
 
   async #ask(id, words, request) {
-    const reply = await this.desk.line.ask("replay", { request });
-    if (!reply.accepted) this.desk.show(byId(id), words, reply);
+    const reply = await this.requests.connection.ask("replay", { request });
+    if (!reply.accepted) this.requests.show(byId(id), words, reply);
   }
 
   #pointed(event) {

@@ -1,14 +1,14 @@
 // Scenes: loading one, going back to a start, and setting a body down by numbers.
 
-import { byId, offer, say } from "./elements.js";
-import { radians } from "./words.js";
+import { byId, offer, setText } from "./elements.js";
+import { radians } from "./text.js";
 
 export class Scenes {
-  constructor(match, desk, drag) {
-    Object.assign(this, { match, desk, drag });
-    byId("scene-load").addEventListener("click", () => this.#ask("scene-load", `Scene ${byId("scene").value}`, { deed: "load", load: byId("scene").value }));
-    byId("scene-reset").addEventListener("click", () => this.#ask("scene-reset", "Scene anew", { deed: "reset" }));
-    byId("match-reset").addEventListener("click", () => this.#ask("match-reset", "Match anew", { deed: "reset", to_match: true }));
+  constructor(match, requests, drag) {
+    Object.assign(this, { match, requests, drag });
+    byId("scene-load").addEventListener("click", () => this.#ask("scene-load", `Scene ${byId("scene").value}`, { operation: "load", load: byId("scene").value }));
+    byId("scene-reset").addEventListener("click", () => this.#ask("scene-reset", "Scene anew", { operation: "reset" }));
+    byId("match-reset").addEventListener("click", () => this.#ask("match-reset", "Match anew", { operation: "reset", to_match: true }));
     byId("place").addEventListener("click", () => this.#place());
     byId("scene").addEventListener("change", () => this.update());
     match.on("welcome host", () => this.update());
@@ -18,21 +18,21 @@ export class Scenes {
     const { match } = this;
     const may = match.live && match.may("scene") && match.hostThere;
     offer(byId("scene"), Object.keys(match.scenes).map((name) => [name, name.replaceAll("_", " ")]));
-    say(byId("scene-says"), match.scenes[byId("scene").value] ?? "");
+    setText(byId("scene-says"), match.scenes[byId("scene").value] ?? "");
     offer(byId("place-body"), [["ball", "ball"], ...match.robots.map((name) => [name, name])]);
     for (const id of ["scene", "scene-load", "scene-reset", "match-reset", "freely"]) byId(id).disabled = !may;
     for (const id of ["place-body", "place-x", "place-y", "place-heading", "place"]) byId(id).disabled = !may && !match.may("place_ball");
   }
 
   #ask(id, words, request) {
-    return this.desk.ask(byId(id), words, "scene", { request });
+    return this.requests.ask(byId(id), words, "scene", { request });
   }
 
   #place() {
     const body = byId("place-body").value;
     const [x, y, turned] = ["place-x", "place-y", "place-heading"].map((id) => byId(id).valueAsNumber);
     const why = Number.isFinite(x) && Number.isFinite(y) ? this.drag.why(body) : "x and y are missing";
-    if (why !== null) return this.desk.show(byId("place"), `Place ${body}`, { accepted: false, reason: why });
+    if (why !== null) return this.requests.show(byId("place"), `Place ${body}`, { accepted: false, reason: why });
     return this.drag.place(byId("place"), body, { x, y, heading: Number.isFinite(turned) ? radians(turned) : undefined });
   }
 }

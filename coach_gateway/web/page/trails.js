@@ -1,6 +1,6 @@
 // Where everything has been: a tail behind each body, or all of its way.
 
-import { SIDES } from "./brush.js";
+import { SIDES } from "./shapes.js";
 
 export const TRAILS = [
   ["off", "off"],
@@ -26,7 +26,7 @@ export class Trails {
     for (const [name, robot] of Object.entries(world.robots)) this.#step(name, robot, world.time);
   }
 
-  draw(context, view, match, kept) {
+  draw(context, projection, match, kept) {
     if (kept === "off") return;
     context.lineJoin = "round";
     for (const [name, way] of this.#ways) {
@@ -34,7 +34,7 @@ export class Trails {
       context.strokeStyle = name === "ball" ? "#ffcf5c" : SIDES[match.sideOf(name)].line;
       context.globalAlpha = kept === "short" ? 0.65 : 0.4;
       context.lineWidth = name === "ball" ? 2 : 1.3;
-      trace(context, view, way, from);
+      trace(context, projection, way, from);
     }
     context.globalAlpha = 1;
   }
@@ -53,15 +53,15 @@ export class Trails {
   }
 }
 
-function trace(context, view, way, from) {
+function trace(context, projection, way, from) {
   let place = way.length - 1;
   while (place > 0 && way[place - 1].time >= from) place -= 1;
   context.beginPath();
   for (; place < way.length; place += 1) {
     const { x, y, time, jump } = way[place];
     if (time < from) continue;
-    if (jump) context.moveTo(view.x(x), view.y(y));
-    else context.lineTo(view.x(x), view.y(y));
+    if (jump) context.moveTo(projection.x(x), projection.y(y));
+    else context.lineTo(projection.x(x), projection.y(y));
   }
   context.stroke();
 }

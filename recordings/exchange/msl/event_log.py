@@ -22,7 +22,7 @@ _LETTERS = {"a": Side.CYAN, "teama": Side.CYAN, "b": Side.MAGENTA, "teamb": Side
 class SignalLine(NamedTuple):
     """One signal."""
 
-    moment: float
+    epoch_ms: float
     """ms since 1970."""
     signal: Signal
     side: Side | None
@@ -58,55 +58,55 @@ def read_events(text: str, names: TeamNames, findings: Findings) -> list[SignalL
     for number, line in enumerate(text.splitlines(), 1):
         findings.place = f"events, line {number}"
         if line.strip("\x00 \t"):
-            read = _read(line, names, findings)
+            read = _parse(line, names, findings)
             if read is not None:
                 lines.append(read)
-    if any(later.moment < earlier.moment for earlier, later in pairwise(lines)):
+    if any(later.epoch_ms < earlier.epoch_ms for earlier, later in pairwise(lines)):
         findings.note("signals out of order: sorted by time")
-    return sorted(lines, key=lambda line: line.moment)
+    return sorted(lines, key=lambda line: line.epoch_ms)
 
 
-def _read(line: str, names: TeamNames, findings: Findings) -> SignalLine | None:
+def _parse(line: str, names: TeamNames, findings: Findings) -> SignalLine | None:
     found = _LINE.fullmatch(line)
     if found is None:
         findings.note("line that is no signal", lost=True)
         return None
-    moment, clock, part, rest = found.groups()
-    signal, side, says = _of_2020(rest, names, findings) if rest.lstrip().startswith("{") else _of_2016(rest)
+    epoch_ms, clock, part, rest = found.groups()
+    signal, side, says = _parse_2020(rest, names, findings) if rest.lstrip().startswith("{") else _parse_2016(rest)
     if signal is None:
         findings.note("signal that is not known", lost=True)
         return None
     if signal.sided and side is None:
         findings.note("signal for a team that is not known: its name in the log can be given with --team-a", lost=True)
-    return SignalLine(float(moment), signal, side, _clock(clock), _half(part), says)
+    return SignalLine(float(epoch_ms), signal, side, _clock(clock), _half(part), says)
 
 
-def _of_2016(rest: str) -> tuple[Signal | None, Side | None, str]:
+def _parse_2016(rest: str) -> tuple[Signal | None, Side | None, str]:
     """A character; the description tells the side as well, and is right where they differ."""
     character, _, says = rest.partition(",")
     signal, side = BY_CHARACTER.get(character.strip(), (None, None))
     if signal is None:
         return None, None, ""
     colour = says.strip().split(" ")[0].upper()
-    return signal, _COLOURS.get(colour, side) if signal.sided else None, says.strip() or signal.says
+    return signal, _COLOURS.get(colour, side) if signal.sided else None, says.strip() or signal.description
 
 
-def _of_2020(rest: str, names: TeamNames, findings: Findings) -> tuple[Signal | None, Side | None, str]:
+def _parse_2020(rest: str, names: TeamNames, findings: Findings) -> tuple[Signal | None, Side | None, str]:
     """JSON: command and targetTeam."""
     try:
-        said, end = json.JSONDecoder().raw_decode(rest.lstrip())
+        fields, end = json.JSONDecoder().raw_decode(rest.lstrip())
     except (ValueError, RecursionError):
         findings.note("signal that is no JSON", lost=True)
         return None, None, ""
-    signal = BY_NAME.get(str(said.get("command", "")).strip().upper())
+    signal = BY_NAME.get(str(fields.get("command", "")).strip().upper())
     if signal is None:
         return None, None, ""
-    side = names.side(str(said.get("targetTeam") or "")) if signal.sided else None
+    side = names.side(str(fields.get("targetTeam") or "")) if signal.sided else None
     says = rest.lstrip()[end:].lstrip(", ").strip()
-    robot = said.get("robotID")
+    robot = fields.get("robotID")
     meant = f" {side.value}" if side is not None else ""
     number = f", robot {robot}" if isinstance(robot, int) and robot >= 0 else ""
-    return signal, side, (says if says and says != "null" else f"{signal.says}{meant}") + number
+    return signal, side, (says if says and says != "null" else f"{signal.description}{meant}") + number
 
 
 def _clock(text: str) -> float | None:
@@ -115,6 +115,6 @@ def _clock(text: str) -> float | None:
 
 
 def _half(part: str) -> int:
-    said = part.lower()
-    number = 1 if "1st half" in said else 2 if "2nd half" in said else 0
-    return number + 2 if number and "overtime" in said else number
+    fields = part.lower()
+    number = 1 if "1st half" in fields else 2 if "2nd half" in fields else 0
+    return number + 2 if number and "overtime" in fields else number

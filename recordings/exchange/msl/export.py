@@ -8,25 +8,25 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 from pydantic_core import to_json
 
+from recordings.exchange.atomic_output import ExportSummary, atomic_output
 from recordings.exchange.msl import LOG_PERIOD
 from recordings.exchange.msl.game_log import GameLog
-from recordings.exchange.outlet import Exported, outlet
-from recordings.exchange.sides import sides_of
-from recordings.reader import Recording
+from recordings.exchange.robot_sides import sides_of
+from recordings.reading.recording import Recording
 from schemas.errors import TouchlineError
 from schemas.game import GameState
-from schemas.host import Setup
-from schemas.league.numbers import numbers_of
+from schemas.league.robot_numbers import numbers_of
 from schemas.league.world_state import BallSeen, ObstacleSeen, RobotSeen, world_state
+from schemas.messages.host import Setup
+from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 from schemas.topics import BELIEF, STATE, WORLD
-from schemas.world import RobotTruth, World
 
 FILES = {Side.CYAN: "A", Side.MAGENTA: "B"}
 """Side → the letter of its file."""
 
 
-def export(recording: Recording, out: Path) -> Exported:
+def export(recording: Recording, out: Path) -> ExportSummary:
     """Write the log of a match.
 
     Raises:
@@ -37,15 +37,15 @@ def export(recording: Recording, out: Path) -> Exported:
         raise TouchlineError(f"{recording.path}: its manifest has no setup, so the teams are unknown; record it again")
     log = _Log(recording, setup)
     for recorded, message in recording.decoded(*(topic.fill() for topic in (WORLD, STATE, BELIEF))):
-        log.take(recorded.topic.key, message)
-    log.end()
+        log.add(recorded.topic.key, message)
+    log.flush()
     started = log.started.strftime("%Y%m%d_%H%M%S")
-    with outlet(out) as file, ZipFile(file, "w", ZIP_DEFLATED) as archive:
+    with atomic_output(out) as file, ZipFile(file, "w", ZIP_DEFLATED) as archive:
         archive.writestr(f"{started}.msl", "".join(f"{line}\n" for line in log.game.lines))
         for side, letter in FILES.items():
             archive.writestr(f"{started}.{letter}.msl", b"[" + b",\n".join(log.records[side]) + b"]")
     written = {f"{started}.{letter}.msl": len(log.records[side]) for side, letter in FILES.items()}
-    return Exported(out, written | {f"{started}.msl": len(log.game.lines)}, dict(recording.unreadable))
+    return ExportSummary(out, written | {f"{started}.msl": len(log.game.lines)}, dict(recording.unreadable))
 
 
 class _Log:
@@ -56,42 +56,42 @@ class _Log:
         self._sides = sides_of(recording)
         self._numbers = numbers_of(self._sides)
         self._intentions: dict[str, str] = {}
-        self._next = -math.inf
-        self._held: World | None = None
+        self._next_time = -math.inf
+        self._pending_world: World | None = None
         self.started = datetime.fromisoformat(recording.manifest.started)
         self._start_ms = round(self.started.timestamp() * 1e3)
         self.game = GameLog(self._start_ms, self._sides)
         self.records: dict[Side, list[bytes]] = {side: [] for side in Side}
 
-    def take(self, key: str, message: Any) -> None:
+    def add(self, key: str, message: Any) -> None:
         """The next message of the recording; a world waits for all else that is said of its tick."""
-        if self._held is not None and message.time > self._held.time:
-            self.end()
+        if self._pending_world is not None and message.time > self._pending_world.time:
+            self.flush()
         if key == WORLD.key:
-            self._held = message
+            self._pending_world = message
         elif key == BELIEF.key:
             self._intentions[message.robot] = message.radio.intention or ""
         else:
-            self.game.take(message)
+            self.game.update(message)
 
-    def end(self) -> None:
+    def flush(self) -> None:
         """Nothing more will be said of the newest tick."""
-        if self._held is not None:
-            self._world(self._held)
-            self._held = None
+        if self._pending_world is not None:
+            self._world(self._pending_world)
+            self._pending_world = None
 
     def _world(self, world: World) -> None:
         tick = self._setup.time.tick
-        if world.time < self._next - tick / 2:
+        if world.time < self._next_time - tick / 2:
             return
-        self._next = world.time + max(1, round(LOG_PERIOD / tick)) * tick
+        self._next_time = world.time + max(1, round(LOG_PERIOD / tick)) * tick
         state = self.game.state
         for side in Side:
             record = {
                 "teamName": self._setup.teams[side].name,
                 "timestamp": self._start_ms + round(world.time * 1e3),
                 "gametimeMs": round(self.game.game_s(world.clock) * 1e3),
-                "worldstate": self._world_state(world, side, _attack(state, side)),
+                "worldstate": self._world_state(world, side, _attack_sign(state, side)),
             }
             self.records[side].append(to_json(record))
 
@@ -115,5 +115,5 @@ class _Log:
         return RobotSeen(self._numbers[name], *motion, robot.holding, self._intentions.get(name, ""))
 
 
-def _attack(state: GameState | None, side: Side) -> int:
+def _attack_sign(state: GameState | None, side: Side) -> int:
     return side.attack(state.cyan_attacks if state is not None else 1)

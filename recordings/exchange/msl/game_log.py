@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from schemas.game import GameState, Phase, Stage
+from schemas.game import GameStage, GameState, Phase
 from schemas.league.calls import calls
 from schemas.league.signals import Signal
 from schemas.side import Side
@@ -27,18 +27,18 @@ class GameLog:
         """The box's clock, which begins anew with each half, from the match's."""
         return max(0.0, clock - self._half_began)
 
-    def take(self, new: GameState) -> None:
+    def update(self, state: GameState) -> None:
         """The next state."""
-        old, self.state = self.state, new
-        if old is None or new.half != old.half:
-            self._half_began, self._effective_began = new.clock, new.effective
-        for call in calls(old, new, self._sides):
-            self._say(new, call.signal, call.side)
+        before, self.state = self.state, state
+        if before is None or state.half != before.half:
+            self._half_began, self._effective_began = state.clock, state.effective
+        for call in calls(before, state, self._sides):
+            self._add_line(state, call.signal, call.side)
 
-    def _say(self, state: GameState, signal: Signal, side: Side | None) -> None:
-        moment = self._start_ms + round(state.time * 1e3)
+    def _add_line(self, state: GameState, signal: Signal, side: Side | None) -> None:
+        epoch_ms = self._start_ms + round(state.time * 1e3)
         run = max(0.0, state.effective - self._effective_began)
-        self.lines.append(_line(moment, self.game_s(state.clock), run, _part(state), signal, side))
+        self.lines.append(_line(epoch_ms, self.game_s(state.clock), run, _part(state), signal, side))
 
 
 def _part(state: GameState) -> str:
@@ -48,8 +48,8 @@ def _part(state: GameState) -> str:
     if state.phase is Phase.FULL_TIME:
         return "End Game"
     if state.phase is Phase.HALF_TIME:
-        return "Halftime" if state.stage is Stage.REGULAR else "Overtime - Halftime"
-    if state.stage is Stage.SHOOT_OUT:
+        return "Halftime" if state.stage is GameStage.REGULAR else "Overtime - Halftime"
+    if state.stage is GameStage.SHOOT_OUT:
         return "Penalties" if state.running else "Penalties/STOP"
     part = _PARTS.get(state.half, f"Half {state.half}")
     return part if state.running else f"{part} - STOP"
@@ -58,7 +58,7 @@ def _part(state: GameState) -> str:
 def _line(epoch_ms: int, game_s: float, run_s: float, state: str, signal: Signal, side: Side | None) -> str:
     """A line of the event file, as the referee box wrote it until 2019: five columns."""
     character = signal.character.lower() if side is Side.MAGENTA else signal.character
-    says = f"{side.value.upper()} {signal.says}" if side is not None and signal.sided else signal.says
+    says = f"{side.value.upper()} {signal.description}" if side is not None and signal.sided else signal.description
     return f"{epoch_ms},{_minutes(game_s)}({_minutes(run_s)}),{state},{character},{says}"
 
 

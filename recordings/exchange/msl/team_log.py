@@ -12,15 +12,15 @@ from statistics import median
 from typing import Any
 
 from schemas.league.findings import Findings
-from schemas.league.lenient import REQUIRED, fields_of, items_of, number, vector
+from schemas.league.lenient_json import REQUIRED, fields_of, items_of, number, vector
 
 GAP_S = 1.0
 """A team that says nothing for longer has a gap. Ours: ten times what the league asks for at least."""
 _BURST_S = 0.01
 """Records that follow each other faster came in a burst. Ours: no team thinks a hundred times a second."""
-_FAR_M = 40.0
+_MAX_COORDINATE_M = 40.0
 """A coordinate farther out is a mistake. Ours: the league's longest pitch is 22 m, so that 11 m are the goal line."""
-_OTHER_DAY_MS = 6 * 3600 * 1000
+_MAX_OFFSET_MS = 6 * 3600 * 1000
 """A record farther from the middle one has a clock of its own. Ours: no match lasts longer."""
 _RECORD = re.compile(r'\{\s*"(?:team|time|game|world)\w*"\s*:', re.IGNORECASE)
 """How a record begins, to find the next one behind damage."""
@@ -42,7 +42,7 @@ class TeamLog:
     """In the file."""
     read: int = 0
     """Of which a world state could be read."""
-    moments: list[float] = field(default_factory=list)
+    times_ms: list[float] = field(default_factory=list)
     """Time of each that was read, ms since 1970."""
     robots: dict[int, list[RobotRow]] = field(default_factory=dict)
     balls: list[BallRow] = field(default_factory=list)
@@ -50,7 +50,7 @@ class TeamLog:
 
 @dataclass(slots=True)
 class _Record:
-    moment: float
+    epoch_ms: float
     number: int
     team: str
     robots: dict[int, RobotRow]
@@ -61,16 +61,16 @@ def read_team(text: str, letter: str, findings: Findings) -> TeamLog:
     """The file of one team; `letter` is A or B."""
     log = TeamLog()
     found: list[_Record] = []
-    for number_, raw in enumerate(_raw_records(text, letter, findings), 1):
-        log.records = number_
-        findings.place = f"{letter}, record {number_}"
-        record = _record(raw, number_, findings)
+    for index, raw in enumerate(_raw_records(text, letter, findings), 1):
+        log.records = index
+        findings.place = f"{letter}, record {index}"
+        record = _record(raw, index, findings)
         if record is not None:
             found.append(record)
     kept = _in_order(found, letter, findings)
     log.read = len(kept)
     log.team = next((record.team for record in kept if record.team), "")
-    log.moments = [record.moment for record in kept]
+    log.times_ms = [record.epoch_ms for record in kept]
     for record in kept:
         for robot, row in record.robots.items():
             log.robots.setdefault(robot, []).append(row)
@@ -104,10 +104,10 @@ def _raw_records(text: str, letter: str, findings: Findings) -> Iterator[Any]:
         yield raw
 
 
-def _record(raw: Any, number_: int, findings: Findings) -> _Record | None:
+def _record(raw: Any, index: int, findings: Findings) -> _Record | None:
     record = fields_of(raw, findings)
-    moment = number(record.get("timestamp"), "timestamp", findings)
-    if moment is None or moment <= 0:
+    epoch_ms = number(record.get("timestamp"), "timestamp", findings)
+    if epoch_ms is None or epoch_ms <= 0:
         findings.note("record without a time", lost=True)
         return None
     content = record.get("worldstate")
@@ -126,7 +126,7 @@ def _record(raw: Any, number_: int, findings: Findings) -> _Record | None:
             findings.note(f"worldstate without {key}")
     robots: dict[int, RobotRow] = {}
     for one in items_of(world.get("robots")):
-        read = _robot(fields_of(one, findings), moment, findings)
+        read = _robot(fields_of(one, findings), epoch_ms, findings)
         if read is None:
             continue
         name, row = read
@@ -135,10 +135,12 @@ def _record(raw: Any, number_: int, findings: Findings) -> _Record | None:
         else:
             robots[name] = row
     team = record.get("teamName") or world.get("teamName")
-    return _Record(moment, number_, team if isinstance(team, str) else "", robots, _best_ball(world, moment, findings))
+    return _Record(
+        epoch_ms, index, team if isinstance(team, str) else "", robots, _best_ball(world, epoch_ms, findings)
+    )
 
 
-def _robot(robot: dict[str, Any], moment: float, findings: Findings) -> tuple[int, RobotRow] | None:
+def _robot(robot: dict[str, Any], epoch_ms: float, findings: Findings) -> tuple[int, RobotRow] | None:
     given = robot.get("id")
     name = number(given, "id of a robot", findings)
     if name is None or name != int(name) or not 0 <= name < 1000:
@@ -151,8 +153,8 @@ def _robot(robot: dict[str, Any], moment: float, findings: Findings) -> tuple[in
     if x is None or y is None:
         findings.note("robot without a position", lost=True)
         return None
-    if max(abs(x), abs(y)) > _FAR_M:
-        findings.note(f"robot more than {_FAR_M:g} m from the centre", lost=True)
+    if max(abs(x), abs(y)) > _MAX_COORDINATE_M:
+        findings.note(f"robot more than {_MAX_COORDINATE_M:g} m from the centre", lost=True)
         return None
     if heading is None:
         findings.note("robot without a heading: its last one stands in")
@@ -166,10 +168,10 @@ def _robot(robot: dict[str, Any], moment: float, findings: Findings) -> tuple[in
     if has_ball is None:
         findings.note("robot without ballEngaged: it counts as 0")
     rest = [_or_nan(value) for value in (heading, *velocity)]
-    return int(name), (moment, x, y, rest[0], rest[1], rest[2], rest[3], float((has_ball or 0.0) > 0.5))
+    return int(name), (epoch_ms, x, y, rest[0], rest[1], rest[2], rest[3], float((has_ball or 0.0) > 0.5))
 
 
-def _best_ball(world: dict[str, Any], moment: float, findings: Findings) -> BallRow | None:
+def _best_ball(world: dict[str, Any], epoch_ms: float, findings: Findings) -> BallRow | None:
     """The ball that the team is surest of."""
     best: BallRow | None = None
     for one in items_of(world.get("balls")):
@@ -178,8 +180,8 @@ def _best_ball(world: dict[str, Any], moment: float, findings: Findings) -> Ball
         if x is None or y is None:
             findings.note("ball without a position", lost=True)
             continue
-        if max(abs(x), abs(y)) > _FAR_M:
-            findings.note(f"ball more than {_FAR_M:g} m from the centre", lost=True)
+        if max(abs(x), abs(y)) > _MAX_COORDINATE_M:
+            findings.note(f"ball more than {_MAX_COORDINATE_M:g} m from the centre", lost=True)
             continue
         velocity = vector(ball.get("velocity"), 3, "velocity of a ball", findings)
         if velocity[0] is None or velocity[1] is None:
@@ -193,7 +195,7 @@ def _best_ball(world: dict[str, Any], moment: float, findings: Findings) -> Ball
             confidence = min(1.0, max(0.0, confidence))
         if best is None or confidence > best[-1]:
             vx, vy, vz = (_or_nan(value) for value in velocity)
-            best = (moment, x, y, _or_nan(z), vx, vy, vz, confidence)
+            best = (epoch_ms, x, y, _or_nan(z), vx, vy, vz, confidence)
     return best
 
 
@@ -205,29 +207,29 @@ def _in_order(found: list[_Record], letter: str, findings: Findings) -> list[_Re
     """The records by time, each moment once, without those of another day."""
     if not found:
         return []
-    middle = median(record.moment for record in found)
+    middle = median(record.epoch_ms for record in found)
     kept: list[_Record] = []
     newest = -math.inf
     for record in found:
         findings.place = f"{letter}, record {record.number}"
-        if abs(record.moment - middle) > _OTHER_DAY_MS:
+        if abs(record.epoch_ms - middle) > _MAX_OFFSET_MS:
             findings.note("record hours away from the others", lost=True)
             continue
-        if record.moment < newest:
+        if record.epoch_ms < newest:
             findings.note("record out of order: sorted by time")
-        newest = max(newest, record.moment)
+        newest = max(newest, record.epoch_ms)
         kept.append(record)
-    kept.sort(key=lambda record: record.moment)
-    once: list[_Record] = []
+    kept.sort(key=lambda record: record.epoch_ms)
+    merged: list[_Record] = []
     for record in kept:
         findings.place = f"{letter}, record {record.number}"
-        pause = (record.moment - once[-1].moment) / 1e3 if once else _BURST_S
-        if pause == 0:
+        gap_s = (record.epoch_ms - merged[-1].epoch_ms) / 1e3 if merged else _BURST_S
+        if gap_s == 0:
             findings.note("several records of one moment: the last stands")
-            once.pop()
-        elif pause < _BURST_S:
+            merged.pop()
+        elif gap_s < _BURST_S:
             findings.note(f"records in a burst, less than {_BURST_S * 1e3:g} ms apart")
-        elif pause > GAP_S:
+        elif gap_s > GAP_S:
             findings.note(f"gap of more than {GAP_S:g} s: what was not said is left out")
-        once.append(record)
-    return once
+        merged.append(record)
+    return merged

@@ -4,7 +4,7 @@ Numbers are those of the fields in protobuf's own `descriptor.proto`.
 """
 
 from recordings.exchange.protobuf.shape import Kind, Shape, ShapeField
-from recordings.exchange.protobuf.wire import content, whole
+from recordings.viz.protobuf_wire import content, whole
 
 PACKAGE = "touchline"
 _OPTIONAL, _REPEATED = 1, 3

@@ -3,7 +3,7 @@
 from typing import Any
 
 from recordings.exchange.protobuf.shape import VALUE_FIELDS, Kind, Shape, ShapeField
-from recordings.exchange.protobuf.wire import BYTES, DOUBLE, VARINT, content, double, tag, varint, whole
+from recordings.viz.protobuf_wire import BYTES, DOUBLE, VARINT, content, double, tag, varint, whole
 
 
 def encode(shape: Shape, values: dict[str, Any]) -> bytes:

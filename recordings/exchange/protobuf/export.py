@@ -4,19 +4,19 @@ from pathlib import Path
 
 from pydantic_core import to_json, to_jsonable_python
 
-from recordings.environment import library
-from recordings.exchange.outlet import Exported, outlet
+from recordings.container.environment import library
+from recordings.container.typed_writer import TypedWriter
+from recordings.exchange.atomic_output import ExportSummary, atomic_output
 from recordings.exchange.protobuf.descriptor import PACKAGE, descriptor_set, proto_text
 from recordings.exchange.protobuf.encode import encode
 from recordings.exchange.protobuf.shape import Shape, shape_of
-from recordings.reader import Recording
-from recordings.typed_writer import TypedWriter
+from recordings.reading.recording import Recording
 
 ORIGIN = "exported_from"
 """The metadata that tells where the messages come from."""
 
 
-def export(recording: Recording, out: Path) -> Exported:
+def export(recording: Recording, out: Path) -> ExportSummary:
     """Write every message that can be read, typed; the `.proto` of each type is attached.
 
     Raises:
@@ -31,7 +31,7 @@ def export(recording: Recording, out: Path) -> Exported:
         "contract": recording.manifest.contract,
         "setup": to_json(recording.manifest.setup).decode(),
     }
-    with outlet(out) as path, TypedWriter(path, library()) as writer:
+    with atomic_output(out) as path, TypedWriter(path, library()) as writer:
         writer.metadata(ORIGIN, origin)
         for recorded, message in recording.decoded():
             name = type(message).__name__
@@ -44,4 +44,4 @@ def export(recording: Recording, out: Path) -> Exported:
             payload = encode(shapes[name], to_jsonable_python(message, by_alias=True))
             writer.message(recorded.key, payload, recorded.log_ns, recorded.sent_ns, recorded.sequence)
             written[recorded.key] = written.get(recorded.key, 0) + 1
-    return Exported(out, written, dict(recording.unreadable))
+    return ExportSummary(out, written, dict(recording.unreadable))

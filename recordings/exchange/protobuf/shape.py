@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Any
 
-from recordings.json_schema import whole_schema
+from recordings.container.json_schema import whole_schema
 from schemas.message import Message
 
 

@@ -10,12 +10,12 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from recordings.reader import Recording
-from recordings.stats.figures import Figures
-from recordings.stats.measure import extent, figures_of_recording, setup_of
+from recordings.reading.recording import Recording
+from recordings.stats.figures import MatchFigures
+from recordings.stats.match_statistics import extent, figures_of_recording, setup_of
 from recordings.stats.page.content import content_of
-from recordings.stats.page.course import Course
-from recordings.stats.track import Tracks
+from recordings.stats.page.game_history import GameHistory
+from recordings.stats.tracks import Tracks
 from schemas.errors import TouchlineError
 
 SCRIPTS = (
@@ -26,7 +26,7 @@ SCRIPTS = (
     "keys.js",
     "timeline.js",
     "events.js",
-    "heat.js",
+    "heat_maps.js",
     "shots.js",
     "figures.js",
     "main.js",
@@ -34,16 +34,16 @@ SCRIPTS = (
 """Each imports only from those before it."""
 
 
-def page_of(recording: Recording) -> tuple[Figures, str]:
+def page_of(recording: Recording) -> tuple[MatchFigures, str]:
     """The figures of a recording, and its page as HTML.
 
     Raises:
         TouchlineError: it is damaged inside, has no setup, or no world.
     """
     setup = setup_of(recording)
-    tracks, course = Tracks(setup, *extent(recording)), Course()
-    figures = figures_of_recording(recording, tracks, course)
-    return figures, page(content_of(recording.manifest, setup, figures, tracks, course))
+    tracks, history = Tracks(setup, *extent(recording)), GameHistory()
+    figures = figures_of_recording(recording, tracks, history)
+    return figures, page(content_of(recording.manifest, setup, figures, tracks, history))
 
 
 def page(content: dict[str, Any]) -> str:

@@ -2,12 +2,12 @@
 
 import { disc, line } from "./pitch.js";
 
-const LOOKS = {
+const STYLES = {
   cyan: { fill: "#28b9dc", edge: "#05303a", ink: "#04222a" },
   magenta: { fill: "#c9237b", edge: "#3d0527", ink: "#ffffff" },
   null: { fill: "#b9c0bc", edge: "#333a36", ink: "#222222" },
 };
-const LARGER = 1.45; // than they are, or nobody could read their numbers
+const ROBOT_SCALE = 1.45; // than they are, or nobody could read their numbers
 const TRAIL_S = 1.6;
 const TRAIL_STEPS = 24;
 
@@ -38,8 +38,8 @@ function drawTrail(context, match, time) {
 }
 
 function drawRobot(context, robot, { x, y, heading }, holds) {
-  const look = LOOKS[robot.side] ?? LOOKS.null;
-  const radius = robot.radius * LARGER;
+  const style = STYLES[robot.side] ?? STYLES.null;
+  const radius = robot.radius * ROBOT_SCALE;
   context.save();
   context.translate(x, y);
   if (holds) {
@@ -50,14 +50,14 @@ function drawRobot(context, robot, { x, y, heading }, holds) {
     context.stroke();
   }
   context.rotate(heading);
-  context.fillStyle = look.edge;
+  context.fillStyle = style.edge;
   context.beginPath();
   context.moveTo(radius * 1.5, 0);
   context.lineTo(radius * 0.75, radius * 0.62);
   context.lineTo(radius * 0.75, -radius * 0.62);
   context.fill();
-  context.fillStyle = look.fill;
-  context.strokeStyle = look.edge;
+  context.fillStyle = style.fill;
+  context.strokeStyle = style.edge;
   context.lineWidth = 0.07;
   context.beginPath();
   if (robot.side === "magenta") context.roundRect(-radius * 0.9, -radius * 0.9, radius * 1.8, radius * 1.8, radius * 0.25);
@@ -66,7 +66,7 @@ function drawRobot(context, robot, { x, y, heading }, holds) {
   context.stroke();
   context.rotate(-heading);
   context.scale(1, -1);
-  context.fillStyle = look.ink;
+  context.fillStyle = style.ink;
   context.font = `700 ${radius * 1.25}px system-ui, "DejaVu Sans", sans-serif`;
   context.textAlign = "center";
   context.textBaseline = "middle";

@@ -1,4 +1,4 @@
-"""What a page shows, as plain data: pitch, tracks, course, events, momentum, tables."""
+"""What a page shows, as plain data: pitch, tracks, history, events, momentum, tables."""
 
 import dataclasses
 import re
@@ -7,26 +7,28 @@ from array import array
 from base64 import b64encode
 from typing import Any
 
-from recordings.manifest import Manifest
-from recordings.stats.figures import Figures
-from recordings.stats.kicks import SHOTS, KickStory, Outcome
-from recordings.stats.page.course import Course
+from recordings.container.manifest import Manifest
+from recordings.stats.figures import MatchFigures
+from recordings.stats.kicks import SHOTS, KickOutcome, KickRecord
+from recordings.stats.page.game_history import GameHistory
 from recordings.stats.table import ROBOT_HEADINGS, remarks, robot_rows, side_rows
-from recordings.stats.track import Tracks
+from recordings.stats.tracks import Tracks
 from schemas.game import EventKind, GameEvent
-from schemas.host import Setup
+from schemas.messages.host import Setup
 from schemas.side import Side
 
-_SILENT = frozenset({EventKind.STOP, EventKind.START, EventKind.AGENT, EventKind.PARAMETERS})
+_HIDDEN_KINDS = frozenset({EventKind.STOP, EventKind.START, EventKind.AGENT, EventKind.PARAMETERS})
 """Kinds of events that tell a spectator nothing that another beside it does not tell."""
-_SHOT_WORDS = {
-    Outcome.SAVED: "saved by {by}",
-    Outcome.BLOCKED: "blocked by {by}",
-    Outcome.MISSED: "misses",
+_SHOT_TEXTS = {
+    KickOutcome.SAVED: "saved by {by}",
+    KickOutcome.BLOCKED: "blocked by {by}",
+    KickOutcome.MISSED: "misses",
 }
 
 
-def content_of(manifest: Manifest, setup: Setup, figures: Figures, tracks: Tracks, course: Course) -> dict[str, Any]:
+def content_of(
+    manifest: Manifest, setup: Setup, figures: MatchFigures, tracks: Tracks, history: GameHistory
+) -> dict[str, Any]:
     """Everything that the scripts of the page read; times in s of simulated time, lengths in m unless said."""
     teams = {side.value: figures.sides[side].team for side in Side}
     return {
@@ -44,10 +46,10 @@ def content_of(manifest: Manifest, setup: Setup, figures: Figures, tracks: Track
         "ball": {"radius": setup.ball.radius}
         | {axis: _packed(getattr(tracks, f"ball_{axis}")) for axis in ("x", "y", "z")},
         "holder": _packed(tracks.holder),
-        "legs": [dataclasses.asdict(leg) for leg in course.legs],
-        "clock": course.clock,
+        "intervals": [dataclasses.asdict(interval) for interval in history.intervals],
+        "clock": history.clock,
         "events": _events(figures),
-        "shots": _shots(figures, course),
+        "shots": _shots(figures, history),
         "momentum": {"width": figures.momentum_width, "values": [round(value, 3) for value in figures.momentum]},
         "sides": [list(row) for row in side_rows(figures)],
         "table": {"headings": list(ROBOT_HEADINGS), "rows": [list(row) for row in robot_rows(figures)]},
@@ -69,7 +71,7 @@ def _robot(name: str, setup: Setup, tracks: Tracks) -> dict[str, Any]:
         "name": name,
         "side": tracks.sides.get(name),
         "number": _number(name),
-        "radius": setup.seen_by(name).robot.radius,
+        "radius": setup.for_robot(name).robot.radius,
         "x": _packed(track.x),
         "y": _packed(track.y),
         "heading": _packed(track.heading),
@@ -90,11 +92,11 @@ def _packed(values: "array[int]") -> str:
     return b64encode(values.tobytes()).decode()
 
 
-def _events(figures: Figures) -> list[dict[str, Any]]:
+def _events(figures: MatchFigures) -> list[dict[str, Any]]:
     """Events, and the shots that no event tells of, in order of time."""
-    told = [_event(event) for event in figures.events if event.kind not in _SILENT]
-    shots = [_shot(story) for story in figures.kicks if story.outcome in _SHOT_WORDS]
-    return sorted([*told, *shots], key=lambda one: one["time"])
+    events = [_event(event) for event in figures.events if event.kind not in _HIDDEN_KINDS]
+    shots = [_shot(kick) for kick in figures.kicks if kick.outcome in _SHOT_TEXTS]
+    return sorted([*events, *shots], key=lambda one: one["time"])
 
 
 def _event(event: GameEvent) -> dict[str, Any]:
@@ -107,25 +109,25 @@ def _event(event: GameEvent) -> dict[str, Any]:
     }
 
 
-def _shot(story: KickStory) -> dict[str, Any]:
-    became = _SHOT_WORDS[story.outcome].format(by=story.by)
+def _shot(kick: KickRecord) -> dict[str, Any]:
+    outcome = _SHOT_TEXTS[kick.outcome].format(by=kick.by)
     return {
-        "time": story.time,
-        "clock": round(story.clock, 2),
-        "kind": "save" if story.outcome is Outcome.SAVED else "shot",
-        "side": story.side.value,
-        "text": f"shot of {story.robot} at {story.speed:.1f} m/s {became}",
+        "time": kick.time,
+        "clock": round(kick.clock, 2),
+        "kind": "save" if kick.outcome is KickOutcome.SAVED else "shot",
+        "side": kick.side.value,
+        "text": f"shot of {kick.robot} at {kick.speed:.1f} m/s {outcome}",
     }
 
 
-def _shots(figures: Figures, course: Course) -> list[dict[str, Any]]:
+def _shots(figures: MatchFigures, history: GameHistory) -> list[dict[str, Any]]:
     """Places of shots with cyan attacking +x throughout."""
     shots = []
-    for story in figures.kicks:
-        if story.outcome in SHOTS:
-            sign = course.cyan_attacks(story.time)
-            place = {"x": round(sign * story.x, 2), "y": round(sign * story.y, 2)}
-            shots.append({**place, "side": story.side.value, "outcome": story.outcome.value})
+    for kick in figures.kicks:
+        if kick.outcome in SHOTS:
+            sign = history.cyan_attacks(kick.time)
+            place = {"x": round(sign * kick.x, 2), "y": round(sign * kick.y, 2)}
+            shots.append({**place, "side": kick.side.value, "outcome": kick.outcome.value})
     return shots
 
 

@@ -1,9 +1,9 @@
 // The list of events: each is a button that jumps there.
 
-import { clockWords } from "./match.js";
+import { formatClock } from "./match.js";
 
 const KEY_KINDS = new Set(["goal", "no_goal", "shot", "save", "foul", "card", "forfeit", "half_time", "full_time", "scene"]);
-const SIGNS = {
+const SYMBOLS = {
   goal: "★", shot: "◆", save: "◇", foul: "✕", card: "▮", ball_out: "↗", restart: "↻", half_time: "◐", full_time: "■",
 };
 const LEAD_S = 2; // one wants to see how it came to that
@@ -30,14 +30,14 @@ export class Events {
     const row = document.createElement("li"), button = document.createElement("button");
     row.className = `side-${event.side ?? "none"}${event.kind === "goal" ? " big" : ""}`;
     button.type = "button";
-    const time = element("time", clockWords(event.clock)), sign = element("span", SIGNS[event.kind] ?? "·");
-    sign.className = "sign";
-    sign.setAttribute("aria-hidden", "true");
-    const words = element("span", ""), kind = element("span", event.kind.replaceAll("_", " ")), what = element("span", event.text);
+    const time = element("time", formatClock(event.clock)), symbol = element("span", SYMBOLS[event.kind] ?? "·");
+    symbol.className = "symbol";
+    symbol.setAttribute("aria-hidden", "true");
+    const text = element("span", ""), kind = element("span", event.kind.replaceAll("_", " ")), what = element("span", event.text);
     kind.className = "kind";
     what.className = "what";
-    words.append(kind, what);
-    button.append(time, sign, words);
+    text.append(kind, what);
+    button.append(time, symbol, text);
     button.addEventListener("click", () => this.seek(event.time - LEAD_S));
     row.append(button);
     return row;

@@ -2,14 +2,14 @@
 
 /** Listens for keys, unless they are typed into a control that has its own use for them. */
 export function listenForKeys(player, match, speed, jump) {
-  const picture = 1 / match.rate;
-  const deeds = {
+  const frame = 1 / match.rate;
+  const actions = {
     " ": () => player.toggle(),
     k: () => player.toggle(),
-    ArrowLeft: (far) => player.seek(player.time - (far ? 10 : 1)),
-    ArrowRight: (far) => player.seek(player.time + (far ? 10 : 1)),
-    ",": () => player.seek(player.time - picture),
-    ".": () => player.seek(player.time + picture),
+    ArrowLeft: (withShift) => player.seek(player.time - (withShift ? 10 : 1)),
+    ArrowRight: (withShift) => player.seek(player.time + (withShift ? 10 : 1)),
+    ",": () => player.seek(player.time - frame),
+    ".": () => player.seek(player.time + frame),
     ArrowUp: () => changeSpeed(speed, 1),
     ArrowDown: () => changeSpeed(speed, -1),
     n: () => jump(1),
@@ -18,11 +18,11 @@ export function listenForKeys(player, match, speed, jump) {
     End: () => player.seek(match.end),
   };
   document.addEventListener("keydown", (event) => {
-    const deed = deeds[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    const taken = event.target.matches("select, .scroll") || (event.key === " " && event.target.matches("button"));
-    if (!deed || taken || event.ctrlKey || event.metaKey || event.altKey) return;
+    const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    const hasOwnUse = event.target.matches("select, .scroll") || (event.key === " " && event.target.matches("button"));
+    if (!action || hasOwnUse || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
-    deed(event.shiftKey);
+    action(event.shiftKey);
   });
 }
 

@@ -3,9 +3,9 @@
 import { drawBodies } from "./bodies.js";
 import { Events } from "./events.js";
 import { showRobots, showSides } from "./figures.js";
-import { drawHeatMaps, redrawHeatMaps } from "./heat.js";
+import { drawHeatMaps, redrawHeatMaps } from "./heat_maps.js";
 import { listenForKeys } from "./keys.js";
-import { clockWords, readMatch } from "./match.js";
+import { formatClock, readMatch } from "./match.js";
 import { drawGrass, drawLines, fitted } from "./pitch.js";
 import { Player } from "./player.js";
 import { drawShots } from "./shots.js";
@@ -18,15 +18,15 @@ const seek = (time) => player.seek(time);
 const timeline = new Timeline(byId("momentum"), match, seek);
 const events = new Events(byId("events"), { key: byId("key-events"), all: byId("all-events") }, match, seek);
 const margin = Math.max(match.pitch.goal_depth + 0.25, Math.min(match.pitch.border, 1));
-const grass = document.createElement("canvas");
+const pitchLayer = document.createElement("canvas");
 
 function fit() {
   const context = fitted(byId("pitch"), match.pitch, margin);
   drawGrass(context, match.pitch);
   drawLines(context, match.pitch);
-  grass.width = context.canvas.width;
-  grass.height = context.canvas.height;
-  grass.getContext("2d").drawImage(context.canvas, 0, 0);
+  pitchLayer.width = context.canvas.width;
+  pitchLayer.height = context.canvas.height;
+  pitchLayer.getContext("2d").drawImage(context.canvas, 0, 0);
   timeline.fit();
   redrawHeatMaps(byId("heat"));
   drawShots(byId("shots"), match);
@@ -37,24 +37,24 @@ function show({ time, playing }) {
   const context = byId("pitch").getContext("2d");
   context.save();
   context.setTransform(1, 0, 0, 1, 0, 0);
-  context.drawImage(grass, 0, 0);
+  context.drawImage(pitchLayer, 0, 0);
   context.restore();
   drawBodies(context, match, time);
   timeline.draw(time);
   events.mark(time);
-  const leg = match.leg(time), scrub = byId("scrub");
+  const interval = match.interval(time), scrub = byId("scrub");
   scrub.value = String(time);
-  scrub.setAttribute("aria-valuetext", clockWords(time - match.start, true));
-  byId("clock").textContent = clockWords(match.clockAt(time), true);
-  byId("phase").textContent = leg ? phaseWords(leg) : "";
-  byId("score").textContent = leg?.score ? leg.score.join(" : ") : "– : –";
+  scrub.setAttribute("aria-valuetext", formatClock(time - match.start, true));
+  byId("clock").textContent = formatClock(match.clockAt(time), true);
+  byId("phase").textContent = interval ? phaseText(interval) : "";
+  byId("score").textContent = interval?.score ? interval.score.join(" : ") : "– : –";
   byId("play").classList.toggle("playing", playing);
   byId("play").setAttribute("aria-label", playing ? "Pause (space)" : "Play (space)");
 }
 
-function phaseWords(leg) {
-  const phase = leg.phase.replaceAll("_", " ");
-  return leg.side ? `${phase}, ${match.teams[leg.side]}` : phase;
+function phaseText(interval) {
+  const phase = interval.phase.replaceAll("_", " ");
+  return interval.side ? `${phase}, ${match.teams[interval.side]}` : phase;
 }
 
 for (const [side, ids] of [["cyan", ["cyan-name", "cyan-up", "cyan-right"]], ["magenta", ["magenta-name", "magenta-down", "magenta-left"]]]) {
@@ -63,7 +63,7 @@ for (const [side, ids] of [["cyan", ["cyan-name", "cyan-up", "cyan-right"]], ["m
 byId("about").textContent = [match.match, match.started.slice(0, 16).replace("T", " ") + " UTC", ...match.about].join(" · ");
 byId("in-play").textContent = match.in_play.seconds === null
   ? ""
-  : `${clockWords(match.end - match.start)} recorded, ball in play ${clockWords(match.in_play.seconds)} (${Math.round(100 * match.in_play.share)} %)`;
+  : `${formatClock(match.end - match.start)} recorded, ball in play ${formatClock(match.in_play.seconds)} (${Math.round(100 * match.in_play.share)} %)`;
 byId("remarks").replaceChildren(...match.remarks.map((text) => Object.assign(document.createElement("li"), { textContent: text })));
 showSides(byId("sides"), match.sides);
 showRobots(byId("robots"), match.table, match.robots);

@@ -1,14 +1,14 @@
 // The match as data: where everybody was at any time, what was being played, the events.
 
-const AWAY = -32768;
-const NOBODY = 255;
-const JUMP_CM = 120; // between two samples: whoever moved farther was set down there
+const ABSENT = -32768;
+const NO_HOLDER = 255;
+const MAX_STEP_CM = 120; // between two samples: whoever moved farther was set down there
 
 function bytes(text) {
   return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 }
 
-function words(text) {
+function int16s(text) {
   return new Int16Array(bytes(text).buffer);
 }
 
@@ -16,9 +16,9 @@ function words(text) {
 export function readMatch(text) {
   const content = JSON.parse(text);
   const robots = content.robots.map((robot) => ({
-    ...robot, x: words(robot.x), y: words(robot.y), heading: bytes(robot.heading),
+    ...robot, x: int16s(robot.x), y: int16s(robot.y), heading: bytes(robot.heading),
   }));
-  const ball = { ...content.ball, x: words(content.ball.x), y: words(content.ball.y), z: words(content.ball.z) };
+  const ball = { ...content.ball, x: int16s(content.ball.x), y: int16s(content.ball.y), z: int16s(content.ball.z) };
   return new Match({ ...content, robots, ball, holder: bytes(content.holder) });
 }
 
@@ -39,22 +39,22 @@ class Match {
   bodies(time) {
     const [before, after, way] = this.place(time);
     const robots = this.robots.map((robot) => {
-      if (robot.x[before] === AWAY) return null;
+      if (robot.x[before] === ABSENT) return null;
       const point = between(robot, before, after, way);
       const turn = ((robot.heading[after] - robot.heading[before] + 384) % 256) - 128;
       return { ...point, heading: ((robot.heading[before] + turn * way) * Math.PI) / 128 };
     });
     const z = this.ball.z[before] + (this.ball.z[after] - this.ball.z[before]) * way;
     const ball = { ...between(this.ball, before, after, way), z: z / 100 };
-    return { robots, ball, holder: this.holder[before] === NOBODY ? null : this.holder[before] };
+    return { robots, ball, holder: this.holder[before] === NO_HOLDER ? null : this.holder[before] };
   }
 
   /** What holds at a time: phase, side, score; nothing before the referee said anything. */
-  leg(time) {
+  interval(time) {
     let found = null;
-    for (const leg of this.legs) {
-      if (leg.time > time + 1e-6) break;
-      found = leg;
+    for (const interval of this.intervals) {
+      if (interval.time > time + 1e-6) break;
+      found = interval;
     }
     return found;
   }
@@ -69,22 +69,22 @@ class Match {
 
   /** From when to when the ball was in play, and what held then. */
   inPlay() {
-    return this.legs
-      .map((leg, number) => [leg, this.legs[number + 1]?.time ?? this.end])
-      .filter(([leg]) => leg.phase === "play" && leg.running)
-      .map(([leg, until]) => [leg.time, until, leg]);
+    return this.intervals
+      .map((interval, number) => [interval, this.intervals[number + 1]?.time ?? this.end])
+      .filter(([interval]) => interval.phase === "play" && interval.running)
+      .map(([interval, until]) => [interval.time, until, interval]);
   }
 }
 
 function between(track, before, after, way) {
   const x = track.x[before], y = track.y[before];
   let dx = track.x[after] - x, dy = track.y[after] - y;
-  if (track.x[after] === AWAY || Math.hypot(dx, dy) > JUMP_CM) dx = dy = 0;
+  if (track.x[after] === ABSENT || Math.hypot(dx, dy) > MAX_STEP_CM) dx = dy = 0;
   return { x: (x + dx * way) / 100, y: (y + dy * way) / 100 };
 }
 
 /** Seconds as people read a clock. */
-export function clockWords(seconds, tenths = false) {
+export function formatClock(seconds, tenths = false) {
   const whole = tenths ? Math.floor(seconds * 10) / 10 : Math.floor(seconds);
   const minutes = Math.floor(whole / 60);
   const rest = whole - 60 * minutes;

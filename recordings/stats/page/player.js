@@ -1,14 +1,14 @@
 // Time: where in the match the page is, and whether it goes on.
 
 export class Player {
-  /** `changed` is told each new time; `clock` says how late it is, in ms. */
-  constructor(start, end, changed, clock = () => performance.now()) {
-    Object.assign(this, { start, end, changed, clock, time: start, rate: 1, playing: false });
+  /** `onChange` is told each new time; `clock` says how late it is, in ms. */
+  constructor(start, end, onChange, clock = () => performance.now()) {
+    Object.assign(this, { start, end, onChange, clock, time: start, rate: 1, playing: false });
   }
 
   seek(time) {
     this.time = Math.min(Math.max(time, this.start), this.end);
-    this.changed(this);
+    this.onChange(this);
   }
 
   play() {
@@ -16,22 +16,22 @@ export class Player {
     if (this.time >= this.end) this.time = this.start;
     this.playing = true;
     this.last = this.clock();
-    const picture = () => {
+    const frame = () => {
       if (!this.playing) return;
       const now = this.clock();
       this.time = Math.min(this.end, this.time + ((now - this.last) / 1000) * this.rate);
       this.last = now;
       if (this.time >= this.end) this.playing = false;
-      this.changed(this);
-      requestAnimationFrame(picture);
+      this.onChange(this);
+      requestAnimationFrame(frame);
     };
-    this.changed(this);
-    requestAnimationFrame(picture);
+    this.onChange(this);
+    requestAnimationFrame(frame);
   }
 
   pause() {
     this.playing = false;
-    this.changed(this);
+    this.onChange(this);
   }
 
   toggle() {

@@ -3,7 +3,7 @@
 import { drawGrass, drawLines, fitted } from "./pitch.js";
 
 const SHOT_COLOURS = { cyan: "#4fd3f2", magenta: "#ff7fc0" };
-const OUTCOME_SIGNS = { goal: "★", saved: "◆", blocked: "■", missed: "✕" };
+const OUTCOME_SYMBOLS = { goal: "★", saved: "◆", blocked: "■", missed: "✕" };
 
 export function drawShots(canvas, match) {
   const context = fitted(canvas, match.pitch, 0.9);
@@ -25,7 +25,7 @@ export function drawShots(canvas, match) {
     context.scale(1, -1);
     context.font = `${goal ? 1.2 : 0.85}px "DejaVu Sans", system-ui, sans-serif`;
     context.fillStyle = SHOT_COLOURS[shot.side];
-    context.fillText(OUTCOME_SIGNS[shot.outcome], 0, 0);
+    context.fillText(OUTCOME_SYMBOLS[shot.outcome], 0, 0);
     context.restore();
   }
 }

@@ -25,10 +25,10 @@ export class Timeline {
     this.canvas.width = Math.round(this.canvas.clientWidth * density);
     this.canvas.height = Math.round(this.canvas.clientHeight * density);
     this.density = density;
-    this.still = document.createElement("canvas");
-    this.still.width = this.canvas.width;
-    this.still.height = this.canvas.height;
-    this.drawStill(this.still.getContext("2d"), getComputedStyle(this.canvas));
+    this.background = document.createElement("canvas");
+    this.background.width = this.canvas.width;
+    this.background.height = this.canvas.height;
+    this.drawBackground(this.background.getContext("2d"), getComputedStyle(this.canvas));
   }
 
   x(time) {
@@ -36,7 +36,7 @@ export class Timeline {
     return ((time - start) / Math.max(end - start, 1e-9)) * this.canvas.width;
   }
 
-  drawStill(context, style) {
+  drawBackground(context, style) {
     const { width, height } = this.canvas, middle = height / 2, reach = middle - 16 * this.density;
     const quiet = style.color;
     context.globalAlpha = 0.08;
@@ -75,7 +75,7 @@ export class Timeline {
   draw(time) {
     const context = this.canvas.getContext("2d");
     context.clearRect(0, 0, this.canvas.width, this.canvas.height);
-    context.drawImage(this.still, 0, 0);
+    context.drawImage(this.background, 0, 0);
     context.fillStyle = getComputedStyle(this.canvas).color;
     context.fillRect(this.x(time) - this.density, 0, 2 * this.density, this.canvas.height);
   }

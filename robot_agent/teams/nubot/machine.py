@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 from robot_agent.bodies import Body
 from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
-from schemas.command import Kick, KickMode
+from schemas.config.sections import Pitch
 from schemas.frames import wrap
-from schemas.sections import Field
+from schemas.messages.command import Kick, KickMode
 
 REACH = 0.40
 """m, centre to centre; CHASE_BALL ends here."""
@@ -47,7 +47,7 @@ class Points(NamedTuple):
     goal: tuple[float, float] = (9.0, 0.0)
     reset: tuple[float, float] = (-4.0, -2.0)
 
-    def on(self, pitch: Field) -> "Points":
+    def on(self, pitch: Pitch) -> "Points":
         """The same points on another pitch."""
         along, across = pitch.length / 18.0, pitch.width / 12.0
         return Points(*((x * along, y * across) for x, y in self))
@@ -65,7 +65,7 @@ class Situation(NamedTuple):
     kicker_ready: bool = True
 
 
-class Doing(NamedTuple):
+class MachineOutput(NamedTuple):
     """What the machine wants at one tick: velocity in the team frame, m/s and rad/s."""
 
     vx: float = 0.0
@@ -117,7 +117,7 @@ def world_reset(now: Situation, points: Points) -> bool:
     return now.world_reset
 
 
-class Row(NamedTuple):
+class Transition(NamedTuple):
     """One transition."""
 
     state: State
@@ -125,15 +125,15 @@ class Row(NamedTuple):
     next: State
 
 
-TABLE = (
-    Row(State.CHASE_BALL, ball_in_reach, State.MOVE_BALL),
-    Row(State.MOVE_BALL, hold_lost, State.CHASE_BALL),
-    Row(State.MOVE_BALL, at_dribble_point, State.ROTATE_BALL),
-    Row(State.ROTATE_BALL, hold_lost, State.CHASE_BALL),
-    Row(State.ROTATE_BALL, facing_goal, State.KICK_BALL),
-    Row(State.KICK_BALL, at_once, State.RESET),
-    Row(State.RESET, at_reset_point, State.HOME),
-    Row(State.HOME, world_reset, State.CHASE_BALL),
+TRANSITIONS = (
+    Transition(State.CHASE_BALL, ball_in_reach, State.MOVE_BALL),
+    Transition(State.MOVE_BALL, hold_lost, State.CHASE_BALL),
+    Transition(State.MOVE_BALL, at_dribble_point, State.ROTATE_BALL),
+    Transition(State.ROTATE_BALL, hold_lost, State.CHASE_BALL),
+    Transition(State.ROTATE_BALL, facing_goal, State.KICK_BALL),
+    Transition(State.KICK_BALL, at_once, State.RESET),
+    Transition(State.RESET, at_reset_point, State.HOME),
+    Transition(State.HOME, world_reset, State.CHASE_BALL),
 )
 """All transitions; the first row of a state whose condition is met decides, one in each tick."""
 
@@ -149,13 +149,13 @@ class Machine:
         """Begin at CHASE_BALL again, from whatever state."""
         self._enter(State.CHASE_BALL)
 
-    def step(self, now: Situation) -> Doing:
+    def step(self, now: Situation) -> MachineOutput:
         """Take the transition that is due, and do what the state does."""
-        for row in TABLE:
+        for row in TRANSITIONS:
             if row.state is self.state and row.condition(now, self.points):
                 self._enter(row.next)
                 break
-        return _DOES[self.state](self, now)
+        return _ACTIONS[self.state](self, now)
 
     def _enter(self, state: State) -> None:
         self.state = state
@@ -163,34 +163,34 @@ class Machine:
         self._speed = self._rate = 0.0
         self._faced = False
 
-    def _chase(self, now: Situation) -> Doing:
+    def _chase(self, now: Situation) -> MachineOutput:
         """Rotate toward the ball, then translate to it; from the start, with the speeds it has, when the ball moved."""
         if not math.dist(now.ball, self._target) <= MOVED:
             self._target, self._faced = now.ball, False
         self._faced = self._faced or abs(_error(now.me, now.ball)) <= FACING / 2.0
         if not self._faced:
             self._speed = 0.0
-            return Doing(omega=self._turn(now, now.ball), dribble=True)
+            return MachineOutput(omega=self._turn(now, now.ball), dribble=True)
         vx, vy = self._translate(now, now.ball)
         keep = max(-ROTATION.top, min(ROTATION.top, _KEEP * _error(now.me, now.ball)))
-        return Doing(vx, vy, keep, dribble=True)
+        return MachineOutput(vx, vy, keep, dribble=True)
 
-    def _move_ball(self, now: Situation) -> Doing:
-        return Doing(*self._translate(now, self.points.dribble), dribble=True)
+    def _move_ball(self, now: Situation) -> MachineOutput:
+        return MachineOutput(*self._translate(now, self.points.dribble), dribble=True)
 
-    def _rotate_ball(self, now: Situation) -> Doing:
-        return Doing(omega=self._turn(now, self.points.goal), dribble=True)
+    def _rotate_ball(self, now: Situation) -> MachineOutput:
+        return MachineOutput(omega=self._turn(now, self.points.goal), dribble=True)
 
-    def _kick_ball(self, now: Situation) -> Doing:
+    def _kick_ball(self, now: Situation) -> MachineOutput:
         del now
-        return Doing(dribble=True, kick=KICK)
+        return MachineOutput(dribble=True, kick=KICK)
 
-    def _reset(self, now: Situation) -> Doing:
-        return Doing(*self._translate(now, self.points.reset))
+    def _reset(self, now: Situation) -> MachineOutput:
+        return MachineOutput(*self._translate(now, self.points.reset))
 
-    def _home(self, now: Situation) -> Doing:
+    def _home(self, now: Situation) -> MachineOutput:
         del now
-        return Doing()
+        return MachineOutput()
 
     def _turn(self, now: Situation, target: tuple[float, float]) -> float:
         error = _error(now.me, target)
@@ -209,7 +209,7 @@ class Machine:
         return self._speed * dx / left, self._speed * dy / left
 
 
-_DOES: dict[State, Callable[[Machine, Situation], Doing]] = {
+_ACTIONS: dict[State, Callable[[Machine, Situation], MachineOutput]] = {
     State.CHASE_BALL: Machine._chase,
     State.MOVE_BALL: Machine._move_ball,
     State.ROTATE_BALL: Machine._rotate_ball,

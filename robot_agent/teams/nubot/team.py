@@ -12,15 +12,15 @@ from robot_agent.skills.pass_to import best_receiver, pass_speed, pass_to
 from robot_agent.skills.take_ball import take_ball
 from robot_agent.skills.turn_to import turn_rate
 from robot_agent.teams.action import Action
-from robot_agent.teams.nubot.machine import KICK, Doing, Machine, Points, Situation, State
+from robot_agent.teams.nubot.machine import KICK, Machine, MachineOutput, Points, Situation, State
 from robot_agent.teams.nubot.trajectory import ROTATION
 from robot_agent.teams.player import Player
 from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
-from robot_agent.world_model import Scene, SeenBall, places_of
-from schemas.coach import CoachOrder, CoachTest
-from schemas.command import Drive, KickMode
+from robot_agent.world_model import SeenBall, WorldBelief, places_of
 from schemas.game import TeamPhase
+from schemas.messages.coach import CoachOrder, CoachTest
+from schemas.messages.command import Drive, KickMode
 
 HOMES = ((-10.5, 0.0), (-2.0, 1.0), (-2.0, -1.0), (-5.0, 2.0), (-5.0, -2.0))
 """m on 22 × 14 m, the goalkeeper first; simatch's start poses."""
@@ -72,48 +72,50 @@ class NuBot(Player):
         self._shown = 0
         """Number of the order that the machine was last begun for."""
 
-    def begin_anew(self) -> None:
+    def restart(self) -> None:
         """The paper's reset of the world: its machine begins again, from whatever state."""
-        super().begin_anew()
+        super().restart()
         self._machine.restart()
 
-    def show(self, scene: Scene, order: CoachOrder) -> Action:
+    def show_test(self, belief: WorldBelief, order: CoachOrder) -> Action:
         """Every team's tests, and the paper's: one robot runs the machine once, to the order's points or its own."""
-        if order.test is not CoachTest.MACHINE or order.robot_a != self.briefing.robot or scene.ball is None:
-            return super().show(scene, order)
+        if order.test is not CoachTest.MACHINE or order.robot_a != self.briefing.robot or belief.ball is None:
+            return super().show_test(belief, order)
         if order.sequence != self._shown:
             self._machine.restart()
             self._shown = order.sequence
         dribble = (order.point_a.x, order.point_a.y) if order.point_a else self._points.dribble
         reset = (order.point_b.x, order.point_b.y) if order.point_b else self._points.reset
         self._machine.points = Points(dribble, self._points.goal, reset)
-        situation = Situation(scene.me, scene.ball.now[:2], scene.holding, scene.dt, kicker_ready=scene.kicker_ready)
-        in_the_way = scene.others if order.avoid else scene.opponents
-        return self._carried_out(scene._replace(opponents=in_the_way), self._machine.step(situation))
+        situation = Situation(
+            belief.me, belief.ball.now[:2], belief.holding, belief.dt, kicker_ready=belief.kicker_ready
+        )
+        in_the_way = belief.others if order.avoid else belief.opponents
+        return self._carried_out(belief._replace(opponents=in_the_way), self._machine.step(situation))
 
-    def play(self, scene: Scene, order: CoachOrder | None) -> Action:
+    def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
         """Keep, play the ball, or hold the place."""
-        ball = scene.ball
+        ball = belief.ball
         del order
-        self._promised = promise_after(self._promised, scene)
+        self._promised = promise_after(self._promised, belief)
         if ball is None:
-            return self._hold(scene, self._home)
-        spot = _spot(scene, ball)
+            return self._hold(belief, self._home)
+        spot = _spot(belief, ball)
         if self.is_keeper:
-            return self._keep(scene, ball, spot)
-        plays = self._nearest(scene, spot) == self.briefing.robot
+            return self._keep(belief, ball, spot)
+        plays = self._nearest(belief, spot) == self.briefing.robot
         self._role = PLAYS if plays else HOLDS
-        phase = scene.game.phase
-        if not plays or phase.theirs or (phase is TeamPhase.DROP_BALL and not scene.game.running):
+        phase = belief.game.phase
+        if not plays or phase.theirs or (phase is TeamPhase.DROP_BALL and not belief.game.running):
             self._machine.restart()
-            return self._hold(scene, spot)
-        return self._take_restart(scene, ball, spot) if phase.ours else self._run_machine(scene, ball)
+            return self._hold(belief, spot)
+        return self._take_restart(belief, ball, spot) if phase.ours else self._run_machine(belief, ball)
 
-    def _nearest(self, scene: Scene, spot: tuple[float, float]) -> str:
+    def _nearest(self, belief: WorldBelief, spot: tuple[float, float]) -> str:
         """The field robot that plays the ball: the nearest; who does already or was promised it, unless farther."""
         promised = self._promised.receiver if self._promised is not None else None
-        robots = [(self.briefing.robot, scene.me, self._role)]
-        robots += [(name, mate.body, mate.role) for name, mate in scene.mates.items() if name != self.keeper]
+        robots = [(self.briefing.robot, belief.me, self._role)]
+        robots += [(name, mate.body, mate.role) for name, mate in belief.mates.items() if name != self.keeper]
         nearest, least = "", math.inf
         for name, body, role in robots:
             away = math.dist(spot, body[:2]) - (LOYALTY if role == PLAYS else 0.0)
@@ -122,31 +124,31 @@ class NuBot(Player):
                 nearest, least = name, away
         return nearest
 
-    def _run_machine(self, scene: Scene, ball: SeenBall) -> Action:
+    def _run_machine(self, belief: WorldBelief, ball: SeenBall) -> Action:
         """The paper's machine; when it has kicked and the ball is this robot's own again, it begins anew."""
-        self._machine.points = self._points._replace(dribble=self._dribble_point(scene, ball))
+        self._machine.points = self._points._replace(dribble=self._dribble_point(belief, ball))
         back = self._machine.state in (State.RESET, State.HOME)
         if back and math.hypot(ball.now.vx, ball.now.vy) < _KICKED:
             self._machine.restart()
-        doing = self._machine.step(
-            Situation(scene.me, ball.now[:2], scene.holding, scene.dt, kicker_ready=scene.kicker_ready)
+        output = self._machine.step(
+            Situation(belief.me, ball.now[:2], belief.holding, belief.dt, kicker_ready=belief.kicker_ready)
         )
         if self._machine.state is State.CHASE_BALL:
             self._receiver = None
-            return Action(PLAYS, self._machine.state.value, self._meet(scene, ball), dribble=True)
-        if scene.holding and not self.may_score:
-            prepared = self._pass_ahead(scene)
+            return Action(PLAYS, self._machine.state.value, self._meet(belief, ball), dribble=True)
+        if belief.holding and not self.may_score:
+            prepared = self._pass_ahead(belief)
             if prepared is not None:
                 return prepared
-        return self._carried_out(scene, doing)
+        return self._carried_out(belief, output)
 
-    def _pass_ahead(self, scene: Scene) -> Action | None:
+    def _pass_ahead(self, belief: WorldBelief) -> Action | None:
         """Where a goal would not count, to a teammate in the other half, if there is one whom a pass reaches."""
-        ahead = {name: place for name, place in places_of(scene.mates).items() if place[0] > _PREPARED}
-        self._receiver = receiver = best_receiver(scene.me[:2], ahead, scene.opponents, chosen=self._receiver)
+        ahead = {name: place for name, place in places_of(belief.mates).items() if place[0] > _PREPARED}
+        self._receiver = receiver = best_receiver(belief.me[:2], ahead, belief.opponents, chosen=self._receiver)
         if receiver is None:
             return None
-        motion, kick = pass_to(scene.me, ahead[receiver], self.setup, self.limits)
+        motion, kick = pass_to(belief.me, ahead[receiver], self.setup, self.limits)
         return self._promising(Action(PLAYS, "pass ahead", motion, dribble=True, kick=kick), receiver)
 
     def _promising(self, action: Action, receiver: str | None) -> Action:
@@ -156,86 +158,86 @@ class NuBot(Player):
         self._promised = Promise(receiver)
         return action._replace(pass_to=receiver)
 
-    def _dribble_point(self, scene: Scene, ball: SeenBall) -> tuple[float, float]:
+    def _dribble_point(self, belief: WorldBelief, ball: SeenBall) -> tuple[float, float]:
         """The paper's point or its mirror image on the ball's side; where the robot is, once that is near enough."""
         x, y = self._points.dribble
         point = x, math.copysign(y, ball.now.y)
-        return scene.me[:2] if math.dist(point, scene.me[:2]) < _NEAR_ENOUGH else point
+        return belief.me[:2] if math.dist(point, belief.me[:2]) < _NEAR_ENOUGH else point
 
-    def _meet(self, scene: Scene, ball: SeenBall) -> Drive:
+    def _meet(self, belief: WorldBelief, ball: SeenBall) -> Drive:
         """CHASE_BALL in a match: the paper's ball lies still, this one rolls, or an opponent has it."""
         way = way_of(ball.now, self.setup.ball.rolling_deceleration)
         gap, clearance = self.setup.dribble.gap, 2.0 * self.setup.robot.reach + 0.05
-        meeting = meet(scene.me, way, gap, self.limits)
-        foes, mates = scene.opponents, places_of(scene.mates).values()
-        return take_ball(scene.me, ball.now, meeting, gap, foes, clearance, self.limits, mates)
+        meeting = meet(belief.me, way, gap, self.limits)
+        foes, mates = belief.opponents, places_of(belief.mates).values()
+        return take_ball(belief.me, ball.now, meeting, gap, foes, clearance, self.limits, mates)
 
-    def _carried_out(self, scene: Scene, doing: Doing) -> Action:
+    def _carried_out(self, belief: WorldBelief, output: MachineOutput) -> Action:
         """The machine's wish, led around opponents, and turned to the goal on its last metres with the ball."""
-        vx, vy = doing.vx, doing.vy
+        vx, vy = output.vx, output.vy
         if self._machine.state is not State.CHASE_BALL:
-            others = circles(scene.opponents, 2.0 * self.setup.robot.reach + _BALL_ROOM)
-            vx, vy = steer(scene.me, vx, vy, 1.5, others)
-        omega = doing.omega
-        facing = self._facing(scene, vx, vy) if self._machine.state is State.MOVE_BALL else None
+            others = circles(belief.opponents, 2.0 * self.setup.robot.reach + _BALL_ROOM)
+            vx, vy = steer(belief.me, vx, vy, 1.5, others)
+        omega = output.omega
+        facing = self._facing(belief, vx, vy) if self._machine.state is State.MOVE_BALL else None
         if facing is not None:
-            omega = turn_rate(scene.me, facing, self.limits.capped(turn_rate=ROTATION.top))
-        motion = drive(scene.me, vx, vy, omega, self.limits)
-        return Action(PLAYS, self._machine.state.value, motion, doing.dribble, doing.kick)
+            omega = turn_rate(belief.me, facing, self.limits.capped(turn_rate=ROTATION.top))
+        motion = drive(belief.me, vx, vy, omega, self.limits)
+        return Action(PLAYS, self._machine.state.value, motion, output.dribble, output.kick)
 
-    def _facing(self, scene: Scene, vx: float, vy: float) -> float | None:
+    def _facing(self, belief: WorldBelief, vx: float, vy: float) -> float | None:
         """Where to look with the ball: on the last metres at the goal; before, ahead, if the rules count ways back."""
-        if self._is_nearly_there(scene):
+        if self._is_nearly_there(belief):
             x, y = self._points.goal
-            return math.atan2(y - scene.me.y, x - scene.me.x)
+            return math.atan2(y - belief.me.y, x - belief.me.x)
         return math.atan2(vy, vx) if self.is_bound_forward else None
 
-    def _is_nearly_there(self, scene: Scene) -> bool:
-        return math.dist(self._machine.points.dribble, scene.me[:2]) < _TURNS
+    def _is_nearly_there(self, belief: WorldBelief) -> bool:
+        return math.dist(self._machine.points.dribble, belief.me[:2]) < _TURNS
 
-    def _take_restart(self, scene: Scene, ball: SeenBall, spot: tuple[float, float]) -> Action:
+    def _take_restart(self, belief: WorldBelief, ball: SeenBall, spot: tuple[float, float]) -> Action:
         """Kick to whom a pass reaches, else ahead and run after it; at a penalty, the machine's own kick."""
-        target, receiver = self._restart_target(scene, spot)
-        if not scene.game.running:
-            motion = wait_behind(scene.me, spot, target, scene.others, self.setup, self.limits)
+        target, receiver = self._restart_target(belief, spot)
+        if not belief.game.running:
+            motion = wait_behind(belief.me, spot, target, belief.others, self.setup, self.limits)
             return Action(PLAYS, "wait behind the ball", motion)
-        if not scene.holding:
-            motion = step_in(scene.me, ball.now[:2], target, self.setup, self.limits)
+        if not belief.holding:
+            motion = step_in(belief.me, ball.now[:2], target, self.setup, self.limits)
             return Action(PLAYS, "step in", motion, dribble=True)
         mode, speed = KickMode.GROUND, min(pass_speed(math.dist(spot, target), self.setup), _RESTART_SPEED)
-        if scene.game.phase is TeamPhase.OUR_KICK_OFF:
+        if belief.game.phase is TeamPhase.OUR_KICK_OFF:
             speed = math.sqrt(2.0 * self.setup.ball.rolling_deceleration * _KICK_OFF_ROLLS)
-        if scene.game.phase is TeamPhase.OUR_PENALTY:
+        if belief.game.phase is TeamPhase.OUR_PENALTY:
             mode, speed = KICK.mode, KICK.speed
-        motion, kick = kick_at(scene.me, target, speed, _RESTART_ERROR, self.limits, mode)
+        motion, kick = kick_at(belief.me, target, speed, _RESTART_ERROR, self.limits, mode)
         return self._promising(Action(PLAYS, "kick", motion, dribble=True, kick=kick), receiver)
 
-    def _restart_target(self, scene: Scene, spot: tuple[float, float]) -> tuple[tuple[float, float], str | None]:
+    def _restart_target(self, belief: WorldBelief, spot: tuple[float, float]) -> tuple[tuple[float, float], str | None]:
         """Where to, and to whom."""
-        phase = scene.game.phase
+        phase = belief.game.phase
         if phase is TeamPhase.OUR_PENALTY:
             return self._points.goal, None
         if phase is TeamPhase.OUR_KICK_OFF:
             return _KICK_OFF_TO, None
-        mates = {name: place for name, place in places_of(scene.mates).items() if name != self.keeper}
-        self._receiver = receiver = best_receiver(spot, mates, scene.opponents, chosen=self._receiver)
+        mates = {name: place for name, place in places_of(belief.mates).items() if name != self.keeper}
+        self._receiver = receiver = best_receiver(spot, mates, belief.opponents, chosen=self._receiver)
         return (mates[receiver], receiver) if receiver is not None else (self._points.dribble, None)
 
-    def _hold(self, scene: Scene, spot: tuple[float, float]) -> Action:
-        in_play = scene.game.phase is TeamPhase.PLAY
-        waits_ahead = in_play and self.control.ours is not False and not self.may_score
+    def _hold(self, belief: WorldBelief, spot: tuple[float, float]) -> Action:
+        in_play = belief.game.phase is TeamPhase.PLAY
+        waits_ahead = in_play and self.possession.ours is not False and not self.may_score
         home = self._ahead if waits_ahead else self._home
-        motion = stand(scene.me, home, scene.game, spot, scene.others, self.setup, self.limits)
+        motion = stand(belief.me, home, belief.game, spot, belief.others, self.setup, self.limits)
         return Action(HOLDS, "hold", motion)
 
-    def _keep(self, scene: Scene, ball: SeenBall, spot: tuple[float, float]) -> Action:
-        if scene.game.phase is TeamPhase.DROP_BALL:
-            return self._hold(scene, spot)._replace(role=KEEPS)
-        motion = keep_goal(scene.me, ball.now, self.setup.pitch, self.setup.robot.reach, self.limits)
+    def _keep(self, belief: WorldBelief, ball: SeenBall, spot: tuple[float, float]) -> Action:
+        if belief.game.phase is TeamPhase.DROP_BALL:
+            return self._hold(belief, spot)._replace(role=KEEPS)
+        motion = keep_goal(belief.me, ball.now, self.setup.pitch, self.setup.robot.reach, self.limits)
         return Action(KEEPS, "keep", motion)
 
 
-def _spot(scene: Scene, ball: SeenBall) -> tuple[float, float]:
+def _spot(belief: WorldBelief, ball: SeenBall) -> tuple[float, float]:
     """Where a restart is taken, in play where the ball is."""
-    spot = scene.game.spot
+    spot = belief.game.spot
     return (spot.x, spot.y) if spot is not None else (ball.now.x, ball.now.y)

@@ -4,7 +4,7 @@ import math
 
 from robot_agent.skills.keep_off import inside, keep_off
 from robot_agent.teams.simple.roles import Role
-from schemas.sections import Field
+from schemas.config.sections import Pitch
 
 CLEAR = 2.4
 """m that everybody leaves between himself and the ball that a teammate plays."""
@@ -18,7 +18,7 @@ FARTHEST = 0.32
 """Share of the pitch's length that the defender leaves his goal at most."""
 
 
-def places(ball: tuple[float, float], pitch: Field, inset: float) -> list[tuple[Role, tuple[float, float]]]:
+def places(ball: tuple[float, float], pitch: Pitch, inset: float) -> list[tuple[Role, tuple[float, float]]]:
     """The places of the formation, the most important first; all of them outside the penalty areas."""
     front = pitch.goal_line - pitch.penalty_area_depth - inset
     ahead = max(-front, min(front, ball[0] + AHEAD))
@@ -31,7 +31,7 @@ def places(ball: tuple[float, float], pitch: Field, inset: float) -> list[tuple[
     return [(role, keep_off(x, y, ball, CLEAR, pitch, inset)) for role, (x, y) in wanted]
 
 
-def _guard(ball: tuple[float, float], pitch: Field, front: float) -> tuple[float, float]:
+def _guard(ball: tuple[float, float], pitch: Pitch, front: float) -> tuple[float, float]:
     """Between the own goal and the ball."""
     dx, dy = ball[0] + pitch.goal_line, ball[1]
     share = min(GUARD, FARTHEST * pitch.length / max(math.hypot(dx, dy), 1e-6))

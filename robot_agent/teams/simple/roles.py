@@ -10,7 +10,7 @@ from enum import StrEnum
 from itertools import permutations
 from typing import NamedTuple
 
-from robot_agent.bodies import Ball, Body, Limits
+from robot_agent.bodies import Ball, Body, DriveLimits
 from robot_agent.skills.intercept import meeting_time, way_of
 
 
@@ -44,7 +44,7 @@ _TIE = 1e-6
 
 
 def striker_of(
-    candidates: Mapping[str, Candidate], ball: Ball, deceleration: float, reach: float, limits: Limits
+    candidates: Mapping[str, Candidate], ball: Ball, deceleration: float, reach: float, limits: DriveLimits
 ) -> str:
     """The robot that plays the ball: first at it, ties by name."""
     way = way_of(ball, deceleration)

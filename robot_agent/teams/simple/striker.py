@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from robot_agent.bodies import Body, Limits
+from robot_agent.bodies import Body, DriveLimits
 from robot_agent.skills.avoid import circles
 from robot_agent.skills.dribble_to import dribble_to
 from robot_agent.skills.go_to import drive
@@ -14,10 +14,10 @@ from robot_agent.skills.pass_to import EASE, best_receiver, is_open, pass_to
 from robot_agent.skills.shoot import best_place, lane_width
 from robot_agent.teams.action import Action
 from robot_agent.teams.simple.roles import Role
-from robot_agent.world_model import Mate, places_of
-from schemas.command import Kick, KickMode
-from schemas.host import Setup
-from schemas.sections import Field
+from robot_agent.world_model import Teammate, places_of
+from schemas.config.sections import Pitch
+from schemas.messages.command import Kick, KickMode
+from schemas.messages.host import Setup
 
 Point = tuple[float, float]
 
@@ -32,7 +32,7 @@ PRESSED = 0.9
 RISES = 1.5
 """m after which a lob is above everybody."""
 DUEL = 0.6
-"""s under pressure after which the ball is knocked on into free ground."""
+"""s under pressure after which the ball is knocked on into free situation."""
 KNOCK_ON = 3.0
 """m of ground that must be free for it."""
 PATIENCE = 2.5
@@ -43,11 +43,11 @@ SHOT_ERROR = 0.15
 """m beside the target."""
 
 
-class Ground(NamedTuple):
+class StrikerSituation(NamedTuple):
     """What the striker decides on."""
 
     me: Body
-    mates: Mapping[str, Mate]
+    mates: Mapping[str, Teammate]
     """Teammates in the field."""
     opponents: Sequence[Point]
     held: float
@@ -62,38 +62,38 @@ class Ground(NamedTuple):
     """The rules let this robot not keep the ball for much longer."""
 
 
-def play_ball(ground: Ground, setup: Setup, limits: Limits) -> Action:
+def play_ball(situation: StrikerSituation, setup: Setup, limits: DriveLimits) -> Action:
     """One tick of a robot that holds the ball."""
-    me, pitch = ground.me, setup.pitch
+    me, pitch = situation.me, setup.pitch
     ball = (me.x + setup.dribble.gap * math.cos(me.heading), me.y + setup.dribble.gap * math.sin(me.heading))
-    aim, width = best_place(ball, ground.opponents, pitch)
+    aim, width = best_place(ball, situation.opponents, pitch)
     far = math.hypot(pitch.goal_line - ball[0], ball[1])
-    hurried = ground.held > PATIENCE or ground.must_pass or is_pressed(me, ground.opponents)
+    hurried = situation.held > PATIENCE or situation.must_pass or is_pressed(me, situation.opponents)
     if (
         far < RANGE
-        and ground.may_score
-        and (width > OPEN or (hurried and _can_lob(ball, aim, ground.opponents, pitch)))
+        and situation.may_score
+        and (width > OPEN or (hurried and _can_lob(ball, aim, situation.opponents, pitch)))
     ):
-        return _shoot(ground, (pitch.goal_line, aim), width, setup, limits)
-    if ground.pressed > DUEL and _can_knock_on(ground, ball, setup):
-        return _knock_on(ground, setup, limits)
-    receiver = _receiver(ground, ball, hurried)
+        return _shoot(situation, (pitch.goal_line, aim), width, setup, limits)
+    if situation.pressed > DUEL and _can_knock_on(situation, ball, setup):
+        return _knock_on(situation, setup, limits)
+    receiver = _receiver(situation, ball, hurried)
     if receiver is not None:
-        return _pass(ground, receiver, setup, limits)
-    if ground.held > 2.0 * PATIENCE and ground.may_score:
-        return _shoot(ground, (pitch.goal_line, aim), width, setup, limits)
-    return _carry(ground, setup, limits)
+        return _pass(situation, receiver, setup, limits)
+    if situation.held > 2.0 * PATIENCE and situation.may_score:
+        return _shoot(situation, (pitch.goal_line, aim), width, setup, limits)
+    return _carry(situation, setup, limits)
 
 
-def _receiver(ground: Ground, ball: Point, hurried: bool) -> str | None:
+def _receiver(situation: StrikerSituation, ball: Point, hurried: bool) -> str | None:
     """The one who was chosen already while the lane to him stays open; somebody new, or behind, only in a hurry."""
-    places, has_to = places_of(ground.mates), hurried or not ground.may_score
-    chosen = places.get(ground.receiver or "")
-    if chosen is not None and (has_to or chosen[0] > ball[0]) and is_open(ball, chosen, ground.opponents, EASE):
-        return ground.receiver
+    places, has_to = places_of(situation.mates), hurried or not situation.may_score
+    chosen = places.get(situation.receiver or "")
+    if chosen is not None and (has_to or chosen[0] > ball[0]) and is_open(ball, chosen, situation.opponents, EASE):
+        return situation.receiver
     if has_to:
         ahead = {name: place for name, place in places.items() if hurried or place[0] > PREPARED}
-        return best_receiver(ball, ahead, ground.opponents, ground.me.heading)
+        return best_receiver(ball, ahead, situation.opponents, situation.me.heading)
     return None
 
 
@@ -106,7 +106,7 @@ def is_pressed(me: Body, opponents: Sequence[Point]) -> bool:
     return False
 
 
-def _can_lob(ball: Point, aim: float, opponents: Sequence[Point], pitch: Field) -> bool:
+def _can_lob(ball: Point, aim: float, opponents: Sequence[Point], pitch: Pitch) -> bool:
     """Whether the ball can rise: nobody stands right before it, and the goal is far enough to come down in."""
     dx, dy = pitch.goal_line - ball[0], aim - ball[1]
     far = math.hypot(dx, dy)
@@ -114,42 +114,42 @@ def _can_lob(ball: Point, aim: float, opponents: Sequence[Point], pitch: Field) 
     return far > 2.0 * RISES and lane_width(ball, risen, opponents) > OPEN
 
 
-def _can_knock_on(ground: Ground, ball: Point, setup: Setup) -> bool:
+def _can_knock_on(situation: StrikerSituation, ball: Point, setup: Setup) -> bool:
     """Whether the ground ahead of the kick axis is free, on the pitch, and not toward the own goal."""
-    heading = ground.me.heading
+    heading = situation.me.heading
     end = (ball[0] + KNOCK_ON * math.cos(heading), ball[1] + KNOCK_ON * math.sin(heading))
     is_on_pitch = inside(*end, setup.pitch, 0.0) == end
-    return math.cos(heading) > -0.2 and is_on_pitch and lane_width(ball, end, ground.opponents) > OPEN
+    return math.cos(heading) > -0.2 and is_on_pitch and lane_width(ball, end, situation.opponents) > OPEN
 
 
-def _knock_on(ground: Ground, setup: Setup, limits: Limits) -> Action:
+def _knock_on(situation: StrikerSituation, setup: Setup, limits: DriveLimits) -> Action:
     """Out of a duel: kick the ball past the opponent, and run after it."""
     speed = math.sqrt(2.0 * setup.ball.rolling_deceleration * 2.0 * KNOCK_ON)
-    motion = drive(ground.me, ground.me.vx, ground.me.vy, 0.0, limits)
+    motion = drive(situation.me, situation.me.vx, situation.me.vy, 0.0, limits)
     kick = Kick(mode=KickMode.GROUND, speed=speed)
     return Action(Role.STRIKER, "knock on", motion, dribble=True, kick=kick)
 
 
-def _shoot(ground: Ground, target: Point, width: float, setup: Setup, limits: Limits) -> Action:
+def _shoot(situation: StrikerSituation, target: Point, width: float, setup: Setup, limits: DriveLimits) -> Action:
     """Along the ground into an open lane, over everybody when there is none."""
     kicker = setup.kicker
     mode, speed = KickMode.GROUND, kicker.max_ground_speed
     if width <= OPEN:
         mode, speed = KickMode.LOB, kicker.max_lob_speed
-    motion, kick = kick_at(ground.me, target, speed, SHOT_ERROR, limits, mode)
+    motion, kick = kick_at(situation.me, target, speed, SHOT_ERROR, limits, mode)
     return Action(Role.STRIKER, "shoot", motion, dribble=True, kick=kick)
 
 
-def _pass(ground: Ground, receiver: str, setup: Setup, limits: Limits) -> Action:
+def _pass(situation: StrikerSituation, receiver: str, setup: Setup, limits: DriveLimits) -> Action:
     """Aim, and kick; the receiver is named while there is no kick yet, too, so that it stays the same."""
-    motion, kick = pass_to(ground.me, ground.mates[receiver].body[:2], setup, limits)
+    motion, kick = pass_to(situation.me, situation.mates[receiver].body[:2], setup, limits)
     return Action(Role.STRIKER, f"pass to {receiver}", motion, dribble=True, kick=kick, pass_to=receiver)
 
 
-def _carry(ground: Ground, setup: Setup, limits: Limits) -> Action:
+def _carry(situation: StrikerSituation, setup: Setup, limits: DriveLimits) -> Action:
     """Toward the goal, to where one shoots from."""
-    me, pitch = ground.me, setup.pitch
+    me, pitch = situation.me, setup.pitch
     x, y = pitch.goal_line - SHOOT_FROM, 0.4 * me.y
     facing = math.atan2(-me.y, pitch.goal_line - me.x)
-    blocked = circles(ground.opponents, 2.0 * setup.robot.reach + setup.ball.radius + 0.15)
+    blocked = circles(situation.opponents, 2.0 * setup.robot.reach + setup.ball.radius + 0.15)
     return Action(Role.STRIKER, "carry", dribble_to(me, x, y, facing, blocked, limits), dribble=True)

@@ -15,11 +15,11 @@ from robot_agent.teams.promise import Promise, promise_after
 from robot_agent.teams.set_piece import stand, step_in, wait_behind
 from robot_agent.teams.simple.formation import places
 from robot_agent.teams.simple.roles import Candidate, Role, share_places, striker_of
-from robot_agent.teams.simple.striker import SHOT_ERROR, Ground, is_pressed, play_ball
-from robot_agent.world_model import Mate, Scene, places_of
-from schemas.coach import CoachOrder
-from schemas.command import Drive, Kick
+from robot_agent.teams.simple.striker import SHOT_ERROR, StrikerSituation, is_pressed, play_ball
+from robot_agent.world_model import Teammate, WorldBelief, places_of
 from schemas.game import TeamPhase
+from schemas.messages.coach import CoachOrder
+from schemas.messages.command import Drive, Kick
 
 Point = tuple[float, float]
 
@@ -46,42 +46,42 @@ class Simple(Player):
         self._gap, self._reach = self.setup.dribble.gap, self.setup.robot.reach
         self._clearance = 2.0 * self._reach + 0.05
 
-    def play(self, scene: Scene, order: CoachOrder | None) -> Action:
+    def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
         """Find the role, then do what it asks for."""
         del order
-        self._held = self._held + scene.dt if scene.holding else 0.0
-        pressed = scene.holding and is_pressed(scene.me, scene.opponents)
-        self._pressed = self._pressed + scene.dt if pressed else 0.0
-        self._promised = promise_after(self._promised, scene)
-        if scene.ball is None:
+        self._held = self._held + belief.dt if belief.holding else 0.0
+        pressed = belief.holding and is_pressed(belief.me, belief.opponents)
+        self._pressed = self._pressed + belief.dt if pressed else 0.0
+        self._promised = promise_after(self._promised, belief)
+        if belief.ball is None:
             return Action(self._role, "wait", Drive())
-        ball, phase = scene.ball.now, scene.game.phase
-        spot = (scene.game.spot.x, scene.game.spot.y) if scene.game.spot is not None else (ball.x, ball.y)
+        ball, phase = belief.ball.now, belief.game.phase
+        spot = (belief.game.spot.x, belief.game.spot.y) if belief.game.spot is not None else (ball.x, ball.y)
         if self.is_keeper:
-            return self._keep(scene, ball, spot)
-        self._role, place = self._find_role(scene, ball, spot)
+            return self._keep(belief, ball, spot)
+        self._role, place = self._find_role(belief, ball, spot)
         if self._role is not Role.STRIKER or phase.theirs:
-            return self._support(scene, place, spot)
+            return self._support(belief, place, spot)
         if phase.ours:
-            return self._take_restart(scene, ball, spot)
-        if phase is TeamPhase.DROP_BALL and not scene.game.running:
-            return self._wait_for_drop(scene, spot)
-        if any(mate.intention == CLEAR for mate in scene.mates.values()):
-            return self._support(scene, place, spot)
-        return self._strike(scene, ball)
+            return self._take_restart(belief, ball, spot)
+        if phase is TeamPhase.DROP_BALL and not belief.game.running:
+            return self._wait_for_drop(belief, spot)
+        if any(mate.intention == CLEAR for mate in belief.mates.values()):
+            return self._support(belief, place, spot)
+        return self._strike(belief, ball)
 
-    def _find_role(self, scene: Scene, ball: Ball, spot: Point) -> tuple[Role, Point]:
+    def _find_role(self, belief: WorldBelief, ball: Ball, spot: Point) -> tuple[Role, Point]:
         """The role that everybody's poses and present roles give this robot, and its place.
 
         A striker who may not play the ball stands between it and the own goal.
         """
         me = self.briefing.robot
         receiver = self._promised.receiver if self._promised is not None else None
-        candidates = {me: Candidate(scene.me, self._role, receiver == me)}
-        for name, mate in scene.mates.items():
+        candidates = {me: Candidate(belief.me, self._role, receiver == me)}
+        for name, mate in belief.mates.items():
             if name != self.keeper:
                 candidates[name] = Candidate(mate.body, mate.role, receiver == name)
-        if scene.game.phase is not TeamPhase.PLAY:
+        if belief.game.phase is not TeamPhase.PLAY:
             ball = Ball(*spot)
         striker = striker_of(candidates, ball, self.setup.ball.rolling_deceleration, self._gap, self.limits)
         if striker == me:
@@ -91,24 +91,24 @@ class Simple(Player):
         role = share_places(candidates, formation).get(me, Role.DEFENDER)
         return role, dict(formation)[role]
 
-    def _field_mates(self, scene: Scene) -> dict[str, Mate]:
-        return {name: mate for name, mate in scene.mates.items() if name != self.keeper}
+    def _field_mates(self, belief: WorldBelief) -> dict[str, Teammate]:
+        return {name: mate for name, mate in belief.mates.items() if name != self.keeper}
 
-    def _strike(self, scene: Scene, ball: Ball) -> Action:
+    def _strike(self, belief: WorldBelief, ball: Ball) -> Action:
         """Get the ball, then play it."""
-        if scene.holding:
-            mates = self._field_mates(scene)
-            ground = Ground(
-                scene.me,
+        if belief.holding:
+            mates = self._field_mates(belief)
+            situation = StrikerSituation(
+                belief.me,
                 mates,
-                scene.opponents,
+                belief.opponents,
                 self._held,
                 self._pressed,
                 self._receiver,
                 may_score=self.may_score,
                 must_pass=self.must_pass_on,
             )
-            action = play_ball(ground, self.setup, self.limits)
+            action = play_ball(situation, self.setup, self.limits)
             self._receiver = action.pass_to
             if action.kick is None:
                 return action._replace(pass_to=None)
@@ -116,27 +116,27 @@ class Simple(Player):
                 self._promised = Promise(action.pass_to)
             return action
         self._receiver = None
-        return Action(Role.STRIKER, "get the ball", self._get(scene, ball), dribble=True)
+        return Action(Role.STRIKER, "get the ball", self._get(belief, ball), dribble=True)
 
-    def _get(self, scene: Scene, ball: Ball) -> Drive:
+    def _get(self, belief: WorldBelief, ball: Ball) -> Drive:
         way = way_of(ball, self.setup.ball.rolling_deceleration)
-        meeting = meet(scene.me, way, self._gap, self.limits)
-        foes, mates = scene.opponents, places_of(scene.mates).values()
-        return take_ball(scene.me, ball, meeting, self._gap, foes, self._clearance, self.limits, mates)
+        meeting = meet(belief.me, way, self._gap, self.limits)
+        foes, mates = belief.opponents, places_of(belief.mates).values()
+        return take_ball(belief.me, ball, meeting, self._gap, foes, self._clearance, self.limits, mates)
 
-    def _support(self, scene: Scene, place: Point, spot: Point) -> Action:
+    def _support(self, belief: WorldBelief, place: Point, spot: Point) -> Action:
         """Hold the role's place; the defender leaves it for an opponent with the ball."""
-        if self._role is Role.DEFENDER and self._is_threat(scene, spot):
-            return Action(self._role, "block", self._stand(scene, self._before_own_goal(spot), spot))
-        return Action(self._role, "hold", self._stand(scene, place, spot))
+        if self._role is Role.DEFENDER and self._is_threat(belief, spot):
+            return Action(self._role, "block", self._stand(belief, self._before_own_goal(spot), spot))
+        return Action(self._role, "hold", self._stand(belief, place, spot))
 
-    def _is_threat(self, scene: Scene, ball: Point) -> bool:
+    def _is_threat(self, belief: WorldBelief, ball: Point) -> bool:
         """An opponent has the ball near our goal."""
-        in_play = scene.game.phase is TeamPhase.PLAY and ball[0] < -THREAT * self.setup.pitch.goal_line
-        return in_play and any(math.dist(ball, opponent) < HAS_IT for opponent in scene.opponents)
+        in_play = belief.game.phase is TeamPhase.PLAY and ball[0] < -THREAT * self.setup.pitch.goal_line
+        return in_play and any(math.dist(ball, opponent) < HAS_IT for opponent in belief.opponents)
 
-    def _wait_for_drop(self, scene: Scene, spot: Point) -> Action:
-        return Action(Role.STRIKER, "wait for the drop", self._stand(scene, self._before_own_goal(spot), spot))
+    def _wait_for_drop(self, belief: WorldBelief, spot: Point) -> Action:
+        return Action(Role.STRIKER, "wait for the drop", self._stand(belief, self._before_own_goal(spot), spot))
 
     def _before_own_goal(self, spot: Point) -> Point:
         """A step from the ball toward the own goal; the rules of the phase move it farther away."""
@@ -144,70 +144,70 @@ class Simple(Player):
         away = max(math.hypot(dx, dy), 1e-6)
         return spot[0] + dx / away, spot[1] + dy / away
 
-    def _stand(self, scene: Scene, place: Point, spot: Point) -> Drive:
-        return stand(scene.me, place, scene.game, spot, scene.others, self.setup, self.limits)
+    def _stand(self, belief: WorldBelief, place: Point, spot: Point) -> Drive:
+        return stand(belief.me, place, belief.game, spot, belief.others, self.setup, self.limits)
 
-    def _take_restart(self, scene: Scene, ball: Ball, spot: Point) -> Action:
+    def _take_restart(self, belief: WorldBelief, ball: Ball, spot: Point) -> Action:
         """Line up behind the ball, and after START kick it at once to a teammate; at a penalty, at the goal."""
-        target, receiver = self._restart_kick(scene, spot)
-        if not scene.game.running:
-            motion = wait_behind(scene.me, spot, target, scene.others, self.setup, self.limits)
+        target, receiver = self._restart_kick(belief, spot)
+        if not belief.game.running:
+            motion = wait_behind(belief.me, spot, target, belief.others, self.setup, self.limits)
             return Action(Role.STRIKER, "wait behind the ball", motion)
-        if not scene.holding:
-            motion = step_in(scene.me, (ball.x, ball.y), target, self.setup, self.limits)
+        if not belief.holding:
+            motion = step_in(belief.me, (ball.x, ball.y), target, self.setup, self.limits)
             return Action(Role.STRIKER, "step in", motion, dribble=True)
-        motion, kick = self._restart_motion(scene, target)
+        motion, kick = self._restart_motion(belief, target)
         if kick is not None and receiver is not None:
             self._promised = Promise(receiver)
         return Action(Role.STRIKER, "kick", motion, True, kick, receiver if kick is not None else None)
 
-    def _restart_kick(self, scene: Scene, spot: Point) -> tuple[Point, str | None]:
+    def _restart_kick(self, belief: WorldBelief, spot: Point) -> tuple[Point, str | None]:
         """Target and receiver of a restart of our own."""
-        pitch, mates = self.setup.pitch, self._field_mates(scene)
-        if scene.game.phase is TeamPhase.OUR_PENALTY:
+        pitch, mates = self.setup.pitch, self._field_mates(belief)
+        if belief.game.phase is TeamPhase.OUR_PENALTY:
             return (pitch.goal_line, 0.35 * pitch.goal_width), None
-        if scene.game.phase is TeamPhase.OUR_KICK_OFF:
+        if belief.game.phase is TeamPhase.OUR_KICK_OFF:
             return KICK_OFF_TO, next((name for name, mate in mates.items() if mate.role == Role.LEFT), None)
-        self._receiver = receiver = best_receiver(spot, places_of(mates), scene.opponents, chosen=self._receiver)
+        self._receiver = receiver = best_receiver(spot, places_of(mates), belief.opponents, chosen=self._receiver)
         if receiver is None:
             return (pitch.goal_line - pitch.penalty_mark, 0.0), None
         return mates[receiver].body[:2], receiver
 
-    def _restart_motion(self, scene: Scene, target: Point) -> tuple[Drive, Kick | None]:
-        if scene.game.phase is TeamPhase.OUR_PENALTY:
-            return kick_at(scene.me, target, self.setup.kicker.max_ground_speed, SHOT_ERROR, self.limits)
-        arriving = KICK_OFF_ARRIVING if scene.game.phase is TeamPhase.OUR_KICK_OFF else ARRIVING
-        return pass_to(scene.me, target, self.setup, self.limits, arriving)
+    def _restart_motion(self, belief: WorldBelief, target: Point) -> tuple[Drive, Kick | None]:
+        if belief.game.phase is TeamPhase.OUR_PENALTY:
+            return kick_at(belief.me, target, self.setup.kicker.max_ground_speed, SHOT_ERROR, self.limits)
+        arriving = KICK_OFF_ARRIVING if belief.game.phase is TeamPhase.OUR_KICK_OFF else ARRIVING
+        return pass_to(belief.me, target, self.setup, self.limits, arriving)
 
-    def _keep(self, scene: Scene, ball: Ball, spot: Point) -> Action:
+    def _keep(self, belief: WorldBelief, ball: Ball, spot: Point) -> Action:
         """Guard the goal; take a slow ball near it, and play it out."""
-        in_play = scene.game.phase is TeamPhase.PLAY
-        if scene.holding and in_play:
-            return self._play_out(scene)
-        if in_play and self._is_mine(scene, ball):
-            return Action(Role.KEEPER, CLEAR, self._get(scene, ball), dribble=True)
-        if scene.game.phase is TeamPhase.DROP_BALL:
+        in_play = belief.game.phase is TeamPhase.PLAY
+        if belief.holding and in_play:
+            return self._play_out(belief)
+        if in_play and self._is_mine(belief, ball):
+            return Action(Role.KEEPER, CLEAR, self._get(belief, ball), dribble=True)
+        if belief.game.phase is TeamPhase.DROP_BALL:
             place = (-self.setup.pitch.goal_line + self._reach + 0.1, 0.0)
-            return Action(Role.KEEPER, "guard", self._stand(scene, place, spot))
-        motion = keep_goal(scene.me, ball, self.setup.pitch, self._reach, self.limits)
+            return Action(Role.KEEPER, "guard", self._stand(belief, place, spot))
+        motion = keep_goal(belief.me, ball, self.setup.pitch, self._reach, self.limits)
         return Action(Role.KEEPER, "guard", motion, dribble=in_play)
 
-    def _is_mine(self, scene: Scene, ball: Ball) -> bool:
+    def _is_mine(self, belief: WorldBelief, ball: Ball) -> bool:
         """A slow ball in the own penalty area that no opponent is nearer to."""
         pitch = self.setup.pitch
         if ball.x > pitch.penalty_area_depth - pitch.goal_line or abs(ball.y) > 0.5 * pitch.penalty_area_width:
             return False
-        away = math.dist(ball[:2], scene.me[:2])
+        away = math.dist(ball[:2], belief.me[:2])
         return math.hypot(ball.vx, ball.vy) < 1.5 and all(
-            math.dist(ball[:2], opponent) > away for opponent in scene.opponents
+            math.dist(ball[:2], opponent) > away for opponent in belief.opponents
         )
 
-    def _play_out(self, scene: Scene) -> Action:
+    def _play_out(self, belief: WorldBelief) -> Action:
         """To a teammate, or far up the side that the ball is on."""
-        mates = self._field_mates(scene)
-        receiver = best_receiver(scene.me[:2], places_of(mates), scene.opponents, chosen=self._receiver)
+        mates = self._field_mates(belief)
+        receiver = best_receiver(belief.me[:2], places_of(mates), belief.opponents, chosen=self._receiver)
         self._receiver = receiver
-        up_the_wing = 0.0, math.copysign(0.4 * self.setup.pitch.width, scene.me.y)
+        up_the_wing = 0.0, math.copysign(0.4 * self.setup.pitch.width, belief.me.y)
         target = mates[receiver].body[:2] if receiver is not None else up_the_wing
-        motion, kick = pass_to(scene.me, target, self.setup, self.limits)
+        motion, kick = pass_to(belief.me, target, self.setup, self.limits)
         return Action(Role.KEEPER, CLEAR, motion, True, kick, receiver if kick is not None else None)

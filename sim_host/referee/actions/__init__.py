@@ -29,17 +29,17 @@ from sim_host.referee.actions import (
     undo,
     yellow_card,
 )
-from sim_host.referee.authority import remember
-from sim_host.referee.turn import Turn
-from sim_host.referee.wording import at, spoken
+from sim_host.referee.authority import save_for_undo
+from sim_host.referee.ruling_draft import RulingDraft
+from sim_host.referee.wording import display_name, place_text
 
 
 @dataclass(frozen=True, slots=True)
 class Action:
-    """One row: the reason against it in this turn, if there is one, and what it does."""
+    """One row: the reason against it in this tick, if there is one, and what it does."""
 
-    why_illegal: Callable[[Turn, RefereeAction], str | None]
-    apply: Callable[[Turn, RefereeAction], None]
+    why_illegal: Callable[[RulingDraft, RefereeAction], str | None]
+    apply: Callable[[RulingDraft, RefereeAction], None]
     can_be_undone: bool = True
     """It decides something; the others only let the game go on, or decide what is proposed."""
 
@@ -72,19 +72,19 @@ ACTIONS: Mapping[ActionName, Action] = {
 """Name → what it needs and does."""
 
 
-def obey(turn: Turn, action: RefereeAction) -> ActionReply:
+def execute(draft: RulingDraft, action: RefereeAction) -> ActionReply:
     """Do what is asked, or refuse it with the reason."""
     row = ACTIONS[action.action]
-    reason = row.why_illegal(turn, action)
+    reason = row.why_illegal(draft, action)
     if reason is not None:
-        return ActionReply(accepted=False, reason=f"{action.action}: {reason}", tick=turn.snapshot.tick)
+        return ActionReply(accepted=False, reason=f"{action.action}: {reason}", tick=draft.snapshot.tick)
     place = (action.place.x, action.place.y) if action.place is not None else None
     owner = f" for {action.side}" if action.side is not None else ""
-    where = f" at {at(place)}" if place is not None else ""
+    where = f" at {place_text(place)}" if place is not None else ""
     who = f" for {action.robot}" if action.robot is not None and action.side is None else ""
-    asked = f"{action.source} asks: {spoken(action.action)}{owner}{who}{where}"
-    turn.say(EventKind.ACTION, action.action, asked, side=action.side, robot=action.robot, place=place)
+    asked = f"{action.source} asks: {display_name(action.action)}{owner}{who}{where}"
+    draft.add_event(EventKind.ACTION, action.action, asked, side=action.side, robot=action.robot, place=place)
     if row.can_be_undone:
-        remember(turn)
-    row.apply(turn, action)
-    return ActionReply(accepted=True, tick=turn.snapshot.tick)
+        save_for_undo(draft)
+    row.apply(draft, action)
+    return ActionReply(accepted=True, tick=draft.snapshot.tick)

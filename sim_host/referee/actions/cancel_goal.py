@@ -5,27 +5,27 @@ Who takes it back at once, before anything else is decided, rather has it undone
 
 from schemas.game import EventKind, RefereeAction
 from sim_host.referee.actions.legality import no_match, no_side
-from sim_host.referee.turn import Turn
+from sim_host.referee.ruling_draft import RulingDraft
 
 
-def why_illegal(turn: Turn, action: RefereeAction) -> str | None:
+def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    return no_match(turn) or no_side(action) or _no_goal(turn, action)
+    return no_match(draft) or no_side(action) or _no_goal(draft, action)
 
 
-def apply(turn: Turn, action: RefereeAction) -> None:
+def apply(draft: RulingDraft, action: RefereeAction) -> None:
     """Take it away."""
     side = action.side
     if side is None:
         return
-    score = turn.state.score.plus(side, -1)
-    turn.state = turn.state._replace(score=score)
+    score = draft.state.score.plus(side, -1)
+    draft.state = draft.state._replace(score=score)
     text = f"a goal of {side} is cancelled by the word of {action.source}"
-    turn.say(EventKind.NO_GOAL, action.action, text, side=side, score=score)
+    draft.add_event(EventKind.NO_GOAL, action.action, text, side=side, score=score)
 
 
-def _no_goal(turn: Turn, action: RefereeAction) -> str | None:
+def _no_goal(draft: RulingDraft, action: RefereeAction) -> str | None:
     """The side must have scored."""
-    if action.side is None or turn.state.score.of(action.side):
+    if action.side is None or draft.state.score.of(action.side):
         return None
     return f"{action.side} has no goal"

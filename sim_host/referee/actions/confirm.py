@@ -3,16 +3,16 @@
 from schemas.game import RefereeAction
 from sim_host.referee import authority
 from sim_host.referee.actions.legality import no_proposal
-from sim_host.referee.turn import Turn
+from sim_host.referee.ruling_draft import RulingDraft
 
 
-def why_illegal(turn: Turn, _action: RefereeAction) -> str | None:
+def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    return no_proposal(turn)
+    return no_proposal(draft)
 
 
-def apply(turn: Turn, _action: RefereeAction) -> None:
+def apply(draft: RulingDraft, _action: RefereeAction) -> None:
     """Carry it out."""
-    proposal = turn.state.proposal
+    proposal = draft.state.proposal
     if proposal is not None:
-        authority.decide(turn, proposal.rule, proposal.decision)
+        authority.decide(draft, proposal.rule, proposal.decision)

@@ -1,15 +1,17 @@
 """End the game: full time at once, from any phase."""
 
 from schemas.game import Phase, RefereeAction
-from sim_host.referee import ending
-from sim_host.referee.turn import Turn
+from sim_host.referee.procedures import ending
+from sim_host.referee.ruling_draft import RulingDraft
 
 
-def why_illegal(turn: Turn, _action: RefereeAction) -> str | None:
+def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    return "the match is over already" if turn.state.phase is Phase.FULL_TIME else None
+    return "the match is over already" if draft.state.phase is Phase.FULL_TIME else None
 
 
-def apply(turn: Turn, action: RefereeAction) -> None:
+def apply(draft: RulingDraft, action: RefereeAction) -> None:
     """End the match."""
-    ending.end_match(turn, action.action, f"match ended at {turn.state.clock:.1f} s of play, asked by {action.source}")
+    ending.end_match(
+        draft, action.action, f"match ended at {draft.state.clock:.1f} s of play, asked by {action.source}"
+    )

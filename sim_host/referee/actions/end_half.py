@@ -1,19 +1,19 @@
 """End the half: at once, before its time is up; after the last half the match is over."""
 
 from schemas.game import RefereeAction
-from sim_host.referee import flow
-from sim_host.referee.actions.legality import a_shoot_out, no_half
-from sim_host.referee.turn import Turn
+from sim_host.referee.actions.legality import in_shoot_out, no_half
+from sim_host.referee.procedures import periods
+from sim_host.referee.ruling_draft import RulingDraft
 
 
-def why_illegal(turn: Turn, _action: RefereeAction) -> str | None:
+def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    return no_half(turn) or a_shoot_out(turn)
+    return no_half(draft) or in_shoot_out(draft)
 
 
-def apply(turn: Turn, action: RefereeAction) -> None:
+def apply(draft: RulingDraft, action: RefereeAction) -> None:
     """End the half."""
-    state = turn.state
-    flow.end_half(
-        turn, action.action, f"half {state.half} ended after {state.clock:.1f} s of play, asked by {action.source}"
+    state = draft.state
+    periods.end_half(
+        draft, action.action, f"half {state.half} ended after {state.clock:.1f} s of play, asked by {action.source}"
     )

@@ -1,23 +1,23 @@
 """Kick-off for a side: from the centre; before the match, it begins the match with that side."""
 
 from schemas.game import Phase, RefereeAction
-from sim_host.referee import flow
 from sim_host.referee.actions import ordered_restart
-from sim_host.referee.actions.legality import a_place, no_side
-from sim_host.referee.turn import Turn
+from sim_host.referee.actions.legality import no_side, place_is_fixed
+from sim_host.referee.procedures import periods
+from sim_host.referee.ruling_draft import RulingDraft
 
 
-def why_illegal(turn: Turn, action: RefereeAction) -> str | None:
+def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    if turn.state.phase is Phase.PRE_GAME:
-        return no_side(action) or a_place(action, Phase.KICK_OFF)
-    return ordered_restart.why_illegal(turn, action, Phase.KICK_OFF)
+    if draft.state.phase is Phase.PRE_GAME:
+        return no_side(action) or place_is_fixed(action, Phase.KICK_OFF)
+    return ordered_restart.why_illegal(draft, action, Phase.KICK_OFF)
 
 
-def apply(turn: Turn, action: RefereeAction) -> None:
+def apply(draft: RulingDraft, action: RefereeAction) -> None:
     """Begin the match, or order the kick-off; the other side of the first one kicks off the next half."""
-    if turn.state.phase is Phase.PRE_GAME and action.side is not None:
-        turn.state = turn.state._replace(kick_off=action.side)
-        flow.begin_half(turn)
+    if draft.state.phase is Phase.PRE_GAME and action.side is not None:
+        draft.state = draft.state._replace(kick_off=action.side)
+        periods.begin_half(draft)
     else:
-        ordered_restart.apply(turn, action, Phase.KICK_OFF)
+        ordered_restart.apply(draft, action, Phase.KICK_OFF)

@@ -1,40 +1,40 @@
 """The questions that several actions ask before they may be done; each answers with a reason against it, or nothing."""
 
-from schemas.game import Phase, RefereeAction, Stage
-from sim_host.referee.discipline import spoken_reason
-from sim_host.referee.flow import HALF_ON
-from sim_host.referee.turn import Turn
-from sim_host.referee.wording import at, spoken
+from schemas.game import GameStage, Phase, RefereeAction
+from sim_host.referee.procedures.discipline import reason_text
+from sim_host.referee.procedures.periods import HALF_PHASES
+from sim_host.referee.ruling_draft import RulingDraft
+from sim_host.referee.wording import display_name, place_text
 
 FIXED = frozenset({Phase.KICK_OFF, Phase.PENALTY})
 """Restarts whose spot the rules name."""
 
 
-def no_half(turn: Turn) -> str | None:
+def no_half(draft: RulingDraft) -> str | None:
     """A half must be being played."""
-    if turn.state.phase in HALF_ON:
+    if draft.state.phase in HALF_PHASES:
         return None
-    return f"no half is being played, the phase is {turn.state.phase}"
+    return f"no half is being played, the phase is {draft.state.phase}"
 
 
-def no_match(turn: Turn) -> str | None:
+def no_match(draft: RulingDraft) -> str | None:
     """The match must have begun and not be over."""
-    if turn.state.phase not in (Phase.PRE_GAME, Phase.FULL_TIME):
+    if draft.state.phase not in (Phase.PRE_GAME, Phase.FULL_TIME):
         return None
-    return f"no match is being played, the phase is {turn.state.phase}"
+    return f"no match is being played, the phase is {draft.state.phase}"
 
 
-def a_shoot_out(turn: Turn) -> str | None:
+def in_shoot_out(draft: RulingDraft) -> str | None:
     """The penalty shoot-out must not be on."""
-    return "the penalty shoot-out is on" if turn.state.stage is Stage.SHOOT_OUT else None
+    return "the penalty shoot-out is on" if draft.state.stage is GameStage.SHOOT_OUT else None
 
 
-def no_robot(turn: Turn, action: RefereeAction) -> str | None:
+def no_robot(draft: RulingDraft, action: RefereeAction) -> str | None:
     """A robot must be named, and take part."""
-    names = turn.match.roster.names
+    names = draft.match.roster.names
     if action.robot is None:
         return f"no robot is named; name one of {', '.join(names)}"
-    return no_such_robot(turn, action)
+    return no_such_robot(draft, action)
 
 
 def named_robot(action: RefereeAction) -> str:
@@ -48,21 +48,21 @@ def named_robot(action: RefereeAction) -> str:
     return action.robot
 
 
-def off_field(turn: Turn, action: RefereeAction) -> str | None:
+def off_field(draft: RulingDraft, action: RefereeAction) -> str | None:
     """The robot must be on the field."""
-    away = turn.state.people.away.get(named_robot(action))
-    return None if away is None else f"{action.robot} is off the field already: {spoken_reason(away.why)}"
+    away = draft.state.participation.absences.get(named_robot(action))
+    return None if away is None else f"{action.robot} is off the field already: {reason_text(away.why)}"
 
 
-def sent_off(turn: Turn, action: RefereeAction) -> str | None:
+def sent_off(draft: RulingDraft, action: RefereeAction) -> str | None:
     """The robot must not be sent off for good."""
-    away = turn.state.people.away.get(named_robot(action))
+    away = draft.state.participation.absences.get(named_robot(action))
     return f"{action.robot} is sent off for good" if away is not None and away.for_good else None
 
 
-def no_proposal(turn: Turn) -> str | None:
+def no_proposal(draft: RulingDraft) -> str | None:
     """Something must be proposed."""
-    return None if turn.state.proposal is not None else "nothing is proposed"
+    return None if draft.state.proposal is not None else "nothing is proposed"
 
 
 def no_side(action: RefereeAction) -> str | None:
@@ -70,32 +70,32 @@ def no_side(action: RefereeAction) -> str | None:
     return None if action.side is not None else "no side is named; name cyan or magenta"
 
 
-def a_side(action: RefereeAction) -> str | None:
+def has_side(action: RefereeAction) -> str | None:
     """No side may be named."""
     return None if action.side is None else f"it belongs to nobody, yet {action.side} is named; leave the side out"
 
 
-def bad_place(turn: Turn, action: RefereeAction) -> str | None:
+def bad_place(draft: RulingDraft, action: RefereeAction) -> str | None:
     """A place, if named, must lie on the field."""
-    pitch, place = turn.match.pitch, action.place
+    pitch, place = draft.match.pitch, action.place
     if place is None or (abs(place.x) <= pitch.goal_line and abs(place.y) <= pitch.touch_line):
         return None
     return (
-        f"{at((place.x, place.y))} is outside the field; |x| is at most {pitch.goal_line:g} m, "
+        f"{place_text((place.x, place.y))} is outside the field; |x| is at most {pitch.goal_line:g} m, "
         f"|y| at most {pitch.touch_line:g} m"
     )
 
 
-def a_place(action: RefereeAction, phase: Phase) -> str | None:
+def place_is_fixed(action: RefereeAction, phase: Phase) -> str | None:
     """No place may be named for a restart that has one spot."""
     if action.place is None:
         return None
-    return f"the spot of a {spoken(phase)} is fixed, yet a place is named; leave the place out"
+    return f"the spot of a {display_name(phase)} is fixed, yet a place is named; leave the place out"
 
 
-def no_such_robot(turn: Turn, action: RefereeAction) -> str | None:
+def no_such_robot(draft: RulingDraft, action: RefereeAction) -> str | None:
     """A robot, if named, must take part."""
-    names = turn.match.roster.names
+    names = draft.match.roster.names
     if action.robot is None or action.robot in names:
         return None
     return f"{action.robot} does not play; the robots are {', '.join(names)}"

@@ -2,14 +2,14 @@
 
 from schemas.game import RefereeAction
 from sim_host.referee.actions.legality import no_proposal
-from sim_host.referee.turn import Turn
+from sim_host.referee.ruling_draft import RulingDraft
 
 
-def why_illegal(turn: Turn, _action: RefereeAction) -> str | None:
+def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    return no_proposal(turn)
+    return no_proposal(draft)
 
 
-def apply(turn: Turn, _action: RefereeAction) -> None:
+def apply(draft: RulingDraft, _action: RefereeAction) -> None:
     """Forget it."""
-    turn.state = turn.state._replace(proposal=None)
+    draft.state = draft.state._replace(proposal=None)

@@ -2,14 +2,14 @@
 
 from schemas.game import Phase, RefereeAction
 from sim_host.referee.actions import ordered_restart
-from sim_host.referee.turn import Turn
+from sim_host.referee.ruling_draft import RulingDraft
 
 
-def why_illegal(turn: Turn, action: RefereeAction) -> str | None:
+def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    return ordered_restart.why_illegal(turn, action, Phase.PENALTY)
+    return ordered_restart.why_illegal(draft, action, Phase.PENALTY)
 
 
-def apply(turn: Turn, action: RefereeAction) -> None:
+def apply(draft: RulingDraft, action: RefereeAction) -> None:
     """Order it."""
-    ordered_restart.apply(turn, action, Phase.PENALTY)
+    ordered_restart.apply(draft, action, Phase.PENALTY)

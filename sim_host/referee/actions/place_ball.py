@@ -1,44 +1,44 @@
 """Place the ball: sets it down while the game is halted, and moves the spot of the restart that is due or signalled."""
 
 from schemas.game import Phase, RefereeAction
-from sim_host.referee.actions.legality import FIXED, a_place, bad_place, no_half
-from sim_host.referee.call import Restart
-from sim_host.referee.clear_ground import has_room
-from sim_host.referee.turn import Turn
-from sim_host.referee.wording import at
+from sim_host.referee.actions.legality import FIXED, bad_place, no_half, place_is_fixed
+from sim_host.referee.game.restart import Restart
+from sim_host.referee.placement.clear_ground import has_room
+from sim_host.referee.ruling_draft import RulingDraft
+from sim_host.referee.wording import place_text
 
 
-def why_illegal(turn: Turn, action: RefereeAction) -> str | None:
+def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    if turn.state.running:
+    if draft.state.running:
         return "the game is running; stop it first"
     if action.place is None:
         return "no place is named; name x and y in m, field frame"
-    due = _due(turn)
-    fixed = a_place(action, due.phase) if due is not None and due.phase in FIXED else None
-    return no_half(turn) or fixed or bad_place(turn, action) or _on_an_obstacle(turn, action)
+    due = _due(draft)
+    fixed = place_is_fixed(action, due.phase) if due is not None and due.phase in FIXED else None
+    return no_half(draft) or fixed or bad_place(draft, action) or _on_an_obstacle(draft, action)
 
 
-def apply(turn: Turn, action: RefereeAction) -> None:
+def apply(draft: RulingDraft, action: RefereeAction) -> None:
     """Set the ball down; robots get their whole time to take positions around the new spot."""
     if action.place is None:
         return
     spot = (action.place.x, action.place.y)
-    turn.place_ball(spot)
-    if turn.state.pending is not None:
-        turn.state = turn.state._replace(pending=turn.state.pending._replace(spot=spot))
-    elif turn.state.phase is not Phase.STOPPED:
-        timing = turn.state.timing.anew(turn.state.timing.until)
-        turn.state = turn.state._replace(spot=spot, timing=timing)
+    draft.place_ball(spot)
+    if draft.state.pending is not None:
+        draft.state = draft.state._replace(pending=draft.state.pending._replace(spot=spot))
+    elif draft.state.phase is not Phase.STOPPED:
+        timing = draft.state.timing.restart_timer(draft.state.timing.until)
+        draft.state = draft.state._replace(spot=spot, timing=timing)
 
 
-def _on_an_obstacle(turn: Turn, action: RefereeAction) -> str | None:
+def _on_an_obstacle(draft: RulingDraft, action: RefereeAction) -> str | None:
     """Nothing that nobody moves may stand where the ball is to lie."""
-    if action.place is None or has_room(turn.match, turn.snapshot, (action.place.x, action.place.y)):
+    if action.place is None or has_room(draft.match, draft.snapshot, (action.place.x, action.place.y)):
         return None
-    return f"an obstacle stands at {at((action.place.x, action.place.y))}; name another place, or remove it"
+    return f"an obstacle stands at {place_text((action.place.x, action.place.y))}; name another place, or remove it"
 
 
-def _due(turn: Turn) -> Restart | None:
+def _due(draft: RulingDraft) -> Restart | None:
     """The restart that will be, or is, signalled."""
-    return turn.state.pending or turn.state.restart
+    return draft.state.pending or draft.state.restart

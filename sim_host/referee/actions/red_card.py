@@ -1,16 +1,16 @@
 """Red card for a robot, whichever it is: it leaves the field, for good or as long as the rule book says."""
 
 from schemas.game import Card, RefereeAction
-from sim_host.referee import discipline
 from sim_host.referee.actions.legality import named_robot, no_match, no_robot, sent_off
-from sim_host.referee.turn import Turn
+from sim_host.referee.procedures import discipline
+from sim_host.referee.ruling_draft import RulingDraft
 
 
-def why_illegal(turn: Turn, action: RefereeAction) -> str | None:
+def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    return no_match(turn) or no_robot(turn, action) or sent_off(turn, action)
+    return no_match(draft) or no_robot(draft, action) or sent_off(draft, action)
 
 
-def apply(turn: Turn, action: RefereeAction) -> None:
+def apply(draft: RulingDraft, action: RefereeAction) -> None:
     """Show it."""
-    discipline.show(turn, action.action, named_robot(action), Card.RED)
+    discipline.show_card(draft, action.action, named_robot(action), Card.RED)

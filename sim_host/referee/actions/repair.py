@@ -1,29 +1,29 @@
 """Repair: a robot leaves the field, and comes back at a stoppage once its time is up."""
 
 from schemas.game import OffField, RefereeAction
-from sim_host.referee import discipline
 from sim_host.referee.actions.legality import named_robot, no_match, no_robot, off_field
-from sim_host.referee.people import Away
-from sim_host.referee.turn import Turn
+from sim_host.referee.game.participation import Absence
+from sim_host.referee.procedures import discipline
+from sim_host.referee.ruling_draft import RulingDraft
 
 
-def why_illegal(turn: Turn, action: RefereeAction) -> str | None:
+def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    return no_match(turn) or no_robot(turn, action) or off_field(turn, action) or _too_many(turn, action)
+    return no_match(draft) or no_robot(draft, action) or off_field(draft, action) or _too_many(draft, action)
 
 
-def apply(turn: Turn, action: RefereeAction) -> None:
+def apply(draft: RulingDraft, action: RefereeAction) -> None:
     """Take it out."""
-    discipline.take_out(turn, action.action, named_robot(action), Away(OffField.REPAIR, turn.book.people.repair))
+    discipline.take_out(draft, action.action, named_robot(action), Absence(OffField.REPAIR, draft.book.people.repair))
 
 
-def _too_many(turn: Turn, action: RefereeAction) -> str | None:
+def _too_many(draft: RulingDraft, action: RefereeAction) -> str | None:
     """So many robots of a side may be in repair at the same time."""
-    roster, limit = turn.match.roster, turn.book.people.repairs_at_once
+    roster, limit = draft.match.roster, draft.book.people.repairs_at_once
     side = roster.side_of(named_robot(action))
     repaired = [
         name
-        for name, away in turn.state.people.away.items()
+        for name, away in draft.state.participation.absences.items()
         if away.why is OffField.REPAIR and name in roster.names and roster.side_of(name) is side
     ]
     return None if len(repaired) < limit else f"{len(repaired)} robots of {side} are in repair, which is the limit"

@@ -9,50 +9,50 @@ the kick-off if the half has not begun.
 from collections.abc import Callable, Mapping
 
 from schemas.game import RESTARTS, Phase, RefereeAction
-from sim_host.referee import flow, restart
-from sim_host.referee.spots import restart_at
-from sim_host.referee.turn import Turn
+from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.procedures import periods, restart
+from sim_host.referee.ruling_draft import RulingDraft
 
 
-def why_illegal(turn: Turn, _action: RefereeAction) -> str | None:
+def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    state = turn.state
+    state = draft.state
     if state.running:
         return "the game is running"
     if state.phase not in STEPS:
         return f"nothing can be started, the phase is {state.phase}"
-    drift = turn.match.book.restarts.drift
-    if state.restart is not None and restart.from_spot(turn, state.restart) > drift:
-        away = restart.from_spot(turn, state.restart)
+    drift = draft.match.book.restarts.drift
+    if state.restart is not None and restart.from_spot(draft, state.restart) > drift:
+        away = restart.from_spot(draft, state.restart)
         return f"the ball is {away:.2f} m from its spot, at most {drift:.2f} m are allowed; it is being put back"
     return None
 
 
-def apply(turn: Turn, _action: RefereeAction) -> None:
+def apply(draft: RulingDraft, _action: RefereeAction) -> None:
     """Bring the game on."""
-    STEPS[turn.state.phase](turn)
+    STEPS[draft.state.phase](draft)
 
 
-def _after_stop(turn: Turn) -> None:
-    due = turn.state.pending
+def _after_stop(draft: RulingDraft) -> None:
+    due = draft.state.pending
     if due is not None:
-        restart.signal(turn, due)
-    elif turn.state.timing.runs:
-        restart.signal(turn, restart_at(turn.match, turn.state, Phase.DROP_BALL, None, turn.ball_spot))
+        restart.signal(draft, due)
+    elif draft.state.timing.runs:
+        restart.signal(draft, restart_at(draft.match, draft.state, Phase.DROP_BALL, None, draft.ball_spot))
     else:
-        flow.begin_half(turn)
+        periods.begin_half(draft)
 
 
-def _signalled(turn: Turn) -> None:
-    signalled = turn.state.restart
+def _signalled(draft: RulingDraft) -> None:
+    signalled = draft.state.restart
     if signalled is not None:
-        restart.start(turn, signalled)
+        restart.start(draft, signalled)
 
 
-STEPS: Mapping[Phase, Callable[[Turn], None]] = {
-    Phase.PRE_GAME: flow.begin_half,
-    Phase.PARKING: flow.go_on,
-    Phase.HALF_TIME: flow.go_on,
+STEPS: Mapping[Phase, Callable[[RulingDraft], None]] = {
+    Phase.PRE_GAME: periods.begin_half,
+    Phase.PARKING: periods.begin_next_period,
+    Phase.HALF_TIME: periods.begin_next_period,
     Phase.STOPPED: _after_stop,
 } | dict.fromkeys(RESTARTS, _signalled)
 """Phase → what START means in it."""

@@ -5,30 +5,30 @@ Cards stay with the name: there is one robot of each number."""
 import dataclasses
 
 from schemas.game import OffField, RefereeAction
-from sim_host.referee import discipline
 from sim_host.referee.actions.legality import named_robot, no_match, no_robot, sent_off
-from sim_host.referee.people import Away
-from sim_host.referee.turn import Turn
+from sim_host.referee.game.participation import Absence
+from sim_host.referee.procedures import discipline
+from sim_host.referee.ruling_draft import RulingDraft
 
 
-def why_illegal(turn: Turn, action: RefereeAction) -> str | None:
+def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    return no_match(turn) or no_robot(turn, action) or sent_off(turn, action) or _too_late(turn, action)
+    return no_match(draft) or no_robot(draft, action) or sent_off(draft, action) or _too_late(draft, action)
 
 
-def apply(turn: Turn, action: RefereeAction) -> None:
+def apply(draft: RulingDraft, action: RefereeAction) -> None:
     """Take it out, and count."""
-    name, people = named_robot(action), turn.state.people
-    side = turn.match.roster.side_of(name)
-    made = {**people.substitutions, side: people.substitutions.get(side, 0) + 1}
-    turn.state = turn.state._replace(people=dataclasses.replace(people, substitutions=made))
-    discipline.take_out(turn, action.action, name, Away(OffField.SUBSTITUTION, turn.book.people.substitution))
+    name, participation = named_robot(action), draft.state.participation
+    side = draft.match.roster.side_of(name)
+    made = {**participation.substitutions, side: participation.substitutions.get(side, 0) + 1}
+    draft.state = draft.state._replace(participation=dataclasses.replace(participation, substitutions=made))
+    discipline.take_out(draft, action.action, name, Absence(OffField.SUBSTITUTION, draft.book.people.substitution))
 
 
-def _too_late(turn: Turn, action: RefereeAction) -> str | None:
+def _too_late(draft: RulingDraft, action: RefereeAction) -> str | None:
     """In a stoppage, and so many in a match."""
-    if turn.state.running:
+    if draft.state.running:
         return "the game is running; stop it first"
-    side, limit = turn.match.roster.side_of(named_robot(action)), turn.book.people.substitutions
-    made = turn.state.people.substitutions.get(side, 0)
+    side, limit = draft.match.roster.side_of(named_robot(action)), draft.book.people.substitutions
+    made = draft.state.participation.substitutions.get(side, 0)
     return None if made < limit else f"{side} has made {made} substitutions, {limit} are allowed"

@@ -3,14 +3,14 @@
 from schemas.game import RefereeAction
 from sim_host.referee import authority
 from sim_host.referee.actions.legality import no_match
-from sim_host.referee.turn import Turn
+from sim_host.referee.ruling_draft import RulingDraft
 
 
-def why_illegal(turn: Turn, _action: RefereeAction) -> str | None:
+def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
     """A reason against it, or nothing."""
-    return no_match(turn) or authority.why_not_undo(turn)
+    return no_match(draft) or authority.why_not_undo(draft)
 
 
-def apply(turn: Turn, _action: RefereeAction) -> None:
+def apply(draft: RulingDraft, _action: RefereeAction) -> None:
     """Bring it back."""
-    authority.undo(turn)
+    authority.undo(draft)

@@ -3,8 +3,8 @@
 import math
 from typing import NamedTuple
 
-from sim_host.referee.evidence.around import Around
-from sim_host.referee.match import Match
+from sim_host.referee.evidence.zones import Zones
+from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import Snapshot
 
 GAP = 0.5
@@ -23,19 +23,19 @@ class Contest(NamedTuple):
     gap: float = 0.0
     """s since both sides were at it last."""
     robots: tuple[int, ...] = ()
-    """Who is or was at it last, by their places in the roster."""
+    """Who is or was at it last, by their indices in the roster."""
 
 
 def contest_after(
-    match: Match, before: Contest | None, around: Around, snapshot: Snapshot, dt: float
+    match: MatchConstants, before: Contest | None, zones: Zones, snapshot: Snapshot, dt: float
 ) -> Contest | None:
     """The contest after one more tick of `dt` in s, or nothing."""
     sides, ball = match.roster.sides, snapshot.ball
-    near = around.near
+    near = zones.near
     both = len(near) > 1 and len({sides[index] for index in near}) > 1
     place = (ball.x, ball.y)
     if before is None:
-        return Contest(place, robots=around.near) if both else None
+        return Contest(place, robots=zones.near) if both else None
     gap = 0.0 if both else before.gap + dt
     if gap > GAP:
         return None
@@ -45,5 +45,5 @@ def contest_after(
         stuck=0.0 if moved_on else before.stuck + dt,
         lasted=before.lasted + dt,
         gap=gap,
-        robots=around.near if both else before.robots,
+        robots=zones.near if both else before.robots,
     )

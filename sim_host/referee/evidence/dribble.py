@@ -8,7 +8,7 @@ import math
 from typing import NamedTuple
 
 from sim_host.referee.evidence.contest import Contest
-from sim_host.referee.match import Match
+from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import RobotState, Snapshot
 
 STANDS = 0.05
@@ -44,7 +44,7 @@ class Dribble(NamedTuple):
 
 
 def dribble_after(
-    match: Match, before: Dribble | None, contest: Contest | None, snapshot: Snapshot, dt: float
+    match: MatchConstants, before: Dribble | None, contest: Contest | None, snapshot: Snapshot, dt: float
 ) -> Dribble | None:
     """The dribble after one more tick of `dt` in s, or nothing."""
     holder = snapshot.possession
@@ -57,7 +57,7 @@ def dribble_after(
     return _rolling(match, backed, snapshot, dt) if contest is None else backed
 
 
-def is_released(match: Match, dribble: Dribble, snapshot: Snapshot) -> bool:
+def is_released(match: MatchConstants, dribble: Dribble, snapshot: Snapshot) -> bool:
     """Whether everybody can see that the robot has let the ball go."""
     if snapshot.possession == dribble.robot:
         return False
@@ -69,7 +69,7 @@ def is_released(match: Match, dribble: Dribble, snapshot: Snapshot) -> bool:
     return air >= match.book.handling.release_gap
 
 
-def _backing(match: Match, before: Dribble, contest: Contest | None, robot: RobotState, dt: float) -> Dribble:
+def _backing(match: MatchConstants, before: Dribble, contest: Contest | None, robot: RobotState, dt: float) -> Dribble:
     """Ways driven backward; a struggle that lasts gives the right to drive back anew."""
     handling = match.book.handling
     if contest is not None and contest.lasted > handling.struggle_duration:
@@ -86,7 +86,7 @@ def _backing(match: Match, before: Dribble, contest: Contest | None, robot: Robo
     return before._replace(backward=0.0, halted=0.0, spent=spent)
 
 
-def _rolling(match: Match, before: Dribble, snapshot: Snapshot, dt: float) -> Dribble:
+def _rolling(match: MatchConstants, before: Dribble, snapshot: Snapshot, dt: float) -> Dribble:
     """Time and way of a held ball that moves and does not turn as it should."""
     ball = snapshot.ball
     speed = math.hypot(ball.vx, ball.vy)

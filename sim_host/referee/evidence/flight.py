@@ -5,7 +5,7 @@ It lasts until somebody touches the ball; a ball that rose and comes down has la
 
 from typing import NamedTuple
 
-from sim_host.referee.match import Match
+from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import Snapshot
 
 AIR = 0.05
@@ -28,7 +28,7 @@ class Flight(NamedTuple):
     """In this tick."""
 
 
-def flight_after(match: Match, before: Flight | None, snapshot: Snapshot) -> Flight | None:
+def flight_after(match: MatchConstants, before: Flight | None, snapshot: Snapshot) -> Flight | None:
     """The kick after one more tick, or nothing."""
     kicker = snapshot.kicked
     if kicker is not None:
@@ -48,5 +48,5 @@ def flight_after(match: Match, before: Flight | None, snapshot: Snapshot) -> Fli
     return before
 
 
-def _air(match: Match, snapshot: Snapshot) -> float:
+def _air(match: MatchConstants, snapshot: Snapshot) -> float:
     return max(0.0, snapshot.ball.z - match.ball.radius)

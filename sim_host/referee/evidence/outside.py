@@ -1,9 +1,9 @@
 """Since when robots have been wholly outside the lines."""
 
-from sim_host.referee.evidence.around import Around
+from sim_host.referee.evidence.zones import Zones
 
 
-def outside_after(before: tuple[tuple[int, float], ...], around: Around, dt: float) -> tuple[tuple[int, float], ...]:
+def outside_after(before: tuple[tuple[int, float], ...], zones: Zones, dt: float) -> tuple[tuple[int, float], ...]:
     """Who is outside and for how many s, after one more tick of `dt` in s."""
     known = dict(before)
-    return tuple([(index, known.get(index, 0.0) + dt) for index in around.outside])
+    return tuple([(index, known.get(index, 0.0) + dt) for index in zones.outside])

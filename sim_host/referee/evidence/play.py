@@ -8,7 +8,7 @@ import math
 from typing import NamedTuple
 
 from schemas.side import Side
-from sim_host.referee.match import Match
+from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import Snapshot
 
 
@@ -48,16 +48,16 @@ class Play(NamedTuple):
         """The newest touch of a side."""
         return self.cyan if side is Side.CYAN else self.magenta
 
-    def touched_by(self, match: Match, side: Side) -> int:
+    def touched_by(self, match: MatchConstants, side: Side) -> int:
         """How many robots of a side have touched the ball."""
         return sum(match.roster.side_of(name) is side for name in self.robots)
 
 
-UNTOUCHED = Play()
+NO_TOUCHES = Play()
 """Nobody has touched the ball."""
 
 
-def play_after(match: Match, before: Play, cyan_attacks: int, snapshot: Snapshot) -> Play:
+def play_after(match: MatchConstants, before: Play, cyan_attacks: int, snapshot: Snapshot) -> Play:
     """The touches of one more tick, taken in one by one in the order of time."""
     now = before
     for name in snapshot.touches:
@@ -65,7 +65,7 @@ def play_after(match: Match, before: Play, cyan_attacks: int, snapshot: Snapshot
     return now
 
 
-def _touched(match: Match, before: Play, cyan_attacks: int, snapshot: Snapshot, name: str) -> Play:
+def _touched(match: MatchConstants, before: Play, cyan_attacks: int, snapshot: Snapshot, name: str) -> Play:
     ball, side = snapshot.ball, match.roster.side_of(name)
     place = (ball.x, ball.y)
     kicked = snapshot.kicked == name

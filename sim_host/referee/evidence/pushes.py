@@ -6,7 +6,7 @@ The contacts are the engine's. One pushes the other as far as both move along th
 import math
 from typing import NamedTuple
 
-from sim_host.referee.match import Match
+from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import Snapshot
 
 GAP = 0.2
@@ -14,7 +14,7 @@ GAP = 0.2
 
 
 class Push(NamedTuple):
-    """Two robots by their places in the roster, the first one first."""
+    """Two robots by their indices in the roster, the first one first."""
 
     first: int
     second: int
@@ -26,7 +26,7 @@ class Push(NamedTuple):
     """s since they touched last."""
 
 
-def pushes_after(match: Match, before: tuple[Push, ...], snapshot: Snapshot, dt: float) -> tuple[Push, ...]:
+def pushes_after(match: MatchConstants, before: tuple[Push, ...], snapshot: Snapshot, dt: float) -> tuple[Push, ...]:
     """The pushes after one more tick of `dt` in s, in the order of the roster."""
     sides = match.roster.sides
     known = {(push.first, push.second): push for push in before}

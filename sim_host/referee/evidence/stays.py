@@ -3,13 +3,13 @@
 from typing import NamedTuple
 
 from sim_host.referee.areas import in_goal_area, in_penalty_area
-from sim_host.referee.evidence.around import Around
-from sim_host.referee.match import Match
+from sim_host.referee.evidence.zones import Zones
+from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import Snapshot
 
 
 class Stay(NamedTuple):
-    """A robot, by its place in the roster, in a goal area; every robot but the goalkeeper in its own."""
+    """A robot, by its index in the roster, in a goal area; every robot but the goalkeeper in its own."""
 
     robot: int
     end: int
@@ -36,16 +36,16 @@ class Stays(NamedTuple):
     crowds: tuple[Crowd, ...] = ()
 
 
-NOWHERE = Stays()
+NO_STAYS = Stays()
 """Nobody is anywhere that he may not stay."""
 
 
-def stays_after(match: Match, before: Stays, around: Around, snapshot: Snapshot, dt: float) -> Stays:
+def stays_after(match: MatchConstants, before: Stays, zones: Zones, snapshot: Snapshot, dt: float) -> Stays:
     """The stays after one more tick of `dt` in s."""
     pitch, robots, sides = match.pitch, snapshot.robots, match.roster.sides
     stays: list[Stay] = []
     crowds: dict[tuple[str, int], list[int]] = {}
-    for index in around.deep:
+    for index in zones.deep:
         x, y = robots[index].x, robots[index].y
         end = 1 if x > 0 else -1
         if not in_penalty_area(pitch, end, x, y):
@@ -59,10 +59,10 @@ def stays_after(match: Match, before: Stays, around: Around, snapshot: Snapshot,
         for (_, end), crowd in crowds.items()
         if len(crowd) > match.book.areas.penalty_area_robots
     ]
-    return Stays(tuple(stays), tuple(too_many)) if stays or too_many else NOWHERE
+    return Stays(tuple(stays), tuple(too_many)) if stays or too_many else NO_STAYS
 
 
-def _crowded(match: Match, before: Stays, crowd: list[int], end: int) -> float:
+def _crowded(match: MatchConstants, before: Stays, crowd: list[int], end: int) -> float:
     """s for which the same side has been too many there already."""
     side = match.roster.sides[crowd[0]]
     return next(

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import compress
 
-from schemas.game import Stage
-from sim_host.referee.decision import Decision
-from sim_host.referee.evidence.stays import NOWHERE
+from schemas.game import GameStage
+from sim_host.referee.evidence.stays import NO_STAYS
+from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules import (
     backward,
     double_touch,
@@ -33,7 +33,7 @@ from sim_host.referee.rules import (
     stand_off,
     touch_line,
 )
-from sim_host.referee.scene import Scene
+from sim_host.referee.situation import Situation
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,7 @@ class Rule:
     """One row: the file's name, its judgement, its numbers, and whether it judges only while the game runs."""
 
     name: str
-    judge: Callable[[Scene], Decision | None]
+    judge: Callable[[Situation], Decision | None]
     numbers: tuple[str, ...] = ()
     """What it looks up in the rule book, as `section.field`."""
     while_running: bool = True
@@ -116,7 +116,7 @@ RULES: tuple[Rule, ...] = (
 
 SHOOT_OUT: tuple[Rule, ...] = (Rule("shoot_out", shoot_out.judge, ("periods.shoot_out_limit",)),)
 """The rules of the penalty shoot-out."""
-TIMES: Mapping[str, tuple[Rule, ...]] = {
+RULES_BY_TIME: Mapping[str, tuple[Rule, ...]] = {
     "running": RULES,
     "halted": tuple(rule for rule in RULES if not rule.while_running),
     "shoot-out": SHOOT_OUT,
@@ -124,10 +124,10 @@ TIMES: Mapping[str, tuple[Rule, ...]] = {
 """When → the rules that judge: after START; at any time, which is all where people officiate; in a shoot-out."""
 
 
-def first_decision(scene: Scene, *, clocks_alone: bool = False) -> tuple[Rule, Decision] | None:
+def first_decision(situation: Situation, *, clocks_alone: bool = False) -> tuple[Rule, Decision] | None:
     """The first rule that decides in this tick, with what it decides."""
-    for rule in _asked(_time(scene, clocks_alone), _occasions(scene)):
-        decision = rule.judge(scene)
+    for rule in _rules_to_ask(_time(situation, clocks_alone), _occasions(situation)):
+        decision = rule.judge(situation)
         if decision is not None:
             return rule, decision
     return None
@@ -137,17 +137,17 @@ OCCASIONS = ("set piece", "crossing", "kick", "dribble", "pushes", "stays", "out
 """What rules wait for, in the order of `_occasions`."""
 
 
-def _occasions(scene: Scene) -> tuple[bool, ...]:
+def _occasions(situation: Situation) -> tuple[bool, ...]:
     """Which of these are there in this tick."""
-    state = scene.state
+    state = situation.state
     seen = state.evidence
     return (
         state.set_piece is not None,
-        scene.crossing is not None,
+        situation.crossing is not None,
         seen.flight is not None,
         seen.dribble is not None,
         bool(seen.pushes),
-        seen.stays is not NOWHERE,
+        seen.stays is not NO_STAYS,
         bool(seen.outside),
         seen.contest is not None,
         state.still > 0.0,
@@ -155,13 +155,13 @@ def _occasions(scene: Scene) -> tuple[bool, ...]:
 
 
 @cache
-def _asked(time: str, there: tuple[bool, ...]) -> tuple[Rule, ...]:
+def _rules_to_ask(time: str, there: tuple[bool, ...]) -> tuple[Rule, ...]:
     """The rules of this time that have anything to judge."""
     occasions = {"always", *compress(OCCASIONS, there)}
-    return tuple([rule for rule in TIMES[time] if rule.occasion in occasions])
+    return tuple([rule for rule in RULES_BY_TIME[time] if rule.occasion in occasions])
 
 
-def _time(scene: Scene, clocks_alone: bool) -> str:
-    if clocks_alone or not scene.state.running:
+def _time(situation: Situation, clocks_alone: bool) -> str:
+    if clocks_alone or not situation.state.running:
         return "halted"
-    return "shoot-out" if scene.state.stage is Stage.SHOOT_OUT else "running"
+    return "shoot-out" if situation.state.stage is GameStage.SHOOT_OUT else "running"

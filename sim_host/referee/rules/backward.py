@@ -9,21 +9,23 @@ moving backward ends a movement.
 Not judged: driving sideways, and turning with the ball.
 """
 
-from sim_host.referee.decision import Decision
+from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules.foul import exceeds, foul, is_called
-from sim_host.referee.scene import Scene
+from sim_host.referee.situation import Situation
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A free kick for the other side where the ball is, or nothing."""
-    dribble = scene.state.evidence.dribble
+    dribble = situation.state.evidence.dribble
     if dribble is None or not dribble.backward:
         return None
-    handling, way = scene.match.book.handling, dribble.backward
+    handling, way = situation.match.book.handling, dribble.backward
     limit = handling.backward_again if dribble.spent else handling.backward_distance
-    if not exceeds(way, limit) or not is_called(scene, "backward"):
+    if not exceeds(way, limit) or not is_called(situation, "backward"):
         return None
     again = " again without having released the ball" if dribble.spent else ""
     text = f"{dribble.robot} dribbled {way:.2f} m backward{again}, limit {limit:.2f}"
-    ball = scene.snapshot.ball
-    return foul(scene, "backward", (dribble.robot,), text, measured=way, limit=limit, unit="m", place=(ball.x, ball.y))
+    ball = situation.snapshot.ball
+    return foul(
+        situation, "backward", (dribble.robot,), text, measured=way, limit=limit, unit="m", place=(ball.x, ball.y)
+    )

@@ -7,25 +7,25 @@ Not judged: intent; a ball that comes back from the boundary or an opponent is n
 """
 
 from schemas.game import EventKind
-from sim_host.referee.decision import Decision
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.game.set_piece import KICK_DURATION
 from sim_host.referee.rules.set_piece_foul import being_taken, given_away
-from sim_host.referee.scene import Scene
-from sim_host.referee.set_piece import KICK
+from sim_host.referee.situation import Situation
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """The restart for the other side, or nothing."""
-    piece = being_taken(scene)
-    if piece is None or piece.kicker is None or piece.kicker not in piece.now or piece.since_kick <= KICK:
+    piece = being_taken(situation)
+    if piece is None or piece.kicker is None or piece.kicker not in piece.now or piece.since_kick <= KICK_DURATION:
         return None
-    asked = scene.match.book.restarts.in_play_distance
+    asked = situation.match.book.restarts.in_play_distance
     return Decision(
         kind=EventKind.FOUL,
         text=f"{piece.kicker} touched the ball twice: it had rolled {piece.rolled:.2f} m, in play after {asked:.2f} m",
-        restart=given_away(scene, piece),
+        restart=given_away(situation, piece),
         side=piece.restart.side,
         robot=piece.kicker,
-        place=(scene.snapshot.ball.x, scene.snapshot.ball.y),
+        place=(situation.snapshot.ball.x, situation.snapshot.ball.y),
         measured=piece.rolled,
         limit=asked,
         unit="m",

@@ -9,27 +9,27 @@ Not judged: how the dribbler turns the ball on its spot.
 """
 
 from schemas.game import EventKind
-from sim_host.referee.decision import Decision
+from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules.set_piece_foul import being_taken, given_away
-from sim_host.referee.scene import Scene
+from sim_host.referee.situation import Situation
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """The restart for the other side, or nothing."""
-    piece = being_taken(scene)
+    piece = being_taken(situation)
     if piece is None or not piece.now or piece.kicker is not None:
         return None
-    allowed = scene.match.book.restarts.drag_distance
+    allowed = situation.match.book.restarts.drag_distance
     name = piece.now[-1]
-    if piece.moved <= allowed or scene.match.roster.side_of(name) is not piece.restart.side:
+    if piece.moved <= allowed or situation.match.roster.side_of(name) is not piece.restart.side:
         return None
     return Decision(
         kind=EventKind.FOUL,
         text=f"{name} dragged the ball {piece.moved:.2f} m from its spot, limit {allowed:.2f} m",
-        restart=given_away(scene, piece),
+        restart=given_away(situation, piece),
         side=piece.restart.side,
         robot=name,
-        place=(scene.snapshot.ball.x, scene.snapshot.ball.y),
+        place=(situation.snapshot.ball.x, situation.snapshot.ball.y),
         measured=piece.moved,
         limit=allowed,
         unit="m",

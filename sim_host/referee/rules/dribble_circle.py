@@ -10,20 +10,20 @@ Not judged: whether a release was meant as one.
 
 import math
 
-from sim_host.referee.decision import Decision
+from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules.foul import foul, is_called
-from sim_host.referee.scene import Scene
+from sim_host.referee.situation import Situation
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A free kick for the other side where the ball is, or nothing."""
-    dribble = scene.state.evidence.dribble
-    if dribble is None or scene.snapshot.possession != dribble.robot:
+    dribble = situation.state.evidence.dribble
+    if dribble is None or situation.snapshot.possession != dribble.robot:
         return None
-    ball, limit = scene.snapshot.ball, scene.match.book.handling.circle
+    ball, limit = situation.snapshot.ball, situation.match.book.handling.circle
     place = (ball.x, ball.y)
     way = math.dist(dribble.caught, place)
-    if way <= limit or not is_called(scene, "dribble_circle"):
+    if way <= limit or not is_called(situation, "dribble_circle"):
         return None
     text = f"{dribble.robot} dribbled {way:.2f} m from where it caught the ball, limit {limit:.2f}"
-    return foul(scene, "dribble_circle", (dribble.robot,), text, measured=way, limit=limit, unit="m", place=place)
+    return foul(situation, "dribble_circle", (dribble.robot,), text, measured=way, limit=limit, unit="m", place=place)

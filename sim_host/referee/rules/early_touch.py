@@ -9,28 +9,28 @@ Not judged: whether the opponent could have got out of the way.
 """
 
 from schemas.game import EventKind, Phase
-from sim_host.referee.decision import Decision
+from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules.set_piece_foul import being_taken, given_away
-from sim_host.referee.scene import Scene
+from sim_host.referee.situation import Situation
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """The restart for the other side, or the same again, or nothing."""
-    piece = being_taken(scene)
+    piece = being_taken(situation)
     if piece is None or not piece.now or piece.restart.phase is Phase.DROP_BALL:
         return None
-    roster, side = scene.match.roster, piece.restart.side
+    roster, side = situation.match.roster, piece.restart.side
     for name in piece.now:
         is_mate = roster.side_of(name) is side
-        if is_mate and name in (piece.kicker, _first_of_side(scene)):
+        if is_mate and name in (piece.kicker, _first_of_side(situation)):
             continue
-        asked = scene.match.book.restarts.in_play_distance
+        asked = situation.match.book.restarts.in_play_distance
         who = "a teammate of the taker" if is_mate else "an opponent"
-        place = (scene.snapshot.ball.x, scene.snapshot.ball.y)
+        place = (situation.snapshot.ball.x, situation.snapshot.ball.y)
         return Decision(
             kind=EventKind.FOUL,
             text=f"{name}, {who}, touched the ball after {piece.rolled:.2f} m, in play after {asked:.2f} m",
-            restart=given_away(scene, piece) if is_mate else piece.restart,
+            restart=given_away(situation, piece) if is_mate else piece.restart,
             side=roster.side_of(name),
             robot=name,
             place=place,
@@ -41,10 +41,10 @@ def judge(scene: Scene) -> Decision | None:
     return None
 
 
-def _first_of_side(scene: Scene) -> str | None:
+def _first_of_side(situation: Situation) -> str | None:
     """The taker: the first robot of its side that touched the ball."""
-    piece = scene.state.set_piece
+    piece = situation.state.set_piece
     if piece is None:
         return None
-    mine = (name for name in piece.touched if scene.match.roster.side_of(name) is piece.restart.side)
+    mine = (name for name in piece.touched if situation.match.roster.side_of(name) is piece.restart.side)
     return next(mine, None)

@@ -5,10 +5,10 @@ The referee stops at once and plays no advantage: that is left to people, who ma
 
 from schemas.game import Card, EventKind, Phase
 from schemas.side import Side
-from sim_host.referee.decision import Decision
-from sim_host.referee.scene import Scene
-from sim_host.referee.spots import restart_at
-from sim_host.referee.timing import ROUNDING
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.game.timing import ROUNDING
+from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.situation import Situation
 
 CARDS = {"on": None, "yellow": Card.YELLOW}
 """The rule book's word → the card that goes with the restart."""
@@ -19,14 +19,14 @@ def exceeds(measured: float, limit: float) -> bool:
     return measured > limit + ROUNDING
 
 
-def is_called(scene: Scene, name: str) -> bool:
+def is_called(situation: Situation, name: str) -> bool:
     """Whether the rule book has the foul of that name called at all."""
-    word: str = getattr(scene.match.book.fouls, name)
+    word: str = getattr(situation.match.book.fouls, name)
     return word != "off"
 
 
 def foul(
-    scene: Scene,
+    situation: Situation,
     name: str,
     offenders: tuple[str, ...],
     text: str,
@@ -52,13 +52,13 @@ def foul(
         phase: the restart.
         restart_from: m; the place that its spot follows from, when that is not the ball's.
     """
-    side = scene.match.roster.side_of(offenders[0])
-    ball = scene.snapshot.ball
+    side = situation.match.roster.side_of(offenders[0])
+    ball = situation.snapshot.ball
     start = restart_from if restart_from is not None else (ball.x, ball.y)
     return Decision(
         kind=EventKind.FOUL,
         text=f"{text}; no advantage is played",
-        restart=restart_at(scene.match, scene.state, phase, side.opponent, start),
+        restart=restart_at(situation.match, situation.state, phase, side.opponent, start),
         side=side,
         robot=offenders[0],
         robots=offenders if len(offenders) > 1 else (),
@@ -66,10 +66,10 @@ def foul(
         measured=measured,
         limit=limit,
         unit=unit,
-        card=CARDS[getattr(scene.match.book.fouls, name)],
+        card=CARDS[getattr(situation.match.book.fouls, name)],
     )
 
 
-def is_own_half(scene: Scene, side: Side, x: float) -> bool:
+def is_own_half(situation: Situation, side: Side, x: float) -> bool:
     """Whether a ball whose centre is at `x` lies wholly in the half that a side defends."""
-    return x * scene.state.attack(side) < -scene.match.ball.radius
+    return x * situation.state.attack(side) < -situation.match.ball.radius

@@ -12,45 +12,45 @@ Not judged: whether a defender who deflected the ball could help it.
 
 from schemas.game import Card, EventKind, Phase
 from schemas.side import Side
-from sim_host.referee.decision import Decision
-from sim_host.referee.flow import kick_off_after_goal
-from sim_host.referee.scene import Crossing, Line, Scene
-from sim_host.referee.set_piece import why_no_goal
-from sim_host.referee.spots import restart_at
-from sim_host.referee.wording import at, touched
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.game.restart import kick_off_after_goal
+from sim_host.referee.game.set_piece import why_no_goal
+from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.situation import Crossing, Line, Situation
+from sim_host.referee.wording import last_touch_text, place_text
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A goal, or nothing."""
-    crossing = scene.crossing
-    if crossing is None or not is_in_goal(scene, crossing):
+    crossing = situation.crossing
+    if crossing is None or not is_in_goal(situation, crossing):
         return None
-    scorers = next(side for side in Side if scene.state.attack(side) * crossing.x > 0)
-    play = scene.state.evidence.play
+    scorers = next(side for side in Side if situation.state.attack(side) * crossing.x > 0)
+    play = situation.state.evidence.play
     shot = play.of(scorers)
     own = play.last is not None and (shot is None or play.control is scorers.opponent)
-    robot = shot.robot if shot is not None and not own else scene.state.last_touch
+    robot = shot.robot if shot is not None and not own else situation.state.last_touch
     place = (crossing.x, crossing.y)
-    lack = why_no_goal(scene.state.set_piece, scene.match.book, scene.match.roster, scorers)
+    lack = why_no_goal(situation.state.set_piece, situation.match.book, situation.match.roster, scorers)
     if lack is not None:
         touched_by, asked = lack
         return Decision(
             kind=EventKind.NO_GOAL,
             text=f"no goal: {touched_by} robots have touched the ball since the restart, {asked} are asked",
-            restart=restart_at(scene.match, scene.state, Phase.GOAL_KICK, scorers.opponent, place),
+            restart=restart_at(situation.match, situation.state, Phase.GOAL_KICK, scorers.opponent, place),
             side=scorers,
             robot=robot,
             place=place,
             measured=touched_by,
             limit=asked,
             unit="robots",
-            card=Card.YELLOW if scene.match.book.fouls.direct_goal == "yellow" else None,
+            card=Card.YELLOW if situation.match.book.fouls.direct_goal == "yellow" else None,
         )
     what = "own goal" if own else "goal"
     return Decision(
         kind=EventKind.GOAL,
-        text=f"{what}, counts for {scorers}: ball over the goal line at {at(place)}, "
-        f"{crossing.z:.2f} m high, {touched(robot)}",
+        text=f"{what}, counts for {scorers}: ball over the goal line at {place_text(place)}, "
+        f"{crossing.z:.2f} m high, {last_touch_text(robot)}",
         restart=kick_off_after_goal(scorers),
         goal_for=scorers,
         side=scorers,
@@ -59,7 +59,7 @@ def judge(scene: Scene) -> Decision | None:
     )
 
 
-def is_in_goal(scene: Scene, crossing: Crossing) -> bool:
+def is_in_goal(situation: Situation, crossing: Crossing) -> bool:
     """Whether the ball passed the goal line through the mouth of the goal."""
-    pitch = scene.match.pitch
+    pitch = situation.match.pitch
     return crossing.line is Line.GOAL and abs(crossing.y) < pitch.goal_width / 2 and crossing.z < pitch.goal_height

@@ -6,14 +6,14 @@ Not judged: lost time, which nobody adds.
 """
 
 from schemas.game import EventKind
-from sim_host.referee.decision import Decision
-from sim_host.referee.scene import Scene
-from sim_host.referee.timing import reached
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.game.timing import reached
+from sim_host.referee.situation import Situation
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """The end of the half at once, or nothing."""
-    state = scene.state
+    state = situation.state
     if not state.timing.runs or not reached(state.clock, state.timing.limit):
         return None
     return Decision(

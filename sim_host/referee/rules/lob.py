@@ -12,40 +12,40 @@ Not judged: a ball that somebody touches, or that leaves the field, before it co
 import math
 
 from schemas.game import Phase
-from sim_host.referee.decision import Decision
 from sim_host.referee.evidence.flight import Flight
+from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules.foul import foul, is_called
-from sim_host.referee.scene import Scene
-from sim_host.referee.wording import at
+from sim_host.referee.situation import Situation
+from sim_host.referee.wording import place_text
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A free kick for the other side on the halfway line, or nothing."""
-    flight = scene.state.evidence.flight
+    flight = situation.state.evidence.flight
     if flight is None or not flight.just_landed or flight.landed is None:
         return None
-    numbers, roster = scene.match.book.scoring, scene.match.roster
+    numbers, roster = situation.match.book.scoring, situation.match.roster
     side = roster.side_of(flight.robot)
-    if flight.apex <= numbers.lob_height or flight.kicked_from[0] * scene.state.attack(side) >= 0:
+    if flight.apex <= numbers.lob_height or flight.kicked_from[0] * situation.state.attack(side) >= 0:
         return None
-    gone = {index for index, _ in scene.state.evidence.outside}
+    gone = {index for index, _ in situation.state.evidence.outside}
     mates = [index for index, its in enumerate(roster.sides) if its is side and index not in gone]
     if len(mates) < numbers.lob_robots:
         return None
-    robots = scene.snapshot.robots
+    robots = situation.snapshot.robots
     away = [
         math.dist(flight.landed, (robots[index].x, robots[index].y))
         for index in mates
         if roster.names[index] != flight.robot
     ]
-    if min(away) <= numbers.lob_teammate or not is_called(scene, "lob"):
+    if min(away) <= numbers.lob_teammate or not is_called(situation, "lob"):
         return None
     text = (
         f"{flight.robot} lobbed from its own half, {flight.apex:.2f} m high, limit {numbers.lob_height:.2f}; the "
-        f"nearest teammate is {min(away):.2f} m from where it came down, {at(flight.landed)}"
+        f"nearest teammate is {min(away):.2f} m from where it came down, {place_text(flight.landed)}"
     )
     return foul(
-        scene,
+        situation,
         "lob",
         (flight.robot,),
         text,

@@ -5,21 +5,21 @@ Measures: time since the ball was caught, as long as it was not visibly released
 Not judged: whether the robot could have played it.
 """
 
-from sim_host.referee.decision import Decision
+from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules.foul import exceeds, foul, is_called
-from sim_host.referee.scene import Scene
+from sim_host.referee.situation import Situation
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A free kick for the other side where the ball is, or nothing."""
-    dribble = scene.state.evidence.dribble
-    if dribble is None or scene.snapshot.possession != dribble.robot:
+    dribble = situation.state.evidence.dribble
+    if dribble is None or situation.snapshot.possession != dribble.robot:
         return None
-    ball, limit = scene.snapshot.ball, scene.match.book.handling.hold_duration
-    kept = scene.snapshot.time - dribble.since
-    if not exceeds(kept, limit) or not is_called(scene, "long_hold"):
+    ball, limit = situation.snapshot.ball, situation.match.book.handling.hold_duration
+    kept = situation.snapshot.time - dribble.since
+    if not exceeds(kept, limit) or not is_called(situation, "long_hold"):
         return None
     text = f"{dribble.robot} kept the ball for {kept:.1f} s, limit {limit:.1f}"
     return foul(
-        scene, "long_hold", (dribble.robot,), text, measured=kept, limit=limit, unit="s", place=(ball.x, ball.y)
+        situation, "long_hold", (dribble.robot,), text, measured=kept, limit=limit, unit="s", place=(ball.x, ball.y)
     )

@@ -8,22 +8,22 @@ Not judged: how it came there.
 """
 
 from schemas.game import EventKind, Phase
-from sim_host.referee.decision import Decision
-from sim_host.referee.scene import Scene
-from sim_host.referee.spots import restart_at
-from sim_host.referee.wording import at
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.situation import Situation
+from sim_host.referee.wording import place_text
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A drop ball at the nearest legal place, or nothing; the rules on the lines have judged before."""
-    match, ball = scene.match, scene.snapshot.ball
+    match, ball = situation.match, situation.snapshot.ball
     outside = abs(ball.x) > match.out_x or abs(ball.y) > match.out_y
     if not outside and ball.z >= -match.ball.radius:
         return None
     place = (ball.x, ball.y)
     return Decision(
         kind=EventKind.BALL_OUT,
-        text=f"ball lost: it is at {at(place)}, {ball.z:.2f} m high, without having crossed a line",
-        restart=restart_at(match, scene.state, Phase.DROP_BALL, None, place),
+        text=f"ball lost: it is at {place_text(place)}, {ball.z:.2f} m high, without having crossed a line",
+        restart=restart_at(match, situation.state, Phase.DROP_BALL, None, place),
         place=place,
     )

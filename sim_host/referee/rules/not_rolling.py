@@ -9,25 +9,25 @@ Not judged: how deep the ball lies in the hull, which the robot's model fixes; a
 that an opponent is at, too, which he may keep from turning.
 """
 
-from sim_host.referee.decision import Decision
+from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules.foul import exceeds, foul, is_called
-from sim_host.referee.scene import Scene
+from sim_host.referee.situation import Situation
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A free kick for the other side where the ball is, or nothing."""
-    dribble = scene.state.evidence.dribble
+    dribble = situation.state.evidence.dribble
     if dribble is None or not dribble.slid:
         return None
-    handling, ball = scene.match.book.handling, scene.snapshot.ball
+    handling, ball = situation.match.book.handling, situation.snapshot.ball
     place = (ball.x, ball.y)
     for measured, limit, unit in (
         (dribble.slid_way, handling.roll_distance, "m"),
         (dribble.slid, handling.roll_duration, "s"),
     ):
-        if exceeds(measured, limit) and is_called(scene, "not_rolling"):
+        if exceeds(measured, limit) and is_called(situation, "not_rolling"):
             text = f"{dribble.robot} moved the ball {measured:.2f} {unit} without letting it roll, limit {limit:.2f}"
             return foul(
-                scene, "not_rolling", (dribble.robot,), text, measured=measured, limit=limit, unit=unit, place=place
+                situation, "not_rolling", (dribble.robot,), text, measured=measured, limit=limit, unit=unit, place=place
             )
     return None

@@ -2,21 +2,21 @@
 
 from schemas.game import EventKind, Phase
 from schemas.side import Side
-from sim_host.referee.decision import Decision
-from sim_host.referee.scene import Crossing, Scene
-from sim_host.referee.spots import restart_at
-from sim_host.referee.wording import at, touched
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.situation import Crossing, Situation
+from sim_host.referee.wording import last_touch_text, place_text
 
 
-def ball_out(scene: Scene, crossing: Crossing, phase: Phase, taker: Side | None) -> Decision:
+def ball_out(situation: Situation, crossing: Crossing, phase: Phase, taker: Side | None) -> Decision:
     """The restart of `taker`, or a drop ball when nobody touched the ball since START."""
-    robot = scene.state.last_touch
+    robot = situation.state.last_touch
     place = (crossing.x, crossing.y)
     return Decision(
         kind=EventKind.BALL_OUT,
-        text=f"ball out over the {crossing.line.value} at {at(place)}, {touched(robot)}",
-        restart=restart_at(scene.match, scene.state, phase, taker, place),
-        side=scene.match.roster.side_of(robot) if robot is not None else None,
+        text=f"ball out over the {crossing.line.value} at {place_text(place)}, {last_touch_text(robot)}",
+        restart=restart_at(situation.match, situation.state, phase, taker, place),
+        side=situation.match.roster.side_of(robot) if robot is not None else None,
         robot=robot,
         place=place,
     )

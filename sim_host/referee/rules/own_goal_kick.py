@@ -10,31 +10,31 @@ Not judged: whether another robot's touch was more than one in passing.
 
 from schemas.game import EventKind, Phase
 from schemas.side import Side
-from sim_host.referee.decision import Decision
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.placement.spots import restart_at
 from sim_host.referee.rules.goal import is_in_goal
-from sim_host.referee.scene import Scene
-from sim_host.referee.spots import restart_at
-from sim_host.referee.wording import at, touched
+from sim_host.referee.situation import Situation
+from sim_host.referee.wording import last_touch_text, place_text
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A corner for the other side, or nothing."""
-    crossing, piece = scene.crossing, scene.state.set_piece
-    if crossing is None or piece is None or not is_in_goal(scene, crossing):
+    crossing, piece = situation.crossing, situation.state.set_piece
+    if crossing is None or piece is None or not is_in_goal(situation, crossing):
         return None
-    scorers = next(side for side in Side if scene.state.attack(side) * crossing.x > 0)
-    taker, asked = piece.restart.side, scene.match.book.scoring.robots_touched
-    alone = len(piece.touched) == piece.touchers(scene.match.roster, taker) == 1 if taker is not None else False
+    scorers = next(side for side in Side if situation.state.attack(side) * crossing.x > 0)
+    taker, asked = piece.restart.side, situation.match.book.scoring.robots_touched
+    alone = len(piece.touched) == piece.touchers(situation.match.roster, taker) == 1 if taker is not None else False
     if taker is not scorers.opponent or not alone or asked == 1:
         return None
     place = (crossing.x, crossing.y)
     return Decision(
         kind=EventKind.NO_GOAL,
-        text=f"no own goal: the ball went in at {at(place)} straight from {taker}'s own restart, "
-        f"{touched(scene.state.last_touch)}",
-        restart=restart_at(scene.match, scene.state, Phase.CORNER, scorers, place),
+        text=f"no own goal: the ball went in at {place_text(place)} straight from {taker}'s own restart, "
+        f"{last_touch_text(situation.state.last_touch)}",
+        restart=restart_at(situation.match, situation.state, Phase.CORNER, scorers, place),
         side=taker,
-        robot=scene.state.last_touch,
+        robot=situation.state.last_touch,
         place=place,
         measured=1,
         limit=asked,

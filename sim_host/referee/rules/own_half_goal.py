@@ -13,50 +13,50 @@ Not judged: whether the receiver meant to receive.
 
 from schemas.game import EventKind, Phase
 from schemas.side import Side
-from sim_host.referee.decision import Decision
 from sim_host.referee.evidence.play import Touch
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.placement.spots import restart_at
 from sim_host.referee.rules.foul import CARDS, is_called, is_own_half
 from sim_host.referee.rules.goal import is_in_goal
-from sim_host.referee.scene import Crossing, Scene
-from sim_host.referee.spots import restart_at
-from sim_host.referee.wording import at
+from sim_host.referee.situation import Crossing, Situation
+from sim_host.referee.wording import place_text
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """No goal, and a goal kick for the defenders; or nothing."""
-    crossing = scene.crossing
-    if crossing is None or not is_in_goal(scene, crossing) or not is_called(scene, "own_half_goal"):
+    crossing = situation.crossing
+    if crossing is None or not is_in_goal(situation, crossing) or not is_called(situation, "own_half_goal"):
         return None
-    play = scene.state.evidence.play
-    side = next(side for side in Side if scene.state.attack(side) * crossing.x > 0)
+    play = situation.state.evidence.play
+    side = next(side for side in Side if situation.state.attack(side) * crossing.x > 0)
     touch = play.of(side)
     if touch is None or play.control is side.opponent:
         return None
-    measured, limit = -touch.place[0] * scene.state.attack(side), scene.match.book.scoring.pass_roll
-    if is_own_half(scene, side, touch.place[0]):
+    measured, limit = -touch.place[0] * situation.state.attack(side), situation.match.book.scoring.pass_roll
+    if is_own_half(situation, side, touch.place[0]):
         text = f"{touch.robot} played the ball {measured:.2f} m inside its own half, limit 0.00"
-        return _no_goal(scene, crossing, side, touch, text, measured, 0.0)
-    if play.won is not None and is_own_half(scene, side, play.won[0]) and not play.received:
+        return _no_goal(situation, crossing, side, touch, text, measured, 0.0)
+    if play.won is not None and is_own_half(situation, side, play.won[0]) and not play.received:
         text = (
-            f"{touch.robot} played the ball last, won in its own half at {at(play.won)}, and nobody received a pass in "
-            f"the other; the last one rolled {play.rolled:.2f} m, limit {limit:.2f}"
+            f"{touch.robot} played the ball last, won in its own half at {place_text(play.won)}, and nobody received a "
+            f"pass in the other; the last one rolled {play.rolled:.2f} m, limit {limit:.2f}"
         )
-        return _no_goal(scene, crossing, side, touch, text, play.rolled, limit)
+        return _no_goal(situation, crossing, side, touch, text, play.rolled, limit)
     return None
 
 
 def _no_goal(
-    scene: Scene, crossing: Crossing, side: Side, touch: Touch, text: str, measured: float, limit: float
+    situation: Situation, crossing: Crossing, side: Side, touch: Touch, text: str, measured: float, limit: float
 ) -> Decision:
     return Decision(
         kind=EventKind.NO_GOAL,
         text=f"no goal for {side}: {text}",
-        restart=restart_at(scene.match, scene.state, Phase.GOAL_KICK, side.opponent, (crossing.x, crossing.y)),
+        restart=restart_at(situation.match, situation.state, Phase.GOAL_KICK, side.opponent, (crossing.x, crossing.y)),
         side=side,
         robot=touch.robot,
         place=touch.place,
         measured=measured,
         limit=limit,
         unit="m",
-        card=CARDS[scene.match.book.fouls.own_half_goal],
+        card=CARDS[situation.match.book.fouls.own_half_goal],
     )

@@ -10,29 +10,29 @@ Not judged: who came last, and who was pushed there.
 
 import math
 
-from sim_host.referee.decision import Decision
+from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules.foul import exceeds, foul, is_called
-from sim_host.referee.scene import Scene
+from sim_host.referee.situation import Situation
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A free kick for the other side, out of the area at the nearest restart spot, or nothing."""
-    crowds, areas = scene.state.evidence.stays.crowds, scene.match.book.areas
+    crowds, areas = situation.state.evidence.stays.crowds, situation.match.book.areas
     limit = areas.penalty_area_duration
     for crowd in crowds:
-        if exceeds(crowd.lasted, limit) and is_called(scene, "penalty_area"):
-            roster, robots, ball = scene.match.roster, scene.snapshot.robots, scene.snapshot.ball
+        if exceeds(crowd.lasted, limit) and is_called(situation, "penalty_area"):
+            roster, robots, ball = situation.match.roster, situation.snapshot.robots, situation.snapshot.ball
             away = {index: math.hypot(robots[index].x - ball.x, robots[index].y - ball.y) for index in crowd.robots}
             farthest = max(crowd.robots, key=lambda index: away[index])
             order = (farthest, *(index for index in crowd.robots if index != farthest))
             names = tuple([roster.names[index] for index in order])
-            defends = scene.state.attack(roster.sides[farthest]) != crowd.end
+            defends = situation.state.attack(roster.sides[farthest]) != crowd.end
             text = (
                 f"illegal {'defence' if defends else 'attack'}: {' and '.join(names)} are in a penalty area, "
                 f"{areas.penalty_area_robots} of a side may be, for {crowd.lasted:.1f} s, limit {limit:.1f}"
             )
             at = robots[farthest]
             return foul(
-                scene, "penalty_area", names, text, measured=crowd.lasted, limit=limit, unit="s", place=(at.x, at.y)
+                situation, "penalty_area", names, text, measured=crowd.lasted, limit=limit, unit="s", place=(at.x, at.y)
             )
     return None

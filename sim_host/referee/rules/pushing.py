@@ -10,28 +10,28 @@ Not judged: intent, and who had the right to the ball: who moves the other is th
 
 from schemas.game import Phase
 from sim_host.referee.areas import in_penalty_area
-from sim_host.referee.decision import Decision
+from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules.foul import exceeds, foul, is_called
-from sim_host.referee.scene import Scene
+from sim_host.referee.situation import Situation
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A free kick or a penalty for the other side, or nothing."""
-    limit = scene.match.book.contact.push_distance
-    for push in scene.state.evidence.pushes:
-        if not exceeds(abs(push.way), limit) or not is_called(scene, "pushing"):
+    limit = situation.match.book.contact.push_distance
+    for push in situation.state.evidence.pushes:
+        if not exceeds(abs(push.way), limit) or not is_called(situation, "pushing"):
             continue
-        roster, way = scene.match.roster, abs(push.way)
+        roster, way = situation.match.roster, abs(push.way)
         offender, victim = (push.first, push.second) if push.way > 0 else (push.second, push.first)
-        robot = scene.snapshot.robots[offender]
-        own_end = -scene.state.attack(roster.sides[offender])
-        inside = in_penalty_area(scene.match.pitch, own_end, robot.x, robot.y)
+        robot = situation.snapshot.robots[offender]
+        own_end = -situation.state.attack(roster.sides[offender])
+        inside = in_penalty_area(situation.match.pitch, own_end, robot.x, robot.y)
         text = (
             f"{roster.names[offender]} pushed {roster.names[victim]} {way:.2f} m{' in its own penalty area' * inside}, "
             f"limit {limit:.2f}; intent is not judged"
         )
         return foul(
-            scene,
+            situation,
             "pushing",
             (roster.names[offender],),
             text,

@@ -10,25 +10,25 @@ Not judged: who of them holds the ball meanwhile.
 """
 
 from schemas.game import EventKind, Phase
-from sim_host.referee.decision import Decision
-from sim_host.referee.scene import Scene
-from sim_host.referee.spots import restart_at
-from sim_host.referee.wording import at
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.situation import Situation
+from sim_host.referee.wording import place_text
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A drop ball, or nothing."""
-    contest = scene.state.evidence.contest
-    numbers = scene.match.book.scrum
+    contest = situation.state.evidence.contest
+    numbers = situation.match.book.scrum
     if contest is None or contest.stuck < numbers.duration:
         return None
-    ball, names = scene.snapshot.ball, scene.match.roster.names
+    ball, names = situation.snapshot.ball, situation.match.roster.names
     place = (ball.x, ball.y)
     return Decision(
         kind=EventKind.STALL,
-        text=f"scrum: both sides at the ball at {at(place)} for {contest.stuck:.1f} s without {numbers.progress:.2f} m "
-        f"of progress, limit {numbers.duration:.1f}",
-        restart=restart_at(scene.match, scene.state, Phase.DROP_BALL, None, place),
+        text=f"scrum: both sides at the ball at {place_text(place)} for {contest.stuck:.1f} s without "
+        f"{numbers.progress:.2f} m of progress, limit {numbers.duration:.1f}",
+        restart=restart_at(situation.match, situation.state, Phase.DROP_BALL, None, place),
         robots=tuple([names[index] for index in contest.robots]),
         place=place,
         measured=contest.stuck,

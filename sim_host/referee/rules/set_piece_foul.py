@@ -1,29 +1,29 @@
 """What the rules on taking a restart share: when they judge, and who gets the restart when it is fouled."""
 
 from schemas.game import Phase
-from sim_host.referee.call import Restart
-from sim_host.referee.scene import Scene
-from sim_host.referee.set_piece import SetPiece
-from sim_host.referee.spots import restart_at
+from sim_host.referee.game.restart import Restart
+from sim_host.referee.game.set_piece import SetPiece
+from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.situation import Situation
 
 KEPT = frozenset({Phase.KICK_OFF, Phase.THROW_IN})
 """Restarts that stay what they are when the other side gets them; the others become free kicks."""
 
 
-def being_taken(scene: Scene) -> SetPiece | None:
+def being_taken(situation: Situation) -> SetPiece | None:
     """The restart that was started and is not in play yet, where the rule book has fouls in it."""
-    state = scene.state
+    state = situation.state
     piece = state.set_piece
     if piece is None or state.phase is Phase.PLAY:
         return None
-    numbers = scene.match.book.restarts
+    numbers = situation.match.book.restarts
     return piece if numbers.restart_fouls and piece.rolled < numbers.in_play_distance else None
 
 
-def given_away(scene: Scene, piece: SetPiece) -> Restart:
+def given_away(situation: Situation, piece: SetPiece) -> Restart:
     """The restart for the other side."""
     restart = piece.restart
     if restart.side is None:
         return restart
     phase = restart.phase if restart.phase in KEPT else Phase.FREE_KICK
-    return restart_at(scene.match, scene.state, phase, restart.side.opponent, restart.spot)
+    return restart_at(situation.match, situation.state, phase, restart.side.opponent, restart.spot)

@@ -13,11 +13,11 @@ Not judged: what robots do that wait behind the halfway line, after START.
 from schemas.game import EventKind
 from schemas.side import Side
 from sim_host.referee.areas import in_penalty_area
-from sim_host.referee.decision import Decision
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.game.set_piece import KICK_DURATION, SetPiece
+from sim_host.referee.game.timing import reached
 from sim_host.referee.rules.goal import is_in_goal
-from sim_host.referee.scene import Scene
-from sim_host.referee.set_piece import KICK, SetPiece
-from sim_host.referee.timing import reached
+from sim_host.referee.situation import Situation
 
 BACKWARD = 0.2
 """m that a held ball may come away from the goal: the noise of a robot that turns with it (ours)."""
@@ -25,23 +25,23 @@ SLOW = 1.0
 """s after the kick from which a ball that lies still ends the attempt (ours)."""
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """The end of the attempt, or nothing."""
-    piece, side = scene.state.set_piece, scene.state.side
+    piece, side = situation.state.set_piece, situation.state.side
     if piece is None or side is None:
         return None
-    crossing = scene.crossing
+    crossing = situation.crossing
     if crossing is not None:
-        end = scene.state.attack(side)
-        scored = is_in_goal(scene, crossing) and crossing.x * end > 0 and piece.kicker is not None
-        return _over(scene, piece, side, scored, "ball in the goal" if scored else "ball out, no goal")
-    missed = _missed(scene, piece, side)
-    return None if missed is None else _over(scene, piece, side, False, *missed)
+        end = situation.state.attack(side)
+        scored = is_in_goal(situation, crossing) and crossing.x * end > 0 and piece.kicker is not None
+        return _over(situation, piece, side, scored, "ball in the goal" if scored else "ball out, no goal")
+    missed = _missed(situation, piece, side)
+    return None if missed is None else _over(situation, piece, side, False, *missed)
 
 
-def _missed(scene: Scene, piece: SetPiece, side: Side) -> tuple[str, float | None, float | None, str] | None:
+def _missed(situation: Situation, piece: SetPiece, side: Side) -> tuple[str, float | None, float | None, str] | None:
     """Why the attempt is over without a goal: sentence, measured, limit and unit."""
-    state, snapshot, match = scene.state, scene.snapshot, scene.match
+    state, snapshot, match = situation.state, situation.snapshot, situation.match
     ball, end, limit = snapshot.ball, state.attack(side), match.book.periods.shoot_out_limit
     if reached(state.timing.timer, limit):
         return f"no goal within {limit:g} s", state.timing.timer, limit, "s"
@@ -51,29 +51,29 @@ def _missed(scene: Scene, piece: SetPiece, side: Side) -> tuple[str, float | Non
     if piece.kicker is None:
         if in_penalty_area(match.pitch, end, ball.x, ball.y):
             return "the ball entered the penalty area without a kick", None, None, ""
-        return _backward(scene, side)
+        return _backward(situation, side)
     again = [name for name in piece.now if match.roster.side_of(name) is side]
-    if again and piece.since_kick > KICK:
+    if again and piece.since_kick > KICK_DURATION:
         return f"{again[-1]} touched the ball again after the kick, one kick is allowed", None, None, ""
     if piece.since_kick > SLOW and ball.vx**2 + ball.vy**2 + ball.vz**2 < match.book.stall.still_speed**2:
         return "the ball lies still after the kick", None, None, ""
     return None
 
 
-def _backward(scene: Scene, side: Side) -> tuple[str, float, float, str] | None:
+def _backward(situation: Situation, side: Side) -> tuple[str, float, float, str] | None:
     """The ball is held and comes away from the goal."""
-    out, snapshot = scene.state.shoot_out, scene.snapshot
+    out, snapshot = situation.state.shoot_out, situation.snapshot
     holder = snapshot.possession
-    if out is None or out.nearest is None or holder is None or scene.match.roster.side_of(holder) is not side:
+    if out is None or out.nearest is None or holder is None or situation.match.roster.side_of(holder) is not side:
         return None
-    back = scene.match.pitch.goal_line - scene.snapshot.ball.x * scene.state.attack(side) - out.nearest
+    back = situation.match.pitch.goal_line - situation.snapshot.ball.x * situation.state.attack(side) - out.nearest
     if back <= BACKWARD:
         return None
     return f"{holder} moved the ball {back:.2f} m away from the goal, limit {BACKWARD:.2f} m", back, BACKWARD, "m"
 
 
 def _over(
-    scene: Scene,
+    situation: Situation,
     piece: SetPiece,
     side: Side,
     scored: bool,
@@ -82,7 +82,7 @@ def _over(
     limit: float | None = None,
     unit: str = "",
 ) -> Decision:
-    ball = scene.snapshot.ball
+    ball = situation.snapshot.ball
     return Decision(
         kind=EventKind.SHOT,
         text=f"penalty of {side} {'scored' if scored else 'missed'}: {why}",

@@ -6,24 +6,24 @@ Not judged: why nobody plays it.
 """
 
 from schemas.game import EventKind, Phase
-from sim_host.referee.decision import Decision
-from sim_host.referee.scene import Scene
-from sim_host.referee.spots import restart_at
-from sim_host.referee.timing import reached
-from sim_host.referee.wording import at
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.game.timing import reached
+from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.situation import Situation
+from sim_host.referee.wording import place_text
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A drop ball where the ball lies, out of a penalty area at the nearest restart spot, or nothing."""
-    still = scene.state.still
-    if not reached(still, scene.match.book.stall.still_duration):
+    still = situation.state.still
+    if not reached(still, situation.match.book.stall.still_duration):
         return None
-    ball = scene.snapshot.ball
+    ball = situation.snapshot.ball
     place = (ball.x, ball.y)
     return Decision(
         kind=EventKind.STALL,
-        text=f"ball stalled for {still:.1f} s at {at(place)}",
-        restart=restart_at(scene.match, scene.state, Phase.DROP_BALL, None, place),
-        robot=scene.snapshot.possession,
+        text=f"ball stalled for {still:.1f} s at {place_text(place)}",
+        restart=restart_at(situation.match, situation.state, Phase.DROP_BALL, None, place),
+        robot=situation.snapshot.possession,
         place=place,
     )

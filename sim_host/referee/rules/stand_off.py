@@ -6,24 +6,24 @@ Not judged: which of them began.
 """
 
 from schemas.game import EventKind, Phase
-from sim_host.referee.decision import Decision
-from sim_host.referee.scene import Scene
-from sim_host.referee.spots import restart_at
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.situation import Situation
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A drop ball where the ball is, out of a penalty area at the nearest restart spot, or nothing."""
-    limit = scene.match.book.contact.stand_off_duration
-    for push in scene.state.evidence.pushes:
+    limit = situation.match.book.contact.stand_off_duration
+    for push in situation.state.evidence.pushes:
         if push.lasted < limit:
             continue
-        names, ball = scene.match.roster.names, scene.snapshot.ball
+        names, ball = situation.match.roster.names, situation.snapshot.ball
         robots = (names[push.first], names[push.second])
         place = (ball.x, ball.y)
         return Decision(
             kind=EventKind.STALL,
             text=f"stand-off: {' and '.join(robots)} lean on each other for {push.lasted:.1f} s, limit {limit:.1f}",
-            restart=restart_at(scene.match, scene.state, Phase.DROP_BALL, None, place),
+            restart=restart_at(situation.match, situation.state, Phase.DROP_BALL, None, place),
             robots=robots,
             place=place,
             measured=push.lasted,

@@ -7,16 +7,16 @@ Not judged: which of two robots meant to play the ball that both touched in the 
 """
 
 from schemas.game import Phase
-from sim_host.referee.decision import Decision
+from sim_host.referee.game.decision import Decision
 from sim_host.referee.rules.out import ball_out
-from sim_host.referee.scene import Line, Scene
+from sim_host.referee.situation import Line, Situation
 
 
-def judge(scene: Scene) -> Decision | None:
+def judge(situation: Situation) -> Decision | None:
     """A throw-in at the crossing point, a drop ball there when nobody touched the ball, or nothing."""
-    crossing, robot = scene.crossing, scene.state.last_touch
+    crossing, robot = situation.crossing, situation.state.last_touch
     if crossing is None or crossing.line is not Line.TOUCH:
         return None
     if robot is None:
-        return ball_out(scene, crossing, Phase.DROP_BALL, None)
-    return ball_out(scene, crossing, Phase.THROW_IN, scene.match.roster.side_of(robot).opponent)
+        return ball_out(situation, crossing, Phase.DROP_BALL, None)
+    return ball_out(situation, crossing, Phase.THROW_IN, situation.match.roster.side_of(robot).opponent)

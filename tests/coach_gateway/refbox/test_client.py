@@ -13,9 +13,9 @@ import pytest
 
 from coach_gateway.refbox import client as client_module
 from coach_gateway.refbox.client import UPLOAD_S, BoxAddress, RefBoxClient
-from coach_gateway.refbox.framing import Protocol
-from schemas.coach import CoachMode
+from coach_gateway.refbox.framing import BoxProtocol
 from schemas.game import REFBOX, ActionName, ActionReply, Phase, RefereeAction
+from schemas.messages.coach import CoachMode
 from schemas.side import Side
 
 CYAN_AT, MAGENTA_AT = "224.16.32.44", "224.16.32.55"
@@ -82,7 +82,7 @@ def met(opened: Callable[..., Any], until: Any) -> Callable[..., Any]:
     """A box, and a base station of ours that is connected to it, beside a host."""
 
     @asynccontextmanager
-    async def make(protocol: Protocol = Protocol.AUTO, team: Side = Side.CYAN, **box_is: Any) -> Any:
+    async def make(protocol: BoxProtocol = BoxProtocol.AUTO, team: Side = Side.CYAN, **box_is: Any) -> Any:
         async with opened() as bench:
             box = Box(**box_is)
             port = await box.open()
@@ -132,8 +132,10 @@ def test_every_restart_as_a_character_reaches_the_referee_for_the_right_side(met
     asyncio.run(play())
 
 
-@pytest.mark.parametrize("protocol", [Protocol.AUTO, Protocol.JSON])
-def test_fragments_and_several_commands_in_one_packet_are_all_heard(protocol: Protocol, met: Any, until: Any) -> None:
+@pytest.mark.parametrize("protocol", [BoxProtocol.AUTO, BoxProtocol.JSON])
+def test_fragments_and_several_commands_in_one_packet_are_all_heard(
+    protocol: BoxProtocol, met: Any, until: Any
+) -> None:
     async def play() -> None:
         async with met(protocol) as (bench, box, _):
             bench.stage.say(phase=Phase.STOPPED)
@@ -401,7 +403,7 @@ def test_a_box_that_has_not_read_for_long_is_left_and_met_again(
 ) -> None:
     monkeypatch.setattr("coach_gateway.refbox.client._UNREAD", 20_000)
     monkeypatch.setattr("coach_gateway.refbox.client.UPLOAD_S", 0.0005)
-    monkeypatch.setattr("coach_gateway.refbox.client._DEAF_S", 0.1)
+    monkeypatch.setattr("coach_gateway.refbox.client._UNREAD_S", 0.1)
 
     async def play() -> None:
         async with met(reads=False) as (bench, _, client):

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from coach_gateway.refbox import characters, commands
-from coach_gateway.refbox.commands import Command, NoCommandError
+from coach_gateway.refbox.commands import BoxCommand, NoCommandError
 from schemas.side import Side
 
 FOR_BOTH = (
@@ -84,7 +84,7 @@ def test_a_robot_that_is_none_is_no_robot(value: object) -> None:
 
 @pytest.mark.parametrize("value", [3, "3", 3.0])
 def test_a_robot_may_be_written_as_text(value: object) -> None:
-    assert commands.read({"command": "REPAIR", "targetTeam": "a", "robotID": value}) == Command(
+    assert commands.read({"command": "REPAIR", "targetTeam": "a", "robotID": value}) == BoxCommand(
         commands.read({"command": "REPAIR"}).signal, "a", 3
     )
 

@@ -4,22 +4,22 @@ from typing import Any
 
 import pytest
 
-from coach_gateway.refbox.forwarding import FORWARD, Deeds, deeds, is_ours, speaks_for
-from schemas.coach import CoachMode
-from schemas.game import REFBOX, GameState, Phase, Stage
+from coach_gateway.refbox.forwarding import FORWARD, SignalResponse, is_ours, response_to, speaks_for
+from schemas.game import REFBOX, GameStage, GameState, Phase
 from schemas.league.signals import BY_NAME, SIGNALS
+from schemas.messages.coach import CoachMode
 from schemas.side import Side
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
 STOPPED = {"phase": Phase.STOPPED}
 
 
-def led_to(name: str, whose: Side | None = None, which: str | None = None, /, **state: Any) -> Deeds:
+def led_to(name: str, whose: Side | None = None, which: str | None = None, /, **state: Any) -> SignalResponse:
     content = {"tick": 1, "time": 0.0, "phase": Phase.PLAY, **state}
-    return deeds(BY_NAME[name], whose, which, GameState(**content))
+    return response_to(BY_NAME[name], whose, which, GameState(**content))
 
 
-def said(found: Deeds) -> list[str]:
+def said(found: SignalResponse) -> list[str]:
     assert all(action.source == REFBOX for action in found.actions)
     return [" ".join(filter(None, (action.action, action.side, action.robot))) for action in found.actions]
 
@@ -57,7 +57,7 @@ def test_every_signal_has_its_row() -> None:
         ("END_PART", None, None, STOPPED, ["end_half"]),
         ("END_GAME", None, None, {**STOPPED, "half": 2}, ["end_half"]),
         ("END_GAME", None, None, {**STOPPED, "half": 1}, ["end_game"]),
-        ("END_GAME", None, None, {**STOPPED, "half": 4, "stage": Stage.SHOOT_OUT}, ["end_game"]),
+        ("END_GAME", None, None, {**STOPPED, "half": 4, "stage": GameStage.SHOOT_OUT}, ["end_game"]),
         ("GAMEOVER", None, None, {**STOPPED, "half": 2}, ["end_game"]),
         ("SECOND_HALF", None, None, {"phase": Phase.HALF_TIME}, ["start"]),
         ("SECOND_HALF", None, None, STOPPED, []),

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from coach_gateway.refbox.framing import Framer, Protocol
+from coach_gateway.refbox.framing import BoxProtocol, Framer
 
 START = {"command": "START", "targetTeam": ""}
 KICKOFF = {"command": "KICKOFF", "targetTeam": "224.16.32.44"}
@@ -18,7 +18,7 @@ def wire(*objects: dict[str, Any]) -> bytes:
     return b"".join(json.dumps(one).encode() + b"\x00" for one in objects)
 
 
-def fed(pieces: list[bytes], **settings: Any) -> tuple[list[Any], int, Protocol]:
+def fed(pieces: list[bytes], **settings: Any) -> tuple[list[Any], int, BoxProtocol]:
     framer = Framer(**settings)
     messages = [message for piece in pieces for message in framer.feed(piece)]
     return messages, framer.garbage, framer.protocol
@@ -42,8 +42,8 @@ def fed(pieces: list[bytes], **settings: Any) -> tuple[list[Any], int, Protocol]
     ],
 )
 def test_json_ends_with_a_zero_byte_and_garbage_is_counted(data: bytes, messages: list[Any], garbage: int) -> None:
-    assert fed([data]) == (messages, garbage, Protocol.JSON)
-    assert fed([data[at : at + 1] for at in range(len(data))]) == (messages, garbage, Protocol.JSON)
+    assert fed([data]) == (messages, garbage, BoxProtocol.JSON)
+    assert fed([data[at : at + 1] for at in range(len(data))]) == (messages, garbage, BoxProtocol.JSON)
 
 
 @pytest.mark.parametrize(
@@ -57,13 +57,13 @@ def test_json_ends_with_a_zero_byte_and_garbage_is_counted(data: bytes, messages
     ],
 )
 def test_characters_are_messages_each(data: bytes, messages: list[Any], garbage: int) -> None:
-    assert fed([data]) == (messages, garbage, Protocol.CHARACTERS)
+    assert fed([data]) == (messages, garbage, BoxProtocol.CHARACTERS)
 
 
 def test_a_message_that_is_too_long_is_passed_over_up_to_its_zero_byte() -> None:
     long = wire({"fill": "x" * 500})
     for pieces in ([long + wire(START)], [long[:300], long[300:], wire(START)]):
-        assert fed(pieces, limit=100) == ([START], 1, Protocol.JSON)
+        assert fed(pieces, limit=100) == ([START], 1, BoxProtocol.JSON)
 
 
 def test_a_sender_that_never_ends_a_message_fills_no_memory() -> None:
@@ -77,12 +77,16 @@ def test_a_sender_that_never_ends_a_message_fills_no_memory() -> None:
 
 def test_json_after_a_character_is_not_read_letter_by_letter() -> None:
     """The letters of "command" would be kick-offs, free kicks and goals."""
-    assert fed([b"S" + wire(KICKOFF)]) == (["S", KICKOFF], 0, Protocol.JSON)
-    assert fed([b"S" + wire(KICKOFF) + b"s"], protocol=Protocol.CHARACTERS) == (["S", "s"], 1, Protocol.CHARACTERS)
+    assert fed([b"S" + wire(KICKOFF)]) == (["S", KICKOFF], 0, BoxProtocol.JSON)
+    assert fed([b"S" + wire(KICKOFF) + b"s"], protocol=BoxProtocol.CHARACTERS) == (
+        ["S", "s"],
+        1,
+        BoxProtocol.CHARACTERS,
+    )
 
 
 def test_characters_where_json_was_announced_are_garbage() -> None:
-    assert fed([b"SsK\x00" + wire(START)], protocol=Protocol.JSON) == ([START], 1, Protocol.JSON)
+    assert fed([b"SsK\x00" + wire(START)], protocol=BoxProtocol.JSON) == ([START], 1, BoxProtocol.JSON)
 
 
 _PARTS = st.one_of(
@@ -94,9 +98,11 @@ _PARTS = st.one_of(
 @given(
     parts=st.lists(_PARTS, max_size=12),
     cuts=st.lists(st.integers(0, 400), max_size=12),
-    protocol=st.sampled_from(list(Protocol)),
+    protocol=st.sampled_from(list(BoxProtocol)),
 )
-def test_any_cut_of_a_stream_gives_the_same_messages(parts: list[bytes], cuts: list[int], protocol: Protocol) -> None:
+def test_any_cut_of_a_stream_gives_the_same_messages(
+    parts: list[bytes], cuts: list[int], protocol: BoxProtocol
+) -> None:
     data = b"".join(parts)
     edges = [0, *sorted(min(cut, len(data)) for cut in cuts), len(data)]
     pieces = [data[begin:end] for begin, end in pairwise(edges)]

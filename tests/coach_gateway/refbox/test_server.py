@@ -9,16 +9,16 @@ from typing import Any
 
 import pytest
 
+from coach_gateway.access.tokens import Tokens
 from coach_gateway.refbox import server as server_module
 from coach_gateway.refbox.audience_feed import AudienceFeed
-from coach_gateway.refbox.server import Door, RefBoxServer
-from coach_gateway.refbox.team_view import TeamView
-from coach_gateway.web.tokens import Tokens
+from coach_gateway.refbox.server import RefBoxServer, ServerAddress
+from coach_gateway.refbox.team_world_state import TeamWorldState
 from schemas.errors import TouchlineError
-from schemas.game import OffField, Phase, Score, Standing
+from schemas.game import DisciplinaryRecord, OffField, Phase, Score
 from schemas.league.calls import Call
 from schemas.league.findings import MOST
-from schemas.league.lenient import _canonical
+from schemas.league.lenient_json import _canonical
 from schemas.league.signals import BY_NAME
 from schemas.side import Side
 
@@ -61,12 +61,12 @@ def boxed(opened: Callable[..., Any], until: Any) -> Callable[..., Any]:
     """Our box beside a host, and a way to have base stations come."""
 
     @asynccontextmanager
-    async def make(*doors: Door, **settings: Any) -> Any:
+    async def make(*server_addresses: ServerAddress, **settings: Any) -> Any:
         names = {"teams.cyan.name": "Sapphire", "teams.magenta.name": "Ruby"} | settings.pop("names", {})
         async with opened(**names) as bench:
-            box = RefBoxServer(bench.live, doors or (Door(0),), bench.said.append, **settings)
+            box = RefBoxServer(bench.live, server_addresses or (ServerAddress(0),), bench.said.append, **settings)
             bench.start(box)
-            await until(lambda: len(box.ports) == max(1, len(doors)))
+            await until(lambda: len(box.ports) == max(1, len(server_addresses)))
             teams: list[Team] = []
 
             async def come(port: int | None = None, **hello: Any) -> Team:
@@ -109,9 +109,19 @@ def test_a_whole_game_is_told_to_both_teams_in_the_leagues_words(boxed: Any, unt
             say(phase=Phase.KICK_OFF, side=Side.CYAN)
             say(running=True)
             say(phase=Phase.PLAY, side=None)
-            say(robots={"magenta2": Standing(yellow=1), "cyan3": Standing(off_field=OffField.REPAIR)})
+            say(
+                robots={
+                    "magenta2": DisciplinaryRecord(yellow=1),
+                    "cyan3": DisciplinaryRecord(off_field=OffField.REPAIR),
+                }
+            )
             say(phase=Phase.STOPPED, running=False, score=Score(magenta=1))
-            say(robots={"magenta2": Standing(yellow=1), "cyan1": Standing(off_field=OffField.SUBSTITUTION)})
+            say(
+                robots={
+                    "magenta2": DisciplinaryRecord(yellow=1),
+                    "cyan1": DisciplinaryRecord(off_field=OffField.SUBSTITUTION),
+                }
+            )
             say(phase=Phase.CORNER, side=Side.MAGENTA)
             say(running=True)
             say(phase=Phase.HALF_TIME, side=None, running=False)
@@ -186,7 +196,7 @@ def test_half_a_letter_in_a_hello_is_nobodys_name_and_no_fault(boxed: Any, until
 
 def test_software_that_knows_no_hello_is_known_by_its_world_states_or_by_its_port(boxed: Any, until: Any) -> None:
     async def play() -> None:
-        async with boxed(Door(0), Door(0, Side.CYAN)) as (_, box, come):
+        async with boxed(ServerAddress(0), ServerAddress(0, Side.CYAN)) as (_, box, come):
             by_state = await come()
             by_state.say(**world_state("ruby"))
             await until(lambda: by_state.heard)
@@ -249,7 +259,7 @@ def test_world_states_are_read_leniently_and_counted(boxed: Any, until: Any) -> 
             team.say(type="worldstate", TeamName="Sapphire", robots=[])
             team.writer.write(b'{"half a state": [1, 2\x00')
             team.say(hello="world")
-            view = box.views[Side.CYAN]
+            view = box.team_states[Side.CYAN]
             await until(lambda: view.states == 3 and view.others == 1)
             found = {finding.what: finding.count for finding in [*view.findings.coped, *view.findings.lost]}
             assert found["robot without a position"] == 1
@@ -261,11 +271,11 @@ def test_world_states_are_read_leniently_and_counted(boxed: Any, until: Any) -> 
 
 
 def test_a_base_station_that_spells_every_key_anew_fills_no_memory() -> None:
-    view = TeamView()
+    view = TeamWorldState()
     for number in range(3000):
         spelled = "team" + "_" * number + "Name"
-        view.take(world_state("Ruby") | {spelled: "Ruby"} | {f"key{number}": 0}, 0.0)
-        view.take({spelled: "Ruby", "robots": []}, 0.0)
+        view.update(world_state("Ruby") | {spelled: "Ruby"} | {f"key{number}": 0}, 0.0)
+        view.update({spelled: "Ruby", "robots": []}, 0.0)
     assert view.states == 6000
     assert len(view.findings.coped) <= MOST + 1
     assert sum(finding.count for finding in view.findings.coped) > 3000
@@ -286,7 +296,7 @@ def test_a_base_station_that_never_reads_is_dropped_and_the_others_hear_everythi
             cyan = await come(team="cyan")
             told = 0
             while not any("does not read and is dropped" in line for line in bench.said):
-                box.tell([Call(BY_NAME["CORNER"], Side.CYAN)] * 1000)
+                box.send([Call(BY_NAME["CORNER"], Side.CYAN)] * 1000)
                 told += 1000
                 assert told < 1_000_000
                 await until(lambda told=told: len(cyan.heard) == told + 2)
@@ -350,7 +360,7 @@ def test_a_port_that_is_taken_is_an_error_of_one_line(opened: Any) -> None:
             taken.bind(("127.0.0.1", 0))
             taken.listen()
             async with opened() as bench:
-                box = RefBoxServer(bench.live, [Door(taken.getsockname()[1])], bench.said.append)
+                box = RefBoxServer(bench.live, [ServerAddress(taken.getsockname()[1])], bench.said.append)
                 with pytest.raises(TouchlineError, match=r"--refbox-server \d+ cannot be listened on"):
                     await box.serve(bench.stop)
 
@@ -379,13 +389,13 @@ def test_the_audience_hears_of_teams_and_events(
             loop = asyncio.get_running_loop()
             transport, display = await loop.create_datagram_endpoint(Display, local_addr=("127.0.0.1", 0))
             address = transport.get_extra_info("sockname")[:2]
-            bench.start(AudienceFeed(bench.live, [address], bench.said.append, box.views))
+            bench.start(AudienceFeed(bench.live, [address], bench.said.append, box.team_states))
             await until(lambda: display.said, "the feed")
             bench.stage.show()
             cyan = await come(team="cyan")
             mine = world_state("Sapphire", intention="win")
             cyan.say(**mine)
-            await until(lambda: box.views[Side.CYAN].states)
+            await until(lambda: box.team_states[Side.CYAN].states)
             bench.stage.say(phase=Phase.KICK_OFF, side=Side.MAGENTA)
             bench.stage.say(
                 phase=Phase.PLAY,
@@ -394,7 +404,7 @@ def test_the_audience_hears_of_teams_and_events(
                 clock=61.0,
                 effective=42.0,
                 score=Score(cyan=2),
-                robots={"cyan2": Standing(off_field=OffField.SECOND_YELLOW, yellow=2, left=33.4)},
+                robots={"cyan2": DisciplinaryRecord(off_field=OffField.SECOND_YELLOW, yellow=2, left=33.4)},
             )
             shown = lambda: [one for one in display.said if one["type"] == "teams" and one["gameTime"] == "01:01"]  # noqa: E731
             await until(lambda: len(shown()) > 3)
@@ -428,12 +438,12 @@ def test_a_base_station_that_tells_too_much_does_not_silence_the_audience_feed(
             loop = asyncio.get_running_loop()
             transport, display = await loop.create_datagram_endpoint(Display, local_addr=("127.0.0.1", 0))
             bench.start(
-                AudienceFeed(bench.live, [transport.get_extra_info("sockname")[:2]], bench.said.append, box.views)
+                AudienceFeed(bench.live, [transport.get_extra_info("sockname")[:2]], bench.said.append, box.team_states)
             )
             bench.stage.show()
             cyan = await come(team="cyan")
             cyan.say(**world_state("Sapphire", intention="x" * 64_500))
-            await until(lambda: box.views[Side.CYAN].states)
+            await until(lambda: box.team_states[Side.CYAN].states)
             told = len(display.said)
             await until(lambda: len(display.said) > told + 3)
             check_world_state(display.said[-1]["teamA"]["worldState"])

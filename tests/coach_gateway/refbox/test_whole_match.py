@@ -7,7 +7,7 @@ from contextlib import asynccontextmanager
 from typing import Any
 
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
-from coach_gateway.refbox.server import Door, RefBoxServer
+from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from schemas.game import ActionName, Phase, RefereeAction
 from schemas.side import Side
 
@@ -67,7 +67,7 @@ def test_a_whole_match_is_played_by_the_commands_of_the_box(kicked_off: Callable
             box.say("SUBGOAL", THEM)
             await until(lambda: state().score.magenta == 0, "the goal taken back")
             box.say("REPAIR", US, 2)
-            await until(lambda: "cyan2" in state().people.away, "the repair")
+            await until(lambda: "cyan2" in state().participation.absences, "the repair")
             box.say("CORNER", US)
             await until(lambda: (state().phase, state().side) == (Phase.CORNER, Side.CYAN), "the corner")
             box.say("START")
@@ -118,7 +118,7 @@ def test_a_team_of_the_league_hears_the_match_that_our_referee_officiates(
 
     async def play() -> None:
         async with kicked_off(rules="friendly") as bench:
-            box = RefBoxServer(bench.live, [Door(0, Side.MAGENTA)], bench.said.append)
+            box = RefBoxServer(bench.live, [ServerAddress(0, Side.MAGENTA)], bench.said.append)
             bench.start(box)
             await until(lambda: box.ports)
             reader, writer = await asyncio.open_connection("127.0.0.1", box.ports[0])

@@ -11,8 +11,8 @@ from coach_gateway.udp.coach_record import (
     for_coach,
     for_referee,
 )
-from schemas.coach import CoachMode, CoachTest
 from schemas.game import ActionName, TeamPhase
+from schemas.messages.coach import CoachMode, CoachTest
 from schemas.side import Side
 
 RECORD = {

@@ -11,15 +11,15 @@ from typing import Any
 
 import pytest
 
+from coach_gateway.access.tokens import Tokens
 from coach_gateway.udp import session as session_module
-from coach_gateway.udp.server import UdpCoaches
-from coach_gateway.web.tokens import Tokens
-from schemas.coach import CoachMode, CoachOrder, StandingOrder
-from schemas.command import Motion, Radio
+from coach_gateway.udp.server import UdpServer
 from schemas.errors import TouchlineError
 from schemas.game import ActionReply, Phase
+from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
+from schemas.messages.command import Motion, Radio
 from schemas.side import Side
-from schemas.topics import STANDING_ORDER
+from schemas.topics import ACTIVE_ORDER
 
 TOKENS = Tokens("referee-token", "cyan-token", "magenta-token")
 EXAMPLE = Path(__file__).parents[3] / "examples" / "udp_coach.py"
@@ -64,7 +64,7 @@ def served(opened: Any, kicked_off: Any, until: Any) -> Any:
     @asynccontextmanager
     async def make(real: bool = False) -> Any:
         async with (kicked_off if real else opened)() as bench:
-            server = UdpCoaches(bench.live, TOKENS.role_of, bench.said.append, port=0)
+            server = UdpServer(bench.live, TOKENS.role_of, bench.said.append, port=0)
             bench.start(server)
             await until(lambda: server.port)
             programs: list[Program] = []
@@ -309,7 +309,7 @@ def test_a_port_that_is_taken_is_an_error_of_one_line(opened: Any) -> None:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
             taken.bind(("127.0.0.1", 0))
             async with opened() as bench:
-                server = UdpCoaches(bench.live, TOKENS.role_of, bench.said.append, port=taken.getsockname()[1])
+                server = UdpServer(bench.live, TOKENS.role_of, bench.said.append, port=taken.getsockname()[1])
                 with pytest.raises(TouchlineError, match=r"--udp \d+ cannot be listened on"):
                     await server.serve(bench.stop)
 
@@ -321,7 +321,7 @@ def test_the_example_coaches_a_side_with_nothing_but_pythons_own_library(served:
         async with served() as (bench, server, _):
             bench.stage.say(phase=Phase.PLAY, running=True)
             bench.stage.believe("cyan2", Radio(self=Motion(x=1.0, y=2.0, heading=0.5), intention="wait"))
-            standing = bench.stage.bus.publisher(STANDING_ORDER, side="cyan")
+            standing = bench.stage.bus.publisher(ACTIVE_ORDER, side="cyan")
 
             async def acknowledge() -> None:
                 said = 0
@@ -329,7 +329,7 @@ def test_the_example_coaches_a_side_with_nothing_but_pythons_own_library(served:
                     await asyncio.sleep(0.01)
                     for _, order in bench.stage.orders[said:]:
                         told = {f"cyan{number}": True for number in (1, 2, 3)}
-                        standing.put(StandingOrder(tick=1, time=0.0, order=order, acknowledged=told))
+                        standing.put(ActiveOrder(tick=1, time=0.0, order=order, acknowledged=told))
                         said += 1
 
             robots = asyncio.create_task(acknowledge())

@@ -15,42 +15,42 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
-from coach_gateway.web.entrance import open_entrance
+from coach_gateway.access.tokens import tokens_of
+from coach_gateway.web.binding import bind_page
 from coach_gateway.web.server import WebServer
 from coach_gateway.web.settings import WebSettings
-from coach_gateway.web.tokens import tokens_of
 from schemas.bus.contract import Bus, Subscription
-from schemas.bus.in_process import Medium
-from schemas.clock import WallClock
-from schemas.coach import CoachOrder, StandingOrder
-from schemas.command import Radio
+from schemas.bus.in_process_bus import Medium
+from schemas.config.match_config import load_match
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
+from schemas.config.scene import SceneReply
 from schemas.game import ActionName, ActionReply, EventKind, GameEvent, GameState, Phase, RefereeAction
-from schemas.host import Belief, Health, Setup
-from schemas.match_config import load_match
 from schemas.message import Message
-from schemas.parameters import ParametersReply, ParametersRequest
-from schemas.profile import load_profile
-from schemas.replay import ReplayDeed, ReplayReply, ReplayRequest
-from schemas.rule_book import load_rule_book
-from schemas.scene import SceneReply
+from schemas.messages.coach import ActiveOrder, CoachOrder
+from schemas.messages.command import Radio
+from schemas.messages.host import Belief, Health, Setup
+from schemas.messages.parameters import ParametersReply, ParametersRequest
+from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
+from schemas.messages.world import BallTruth, World
+from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import (
     ACTION,
+    ACTIVE_ORDER,
     BELIEF,
     EVENT,
-    HAND,
     HEALTH,
+    MANUAL,
     ORDER,
     PARAMETERS,
-    REPLAY,
+    REPLAY_CONTROL,
     SCENE,
     SETUP,
-    STANDING_ORDER,
     STATE,
     WORLD,
 )
-from schemas.world import BallTruth, World
 
 SOON = 20.0
 """s; more than anything takes here, so that only what never comes fails a test."""
@@ -76,13 +76,13 @@ class FakeHost:
         slow: threading.Event | None = None,
     ) -> None:
         """With `recorded` it is a replay of these events; with `slow` parameters are told only when that is set."""
-        self.bus: Bus = medium.seat("friendly", WallClock())
+        self.bus: Bus = medium.open_bus("friendly", WallClock())
         self.asked: list[Any] = []
         self._rules = rules
         self._recorded = recorded
         self._slow = slow
         self._writers: dict[tuple[str, str], Any] = {}
-        self.hands, self.orders = self.bus.subscribe(HAND), self.bus.subscribe(ORDER)
+        self.hands, self.orders = self.bus.subscribe(MANUAL), self.bus.subscribe(ORDER)
         answers: dict[Topic, Callable[[Any], Message]] = {
             SETUP: lambda _: self.setup(),
             ACTION: self._act,
@@ -90,7 +90,7 @@ class FakeHost:
             SCENE: lambda _: SceneReply(accepted=True, episode=2),
         }
         if recorded is not None:
-            answers[REPLAY] = self._replay
+            answers[REPLAY_CONTROL] = self._replay
         self._threads = [
             threading.Thread(target=self._serve, args=(self.bus.serve(topic), answer), daemon=True)
             for topic, answer in answers.items()
@@ -123,9 +123,7 @@ class FakeHost:
         self.put(EVENT, event(tick, text))
 
     def stand(self, side: Side, order: CoachOrder, **acknowledged: bool) -> None:
-        self.put(
-            STANDING_ORDER, StandingOrder(tick=1, time=0.02, order=order, acknowledged=acknowledged), side=side.value
-        )
+        self.put(ACTIVE_ORDER, ActiveOrder(tick=1, time=0.02, order=order, acknowledged=acknowledged), side=side.value)
 
     def die(self) -> None:
         self.bus.close()
@@ -133,10 +131,10 @@ class FakeHost:
             thread.join()
 
     def _serve(self, server: Any, answer: Callable[[Any], Message]) -> None:
-        while (question := server.receive(None)) is not None:
-            message = question.message()
+        while (query := server.receive(None)) is not None:
+            message = query.message()
             self.asked.append(message)
-            question.answer(answer(message))
+            query.reply(answer(message))
 
     def _tell_parameters(self, request: ParametersRequest) -> ParametersReply:
         if self._slow is not None:
@@ -148,7 +146,7 @@ class FakeHost:
         return ActionReply(accepted=accepted, reason="" if accepted else "play is running")
 
     def _replay(self, request: ReplayRequest) -> ReplayReply:
-        told = (self._recorded or []) if request.deed is ReplayDeed.EVENTS else []
+        told = (self._recorded or []) if request.operation is ReplayOperation.EVENTS else []
         return ReplayReply(accepted=True, time=1.5, end=9.0, events=told)
 
 
@@ -157,9 +155,9 @@ class Gateway:
 
     def __init__(self, medium: Medium, settings: WebSettings) -> None:
         self.said: list[str] = []
-        self.entrance = open_entrance(settings, tokens_of(settings.tokens))
-        self.origin = self.entrance.origin
-        self.bus = medium.seat("friendly", WallClock())
+        self.binding = bind_page(settings, tokens_of(settings.tokens))
+        self.origin = self.binding.origin
+        self.bus = medium.open_bus("friendly", WallClock())
         self._stop = asyncio.Event()
         self._thread = threading.Thread(
             target=self._run,
@@ -171,7 +169,7 @@ class Gateway:
     def _run(self) -> None:
         async def main() -> None:
             self._loop = asyncio.get_running_loop()
-            self.server = WebServer(self.bus, self.entrance, self.said.append)
+            self.server = WebServer(self.bus, self.binding, self.said.append)
             self._ready.set()
             await self.server.serve(self._stop)
 
@@ -226,12 +224,12 @@ class Visitor:
         return welcome
 
     def ask(self, deed: str, token: str | None = None, **content: Any) -> dict[str, Any]:
-        """What is answered to a question."""
+        """What is answered to a query."""
         number = self.say(deed, token, **content)
         return self.hear("reply", id=number)
 
     def say(self, deed: str, token: str | None = None, **content: Any) -> int:
-        """Ask without waiting for the answer; returns the number of the question."""
+        """Ask without waiting for the answer; returns the number of the query."""
         number = next(self._numbers)
         self.send({"id": number, "token": self.token if token is None else token, "deed": deed, **content})
         return number

@@ -4,61 +4,61 @@ import asyncio
 
 import pytest
 
-from coach_gateway.allowance import Allowance
-from coach_gateway.web.outlet import MOST, Outlet
-from coach_gateway.web.pace import FramePace
+from coach_gateway.access.rate_limit import TokenBucket
+from coach_gateway.web.frame_pace import FramePace
+from coach_gateway.web.send_queue import MOST, SendQueue
 
 
-def drained(outlet: Outlet, count: int) -> list[str]:
+def drained(queue: SendQueue, count: int) -> list[str]:
     async def take() -> list[str]:
-        return [await outlet.next() for _ in range(count)]
+        return [await queue.next() for _ in range(count)]
 
     return asyncio.run(take())
 
 
 def test_of_frames_the_newest_alone_waits_and_of_words_all() -> None:
-    outlet = Outlet()
+    queue = SendQueue()
     for number in range(5):
-        outlet.show(f"frame {number}")
-        outlet.say(f"word {number}")
-    assert drained(outlet, 6) == [*(f"word {number}" for number in range(5)), "frame 4"]
-    assert outlet.skipped == 4
+        queue.put_frame(f"frame {number}")
+        queue.put(f"word {number}")
+    assert drained(queue, 6) == [*(f"word {number}" for number in range(5)), "frame 4"]
+    assert queue.skipped == 4
 
 
 def test_a_frame_of_before_the_welcome_is_not_sent_after_it() -> None:
-    outlet = Outlet()
-    outlet.say("answer")
-    outlet.show("old frame")
-    outlet.begin("welcome")
-    outlet.show("new frame")
-    assert drained(outlet, 3) == ["answer", "welcome", "new frame"]
+    queue = SendQueue()
+    queue.put("answer")
+    queue.put_frame("old frame")
+    queue.restart("welcome")
+    queue.put_frame("new frame")
+    assert drained(queue, 3) == ["answer", "welcome", "new frame"]
 
 
 def test_who_reads_nothing_overflows() -> None:
-    outlet = Outlet()
+    queue = SendQueue()
     for _ in range(MOST):
-        outlet.say("word")
-    assert not outlet.overflows
-    outlet.say("one more")
-    assert outlet.overflows
+        queue.put("word")
+    assert not queue.overflows
+    queue.put("one more")
+    assert queue.overflows
 
 
 def test_a_wait_ends_when_something_comes() -> None:
     async def waiting() -> str:
-        outlet = Outlet()
-        told = asyncio.create_task(outlet.next())
+        queue = SendQueue()
+        told = asyncio.create_task(queue.next())
         await asyncio.sleep(0)
-        outlet.show("frame")
+        queue.put_frame("frame")
         return await told
 
     assert asyncio.run(waiting()) == "frame"
 
 
 def test_an_allowance_is_used_up_at_once_and_fills_up_with_time() -> None:
-    allowance = Allowance(per_second=4.0, at_once=3.0, now=100.0)
-    assert [allowance.take(100.0) for _ in range(4)] == [True, True, True, False]
-    assert [allowance.take(100.25), allowance.take(100.25)] == [True, False]
-    assert [allowance.take(200.0) for _ in range(4)] == [True, True, True, False]
+    rate_limit = TokenBucket(per_second=4.0, at_once=3.0, now=100.0)
+    assert [rate_limit.allow(100.0) for _ in range(4)] == [True, True, True, False]
+    assert [rate_limit.allow(100.25), rate_limit.allow(100.25)] == [True, False]
+    assert [rate_limit.allow(200.0) for _ in range(4)] == [True, True, True, False]
 
 
 def shown(pace: FramePace, takes_s: float, seconds: float) -> int:

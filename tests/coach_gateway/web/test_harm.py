@@ -7,8 +7,8 @@ from collections.abc import Callable
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
+from schemas.messages.world import ObstacleTruth
 from schemas.topics import WORLD
-from schemas.world import ObstacleTruth
 
 from .conftest import SOON, FakeHost, Gateway, Visitor, world
 
@@ -56,7 +56,7 @@ GARBAGE = [
     ('{"id": 4, "deed": "rule the world"}', "does not match any of the expected tags"),
     ('{"id": -1, "deed": "token"}', "greater than or equal to 0"),
     ('{"id": 4, "deed": "token", "more": 1}', "Extra inputs"),
-    ('{"id": 4, "deed": "drive", "robot": "cyan1", "hand": {"drive": {"vx": NaN}}}', "finite|Invalid JSON"),
+    ('{"id": 4, "deed": "drive", "robot": "cyan1", "manual": {"drive": {"vx": NaN}}}', "finite|Invalid JSON"),
     ('{"id": 4, "deed": "action", "action": {"action": "explode"}}', "Input should be"),
     (b"\x00\xff", "only text"),
     ("[" * 5000, "Invalid JSON|recursion"),
@@ -145,7 +145,7 @@ def test_a_page_that_does_not_read_keeps_nobody_waiting_and_is_dropped(
 def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
     host: FakeHost, gateway_of: Callable[..., Gateway], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for module in ("pages", "listening"):  # however long the other page takes to see all frames, this one is let be
+    for module in ("pages", "listener"):  # however long the other page takes to see all frames, this one is let be
         monkeypatch.setattr(f"coach_gateway.web.{module}.STUCK_S", 600.0)
     gateway = gateway_of()
     narrow = socket.socket()

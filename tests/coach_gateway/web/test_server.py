@@ -6,13 +6,13 @@ from typing import Any
 import pytest
 from websockets.exceptions import ConnectionClosed
 
-from coach_gateway.web.protocol import SAID
-from schemas.bus.in_process import Medium
-from schemas.coach import CoachMode, CoachOrder
-from schemas.scene import shipped_scenes
+from coach_gateway.web.protocol import SERVER_MESSAGE
+from schemas.bus.in_process_bus import Medium
+from schemas.config.scene import shipped_scenes
+from schemas.messages.coach import CoachMode, CoachOrder
+from schemas.messages.world import RobotTruth
 from schemas.side import Side
 from schemas.topics import EVENT, WORLD
-from schemas.world import RobotTruth
 
 from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, event, world
 
@@ -42,10 +42,10 @@ def test_everything_that_is_said_is_as_the_protocol_has_it(visit: Visit, host: F
     host.play(1)
     host.happen(1, "kick-off")
     host.stand(Side.CYAN, CoachOrder(sequence=1), cyan1=True, cyan2=False)
-    page.say("scene", request={"deed": "reset"})
+    page.say("scene", request={"operation": "reset"})
     waited_for = {"frame", "event", "state", "health", "orders", "reply"}
     while waited_for:
-        waited_for -= {SAID.validate_json(page.socket.recv(SOON)).kind}
+        waited_for -= {SERVER_MESSAGE.validate_json(page.socket.recv(SOON)).kind}
 
 
 def test_a_frame_has_the_world_and_what_robots_believe(visit: Visit, host: FakeHost) -> None:
@@ -159,7 +159,7 @@ def test_what_is_told_again_when_a_link_comes_back_is_neither_news_nor_another_h
     page.hear("event", event=event(2, "event 2").model_dump(mode="json"))
     for received in iter(past.receive, None):
         for reader in readers:
-            reader.bring(received.key, received)
+            reader.deliver(received.key, received)
     host.happen(3, "event 3")
     heard = page.hear()
     assert (heard["kind"], heard["event"]["text"]) == ("event", "event 3")
@@ -214,9 +214,9 @@ def test_a_replay_tells_all_its_events_at_once_and_none_again(
     while (heard := page.hear())["kind"] != "frame":
         assert heard["kind"] != "event"
     assert page.hear("replay")["replay"]["end"] == 9.0
-    assert not page.ask("replay", request={"deed": "pause"})["accepted"]
+    assert not page.ask("replay", request={"operation": "pause"})["accepted"]
     page.enter("referee")
-    sought = page.ask("replay", request={"deed": "seek", "to": "1.5"})
+    sought = page.ask("replay", request={"operation": "seek", "to": "1.5"})
     assert (sought["accepted"], sought["answer"]["time"]) == (True, 1.5)
     changed = page.ask("order", side="cyan", order={})
     assert changed["reason"] == "this is a replay: what is recorded cannot be changed"
@@ -237,9 +237,9 @@ def test_a_referee_box_that_connects_is_told(visit: Visit, host: FakeHost, mediu
 
 def test_what_the_server_says_first_has_no_token_where_they_stand_in_a_file(gateway_of: Callable[..., Gateway]) -> None:
     gateway = gateway_of()
-    said = list(gateway.entrance.lines())
+    said = list(gateway.binding.lines())
     assert said[0] == f"page: {gateway.origin}/"
     assert not any(token in line for line in said for token in TOKENS.values())
-    own = list(gateway_of(tokens=None).entrance.lines())
+    own = list(gateway_of(tokens=None).binding.lines())
     assert [line.partition(":")[0] for line in own] == ["page", "referee", "cyan", "magenta"]
     assert all("/#token=" in line for line in own[1:])

@@ -10,7 +10,7 @@ import pytest
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
-from coach_gateway.web.listening import free_port, listen
+from coach_gateway.web.listener import free_port, listen
 
 from .conftest import SOON, Gateway
 

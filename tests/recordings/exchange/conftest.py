@@ -4,38 +4,38 @@ from collections.abc import Iterator
 
 import pytest
 
-from arena.in_process import Table
-from recordings.compose import Said, compose
-from recordings.manifest import Manifest
-from recordings.reader import Recording, open_recording
-from schemas.command import Command
-from schemas.host import Applied
-from schemas.match_config import load_match
+from recordings.container.manifest import Manifest
+from recordings.editing.compose import TimedMessage, compose
+from recordings.reading.recording import Recording, open_recording
+from schemas.config.match_config import load_match
 from schemas.message import VERSION
+from schemas.messages.command import Command
+from schemas.messages.host import Applied
+from schemas.messages.world import World
 from schemas.topics import APPLIED, COMMAND, EVENT, STATE, WORLD
-from schemas.world import World
+from touchline.play import InProcessMatch
 
 STARTED = "2026-07-01T15:00:00.000+00:00"
 
 
-def played(table: Table) -> Iterator[Said]:
+def played(table: InProcessMatch) -> Iterator[TimedMessage]:
     """Everything that is said in the match, tick by tick."""
     simulation = table.simulation
     said = None
     tick = simulation.now
     while True:
         now = round(tick.time * 1e9)
-        yield Said(now, WORLD, WORLD.key, World.model_validate(tick.world))
-        yield Said(now, APPLIED, APPLIED.key, Applied.decode(tick.applied_encoded))
+        yield TimedMessage(now, WORLD, WORLD.key, World.model_validate(tick.world))
+        yield TimedMessage(now, APPLIED, APPLIED.key, Applied.decode(tick.applied_encoded))
         state = simulation.state.game_state(tick.tick, tick.time, 1)
         news = (state.phase, state.side, state.running, state.half, state.score)
         if news != said or tick.tick % 50 == 0:
-            yield Said(now, STATE, STATE.key, state)
+            yield TimedMessage(now, STATE, STATE.key, state)
             said = news
-        yield from (Said(now, EVENT, EVENT.key, event) for event in tick.events)
+        yield from (TimedMessage(now, EVENT, EVENT.key, event) for event in tick.events)
         for name, given in tick.applied["inputs"].items():
             key = COMMAND.fill(robot=name)
-            yield Said(now, COMMAND, key, Command(answers_tick=tick.tick, drive=given.drive, kick=given.kick))
+            yield TimedMessage(now, COMMAND, key, Command(answers_tick=tick.tick, drive=given.drive, kick=given.kick))
         if simulation.over:
             break
         tick = table.step()
@@ -46,7 +46,7 @@ def played(table: Table) -> Iterator[Said]:
 def real(tmp_path_factory: pytest.TempPathFactory) -> Recording:
     teams = {f"teams.{side}.size": 2 for side in ("cyan", "magenta")}
     config = load_match(None, {"name": "short", "seed": 7, "duration": 8.0, **teams})
-    table = Table(config)
+    table = InProcessMatch(config)
     manifest = Manifest(
         contract=VERSION,
         match="short",

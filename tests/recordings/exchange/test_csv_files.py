@@ -4,8 +4,8 @@ from pathlib import Path
 import pytest
 from mcap.reader import make_reader
 
-from recordings.exchange.csv_files import KINDS, export
-from recordings.reader import Recording, open_recording
+from recordings.exchange.csv_files import TABLES, export
+from recordings.reading.recording import Recording, open_recording
 from schemas.errors import TouchlineError
 from schemas.topics import COMMAND, EVENT, STATE, WORLD
 
@@ -21,8 +21,8 @@ def folder(recorded: Recording, tmp_path: Path) -> Path:
 
 
 def test_every_file_says_its_units_in_its_header(folder: Path) -> None:
-    assert {file.name for file in folder.iterdir()} == set(KINDS)
-    for name, kind in KINDS.items():
+    assert {file.name for file in folder.iterdir()} == set(TABLES)
+    for name, kind in TABLES.items():
         header = (folder / name).read_text("utf-8").splitlines()[0].split(",")
         assert header == list(kind.header)
         assert {column for column in header if column in ("x", "time", "heading", "vx", "clock")} == set()

@@ -10,14 +10,14 @@ from zipfile import ZipFile
 
 import pytest
 
-from recordings.exchange.msl.importing import Imported, import_log
+from recordings.exchange.msl.import_log import ImportSummary, import_log
 from recordings.exchange.msl.team_log import read_team
-from recordings.reader import Recording, open_recording
+from recordings.reading.recording import Recording, open_recording
 from schemas.errors import TouchlineError
 from schemas.game import GameState, Phase, Score
 from schemas.league.findings import Findings
+from schemas.messages.world import World
 from schemas.topics import STATE, WORLD
-from schemas.world import World
 
 START_MS = 1467540000000
 
@@ -54,7 +54,7 @@ class Log:
     def events(self, *lines: str) -> None:
         (self.folder / "20160703_120000.msl").write_text("\n".join(lines))
 
-    def read(self, **options: Any) -> tuple[Imported, Recording]:
+    def read(self, **options: Any) -> tuple[ImportSummary, Recording]:
         imported = import_log([self.folder], self.folder.with_suffix(".mcap"), **options)
         return imported, open_recording(imported.out)
 
@@ -72,7 +72,7 @@ def states(recording: Recording) -> list[GameState]:
     return [state for _, state in recording.decoded(STATE.key)]
 
 
-def found(imported: Imported) -> dict[str, int]:
+def found(imported: ImportSummary) -> dict[str, int]:
     return {finding.what: finding.count for finding in [*imported.coped, *imported.lost]}
 
 

@@ -8,15 +8,15 @@ from zipfile import ZipFile
 import pytest
 from typer.testing import CliRunner
 
-from arena.__main__ import app
 from recordings.exchange.formats import EXPORTERS, IMPORTERS
 from recordings.exchange.msl import LOG_PERIOD
-from recordings.reader import Recording, open_recording
-from recordings.stats.measure import figures_of_recording
+from recordings.reading.recording import Recording, open_recording
+from recordings.stats.match_statistics import figures_of_recording
 from schemas.game import EventKind, GameState, Phase
+from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import EVENT, STATE, WORLD
-from schemas.world import World
+from touchline.__main__ import app
 
 PRECISION = 0.5e-3 + 1e-9
 """Three digits after the point."""

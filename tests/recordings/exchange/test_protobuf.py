@@ -14,19 +14,19 @@ from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
 from pydantic_core import to_jsonable_python
 
+from recordings.container.json_schema import whole_schema
 from recordings.exchange.protobuf.descriptor import descriptor_set, proto_text
 from recordings.exchange.protobuf.encode import encode
 from recordings.exchange.protobuf.export import export
 from recordings.exchange.protobuf.shape import shape_of
-from recordings.json_schema import whole_schema
-from recordings.reader import Recording
+from recordings.reading.recording import Recording
 from schemas.message import Message
-from schemas.minutes import Minutes
+from schemas.messages.record_batch import RecordBatch
 from schemas.protocol.examples import examples
 from schemas.topics import TOPICS, WORLD
 
-MODELS = list(dict.fromkeys(topic.message for topic in TOPICS.values() if topic.message not in (None, Minutes)))
-"""All messages but minutes, which hold others as they are and stand in no recording."""
+MODELS = list(dict.fromkeys(topic.message for topic in TOPICS.values() if topic.message not in (None, RecordBatch)))
+"""All messages but record batches, which hold others as they are and stand in no recording."""
 
 
 @pytest.fixture(scope="module")

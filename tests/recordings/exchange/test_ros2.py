@@ -11,11 +11,11 @@ from mcap_ros2.decoder import DecoderFactory
 from rosbags.highlevel import AnyReader
 
 from recordings.exchange.ros2 import export
-from recordings.reader import Recording
+from recordings.reading.recording import Recording
 from schemas.errors import TouchlineError
 from schemas.frames import from_body
+from schemas.messages.world import World
 from schemas.topics import COMMAND, WORLD
-from schemas.world import World
 
 ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
 

@@ -1,55 +1,40 @@
-"""A recording of 200 ticks on a tape, a clock that passes when it is told to, and an ear for what a player says."""
+"""A recording of 200 ticks, a clock that passes when it is told to, and a player whose messages are kept."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from threading import Event
-from typing import Any
 
 import pytest
 
-from recordings.reader import Recorded, Recording
-from recordings.replay.player import Player, Span
-from recordings.tape import Tape
-from schemas.clock import SteppedClock
+from recordings.reading.cursor import Cursor
+from recordings.reading.recording import RecordedMessage, Recording
+from recordings.replay.player import PlaybackRange, Player
 from schemas.game import Phase, Score
+from schemas.process.clock import SteppedClock
 from schemas.topics import WORLD
 
 TICK = 0.02
 
 
 @pytest.fixture
-def recorded(stage) -> Recording:
+def recorded(rig) -> Recording:
     """Play from tick 0, a goal and a kick-off at 100, full time at 199."""
-    stage.host.referee(0, Phase.PLAY, Score())
-    stage.play(range(100))
-    stage.host.goal(100)
-    stage.host.referee(100, Phase.KICK_OFF, Score(cyan=1))
-    stage.play(range(100, 200))
-    stage.host.referee(199, Phase.FULL_TIME, Score(cyan=1))
-    stage.leave()
-    return stage.read()
-
-
-@pytest.fixture
-def written() -> Callable[[Any], None]:
-    """Waits until what a recorder has handed on is in its file."""
-
-    def wait(stage) -> None:
-        done = Event()
-        stage.output.sync()
-        stage.output._writer._hand_over(done.set)
-        assert done.wait(30.0)
-
-    return wait
+    rig.host.referee(0, Phase.PLAY, Score())
+    rig.play(range(100))
+    rig.host.goal(100)
+    rig.host.referee(100, Phase.KICK_OFF, Score(cyan=1))
+    rig.play(range(100, 200))
+    rig.host.referee(199, Phase.FULL_TIME, Score(cyan=1))
+    rig.leave()
+    return rig.read()
 
 
 @dataclass
-class Deck:
+class PlayerRig:
     """A player, its clock, and what it has said."""
 
     player: Player
     clock: SteppedClock
-    heard: list[Recorded] = field(default_factory=list)
+    heard: list[RecordedMessage] = field(default_factory=list)
 
     def run(self, seconds: float, step: float = 0.001) -> None:
         """Let wall time pass."""
@@ -71,12 +56,12 @@ class Deck:
 
 
 @pytest.fixture
-def deck(recorded: Recording) -> Callable[..., Deck]:
-    """Makes a deck with the recording in it; the span is given in s."""
+def make_player_rig(recorded: Recording) -> Callable[..., PlayerRig]:
+    """Makes a player with the recording in it; the span is given in s."""
 
-    def make(start: float = 0.0, end: float | None = None, **options) -> Deck:
+    def make(start: float = 0.0, end: float | None = None, **options) -> PlayerRig:
         clock, heard = SteppedClock(), []
-        span = Span(round(start * 1e9), None if end is None else round(end * 1e9))
-        return Deck(Player(Tape(recorded.path), clock, heard.append, span, **options), clock, heard)
+        span = PlaybackRange(round(start * 1e9), None if end is None else round(end * 1e9))
+        return PlayerRig(Player(Cursor(recorded.path), clock, heard.append, span, **options), clock, heard)
 
     return make

@@ -4,14 +4,14 @@ from pathlib import Path
 
 import pytest
 
-from arena.against import play_against
-from arena.ghost import Ghost, check, inputs_of, teams_of
-from arena.in_process import Table
-from recordings.reader import Recording, open_recording
-from schemas.command import Command, Drive
+from recordings.reading.recording import Recording, open_recording
+from schemas.config.match_config import load_match
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.match_config import load_match
+from schemas.messages.command import Command, Drive
 from schemas.topics import APPLIED
+from touchline.play import InProcessMatch
+from touchline.replay.ghost import Ghost, check_ghosts, inputs_of, teams_of
+from touchline.verify.compare_brain import compare_brain
 
 SIMPLE, NUBOT = "robot_agent.teams.simple:Simple", "robot_agent.teams.nubot:NuBot"
 UNTIL = 5.0
@@ -28,7 +28,7 @@ def played(match_recorder, tmp_path_factory) -> Recording:
 
 def chains(recording: Recording, ghosts: list[str], seed: int = 5) -> tuple[list[str], list[str]]:
     """The hash chains of the recorded match and of one where these robots are ghosts."""
-    table = Table(
+    table = InProcessMatch(
         load_match(None, {"seed": seed, "duration": 20.0, **SIDES}),
         {name: Ghost(name, inputs_of(recording)) for name in ghosts},
     )
@@ -50,7 +50,7 @@ def test_one_side_of_ghosts_does_what_it_did_whatever_the_other_does(played):
     assert again[0] == recorded[0] and again[-1] != recorded[-1]
     ghost = Ghost("magenta1", inputs_of(played))
     told = {applied.tick: applied.inputs for _, applied in played.decoded(APPLIED.key)}
-    table = Table(load_match(None, {"seed": 99, "duration": 20.0, **SIDES}), {"magenta1": ghost})
+    table = InProcessMatch(load_match(None, {"seed": 99, "duration": 20.0, **SIDES}), {"magenta1": ghost})
     for _ in range(100):
         tick = table.step()
         assert tick.applied["inputs"]["magenta1"].drive == told[tick.tick]["magenta1"].drive
@@ -58,7 +58,9 @@ def test_one_side_of_ghosts_does_what_it_did_whatever_the_other_does(played):
 
 
 def test_a_ghost_rests_where_nothing_is_recorded(played):
-    table = Table(load_match(None, {"seed": 5, **SIDES}), {"cyan1": Ghost("cyan1", list(inputs_of(played))[:20])})
+    table = InProcessMatch(
+        load_match(None, {"seed": 5, **SIDES}), {"cyan1": Ghost("cyan1", list(inputs_of(played))[:20])}
+    )
     drives = [table.step().applied["inputs"]["cyan1"].drive for _ in range(30)]
     assert any(drive != Drive() for drive in drives[:19])
     assert all(drive == Drive() for drive in drives[19:])
@@ -69,7 +71,7 @@ def test_a_ghost_side_takes_the_robots_that_were_recorded(played):
     teams = teams_of([f"magenta={played.path}"])
     assert teams["magenta"]["robots"] == ["magenta1", "magenta2"]
     config = load_match(None, {"teams.magenta": teams["magenta"]})
-    check(config, [f"magenta={played.path}"])
+    check_ghosts(config, [f"magenta={played.path}"])
     assert config.teams.magenta.command[-1] == str(Path(played.path).resolve())
 
 
@@ -83,12 +85,12 @@ def test_a_ghost_that_is_none_is_said(ghost, word):
 
 def test_a_recording_with_other_ticks_is_no_ghost_here(played):
     with pytest.raises(TouchlineError, match="its ticks last"):
-        check(load_match(None, {"profile": "paper"}), [f"cyan={played.path}"])
+        check_ghosts(load_match(None, {"profile": "paper"}), [f"cyan={played.path}"])
 
 
 @pytest.mark.parametrize(("robot", "brain"), [("cyan2", SIMPLE), ("magenta2", NUBOT)])
 def test_the_brain_that_played_says_again_what_it_said(played, robot, brain):
-    verdict = play_against(played, robot, brain)
+    verdict = compare_brain(played, robot, brain)
     assert (verdict.different, verdict.first, verdict.until) == (0, None, "")
     assert verdict.sights == "simulated"
     assert verdict.compared == round(UNTIL / 0.02)
@@ -96,7 +98,7 @@ def test_the_brain_that_played_says_again_what_it_said(played, robot, brain):
 
 
 def test_another_brain_differs_and_it_is_said_where(played):
-    verdict = play_against(played, "cyan2", NUBOT)
+    verdict = compare_brain(played, "cyan2", NUBOT)
     assert verdict.different > 0 and verdict.first is not None
     assert f"first at tick {verdict.first.tick}" in verdict.sentence()
     assert verdict.fields[verdict.first.field] <= verdict.compared
@@ -108,9 +110,9 @@ def test_a_brain_that_raises_is_named_with_the_tick(played, monkeypatch):
 
     monkeypatch.setattr("robot_agent.teams.simple.Simple.act", act)
     with pytest.raises(MatchFailedError, match="raised at tick 0: ValueError: no idea"):
-        play_against(played, "cyan2", SIMPLE)
+        compare_brain(played, "cyan2", SIMPLE)
 
 
 def test_a_robot_that_did_not_play_is_said(played):
     with pytest.raises(TouchlineError, match='robot is "cyan9"'):
-        play_against(played, "cyan9", SIMPLE)
+        compare_brain(played, "cyan9", SIMPLE)

@@ -5,21 +5,21 @@ from pathlib import Path
 
 import pytest
 
-from recordings.account import Account
-from recordings.reader import open_recording
-from recordings.record import output_at
-from recordings.recorder import Recorder
+from recordings.container.key_selection import KeySelection
+from recordings.reading.recording import open_recording
+from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.record import open_sink
+from recordings.recorder.recorder import Recorder
 from recordings.replay.host import ReplayHost
-from recordings.replay.programme import Programme, Replay
-from recordings.selection import Selection
-from schemas.bus.contract import NoAnswerError
-from schemas.bus.in_process import InProcessBus, Medium
-from schemas.clock import SteppedClock
+from recordings.replay.replay import Replay, ReplaySettings
+from schemas.bus.contract import NoReplyError
+from schemas.bus.in_process_bus import InProcessBus, Medium
 from schemas.errors import TouchlineError
 from schemas.game import ActionName, RefereeAction
-from schemas.host import SetupRequest
-from schemas.replay import ReplayDeed, ReplayRequest
-from schemas.topics import ACTION, COMMAND, EVENT, REPLAY, SETUP, WORLD
+from schemas.messages.host import SetupRequest
+from schemas.messages.replay import ReplayOperation, ReplayRequest
+from schemas.process.clock import SteppedClock
+from schemas.topics import ACTION, COMMAND, EVENT, REPLAY_CONTROL, SETUP, WORLD
 
 
 class Room:
@@ -29,11 +29,11 @@ class Room:
         self.medium, self.clock, self.match = Medium(), SteppedClock(), match
 
     def seat(self) -> InProcessBus:
-        return self.medium.seat(self.match, SteppedClock())
+        return self.medium.open_bus(self.match, SteppedClock())
 
     def host(self, path: Path, **wanted) -> ReplayHost:
-        opened = Replay(Programme(path, **wanted))
-        bus = self.medium.seat(self.match, self.clock)
+        opened = Replay(ReplaySettings(path, **wanted))
+        bus = self.medium.open_bus(self.match, self.clock)
         return ReplayHost(bus, opened.recording.manifest.setup, lambda **more: opened.player(self.clock, **more))
 
     def run(self, host: ReplayHost, seconds: float, step: float = 0.01) -> None:
@@ -64,8 +64,8 @@ def test_a_recording_of_a_replay_has_equal_payloads_in_equal_order(recorded, roo
     """Record, replay, record: keys, payloads and simulated times are the same, and nothing is lost."""
     path = tmp_path / "again.mcap"
     bus = room.seat()
-    account = Account()
-    recorder = Recorder(bus, output_at(path, bus.clock, room.match, account), account)
+    loss_counts = LossCounts()
+    recorder = Recorder(bus, open_sink(path, bus.clock, room.match, loss_counts), loss_counts)
     host = room.host(recorded.path, rate=None)
     recorder.pump()
     host.pump()
@@ -82,15 +82,15 @@ def test_a_recording_of_a_replay_has_equal_payloads_in_equal_order(recorded, roo
 def test_as_fast_as_possible_does_not_run_away_from_a_recorder(recorded, room, monkeypatch):
     monkeypatch.setattr("recordings.replay.listeners.WINDOW", 20)
     bus = room.seat()
-    account = Account()
-    output = output_at(recorded.path.with_name("late.mcap"), bus.clock, room.match, account)
-    recorder = Recorder(bus, output, account)
+    loss_counts = LossCounts()
+    sink = open_sink(recorded.path.with_name("late.mcap"), bus.clock, room.match, loss_counts)
+    recorder = Recorder(bus, sink, loss_counts)
     host = room.host(recorded.path, rate=None, paused=True)
     worlds = room.seat().subscribe(WORLD)
     for _ in range(3):
         recorder.pump()
         host.pump()
-    host.player.control(ReplayRequest(deed=ReplayDeed.PLAY))
+    host.player.control(ReplayRequest(operation=ReplayOperation.PLAY))
     for _ in range(5):
         host.pump()
     heard = 0
@@ -103,7 +103,7 @@ def test_as_fast_as_possible_does_not_run_away_from_a_recorder(recorded, room, m
     while worlds.receive() is not None:
         heard += 1
     assert heard == 200
-    output.abandon()
+    sink.abandon()
 
 
 def test_a_recorder_that_is_silent_is_left_behind(recorded, room, monkeypatch):
@@ -118,7 +118,7 @@ def test_a_recorder_that_is_silent_is_left_behind(recorded, room, monkeypatch):
 def test_it_tells_how_the_match_was_set_up_under_the_name_it_is_replayed_by(recorded):
     room = Room("replay_friendly")
     host = room.host(recorded.path, paused=True)
-    answer = room.seat().ask(SETUP, SetupRequest())
+    answer = room.seat().query(SETUP, SetupRequest())
     host.pump()
     setup = answer.result(0.0)
     assert setup.match == "replay_friendly"
@@ -127,20 +127,20 @@ def test_it_tells_how_the_match_was_set_up_under_the_name_it_is_replayed_by(reco
 
 def test_it_runs_beside_a_live_match_that_hears_none_of_it(recorded):
     room = Room("replay_friendly")
-    live = room.medium.seat("friendly", SteppedClock()).subscribe(WORLD)
+    live = room.medium.open_bus("friendly", SteppedClock()).subscribe(WORLD)
     replayed = room.seat().subscribe(WORLD)
     room.host(recorded.path, rate=None).run()
     assert live.receive() is None
     assert replayed.receive() is not None
 
 
-def test_who_asks_it_winds_it(recorded, room):
+def test_a_seek_is_done_and_answered(recorded, room):
     host, asker = room.host(recorded.path), room.seat()
     room.run(host, 0.5)
-    answer = asker.ask(REPLAY, ReplayRequest(deed=ReplayDeed.SEEK, to="goal:1-0.5"))
+    answer = asker.query(REPLAY_CONTROL, ReplayRequest(operation=ReplayOperation.SEEK, to="goal:1-0.5"))
     host.pump()
     assert answer.result(0.0).time == pytest.approx(1.48)
-    answer = asker.ask(REPLAY, ReplayRequest(deed=ReplayDeed.SEEK, to="goal:2"))
+    answer = asker.query(REPLAY_CONTROL, ReplayRequest(operation=ReplayOperation.SEEK, to="goal:2"))
     host.pump()
     reply = answer.result(0.0)
     assert not reply.accepted and "goal happened 1 times" in reply.reason
@@ -148,21 +148,21 @@ def test_who_asks_it_winds_it(recorded, room):
 
 def test_who_asks_for_what_is_no_request_is_told_so(recorded, room):
     host = room.host(recorded.path)
-    answer = room.seat().ask(REPLAY, SetupRequest(version="9.0"))
+    answer = room.seat().query(REPLAY_CONTROL, SetupRequest(version="9.0"))
     host.pump()
-    with pytest.raises(NoAnswerError, match="9"):
+    with pytest.raises(NoReplyError, match="9"):
         answer.result(0.0)
 
 
 def test_who_wants_to_change_it_is_refused(recorded, room):
     host = room.host(recorded.path)
-    answer = room.seat().ask(ACTION, RefereeAction(action=ActionName.STOP))
+    answer = room.seat().query(ACTION, RefereeAction(action=ActionName.STOP))
     host.pump()
     reply = answer.result(0.0)
     assert not reply.accepted and "replay" in reply.reason
 
 
-def test_who_comes_while_it_stands_still_is_told_how_things_stand(recorded, room):
+def test_a_newcomer_gets_the_latched_messages_while_it_is_paused(recorded, room):
     host = room.host(recorded.path, start="1.0", paused=True)
     room.run(host, 3.0)
     late = room.seat()
@@ -182,20 +182,20 @@ def test_to_a_recorder_nothing_is_said_twice_while_it_stands_still(recorded, roo
     assert worlds.receive() is None
 
 
-def test_it_follows_a_match_that_is_still_recorded(stage, room, written):
+def test_it_follows_a_match_that_is_still_recorded(rig, room, wait_until_written):
     """Time-shift: seconds behind, paused while the match goes on, and to the end when it is over."""
-    stage.play(range(100))
-    written(stage)
-    host = room.host(stage.path, follow=True, behind=1.0)
+    rig.play(range(100))
+    wait_until_written(rig)
+    host = room.host(rig.path, follow=True, behind=1.0)
     worlds = room.seat().subscribe(WORLD)
     newest = host.player.end_ns / 1e9
     room.run(host, 0.5)
     assert worlds.receive().message().time == pytest.approx(newest - 1.0, abs=0.03)
-    host.player.control(ReplayRequest(deed=ReplayDeed.PAUSE))
-    stage.play(range(100, 200))
-    stage.leave()
+    host.player.control(ReplayRequest(operation=ReplayOperation.PAUSE))
+    rig.play(range(100, 200))
+    rig.leave()
     room.run(host, 2.0)
-    host.player.control(ReplayRequest(deed=ReplayDeed.PLAY))
+    host.player.control(ReplayRequest(operation=ReplayOperation.PLAY))
     room.run(host, 6.0)
     assert host.player.ended
     heard = []
@@ -209,29 +209,29 @@ def test_it_follows_a_match_that_is_still_recorded(stage, room, written):
     [
         ({"start": "99"}, "--from 99 is behind the end"),
         ({"start": "2", "end": "1"}, "--to 1 is before the beginning"),
-        ({"selection": Selection(("wrld",))}, 'did you mean "world"'),
-        ({"selection": Selection((), ("robot/blue1/command",))}, "fits no key"),
+        ({"selection": KeySelection(("wrld",))}, 'did you mean "world"'),
+        ({"selection": KeySelection((), ("robot/blue1/command",))}, "fits no key"),
         ({"follow": True, "loop": True}, "--follow and --loop"),
         ({"start": "goal:7"}, "goal happened 1 times"),
     ],
 )
 def test_what_cannot_be_replayed_is_said_in_one_line(recorded, wanted, word):
     with pytest.raises(TouchlineError) as error:
-        Replay(Programme(recorded.path, **wanted))
+        Replay(ReplaySettings(recorded.path, **wanted))
     assert word in str(error.value) and "\n" not in str(error.value)
 
 
 @pytest.mark.parametrize(
     ("selection", "keys"),
     [
-        (Selection(("world", "game/event")), {"world", "game/event"}),
-        (Selection(("robot/cyan$*/command",)), {"robot/cyan1/command", "robot/cyan2/command"}),
-        (Selection(("game/**",), ("game/state",)), {"game/event"}),
+        (KeySelection(("world", "game/event")), {"world", "game/event"}),
+        (KeySelection(("robot/cyan$*/command",)), {"robot/cyan1/command", "robot/cyan2/command"}),
+        (KeySelection(("game/**",), ("game/state",)), {"game/event"}),
     ],
 )
 def test_keys_are_chosen_by_expressions(recorded, selection, keys):
-    opened, heard = Replay(Programme(recorded.path, rate=None, selection=selection)), []
-    player = opened.player(SteppedClock(), say=heard.append)
+    opened, heard = Replay(ReplaySettings(recorded.path, rate=None, selection=selection)), []
+    player = opened.player(SteppedClock(), publish=heard.append)
     while not player.ended:
         player.pump()
     assert {one.key for one in heard} == keys

@@ -11,11 +11,11 @@ from websockets.sync.client import ClientConnection, connect
 
 from recordings.replay.live_view import LiveView
 from recordings.replay.player import Player
-from recordings.replay.programme import Programme, Replay
+from recordings.replay.replay import Replay, ReplaySettings
 from recordings.viz.drawing import FIELD, SCHEMAS, TF
-from schemas.clock import SteppedClock
 from schemas.errors import TouchlineError
-from schemas.replay import ReplayDeed, ReplayRequest
+from schemas.messages.replay import ReplayOperation, ReplayRequest
+from schemas.process.clock import SteppedClock
 
 PATIENCE_S = 30.0
 """Wall time that the server's threads are given."""
@@ -41,7 +41,7 @@ class Viewer:
         """Attend and listen until something has happened."""
         deadline = PATIENCE_S / 0.02
         while not happened():
-            self.view.attend(self.player)
+            self.view.update(self.player)
             try:
                 self.hear(self.socket.recv(timeout=0.02))
             except TimeoutError:
@@ -84,9 +84,9 @@ class Viewer:
 @pytest.fixture
 def viewer(recorded) -> Iterator[Viewer]:
     """A viewer of a recording of four seconds, of which the first half second has been played."""
-    replay, clock = Replay(Programme(recorded.path, stay=True)), SteppedClock()
-    with LiveView("a match", recorded.manifest.setup, (replay.tape.start_ns, replay.tape.end_ns), 0) as view:
-        player = replay.player(clock, say=view.say)
+    replay, clock = Replay(ReplaySettings(recorded.path, stay=True)), SteppedClock()
+    with LiveView("a match", recorded.manifest.setup, (replay.cursor.start_ns, replay.cursor.end_ns), 0) as view:
+        player = replay.player(clock, publish=view.publish)
         with connect(view.address, subprotocols=["foxglove.sdk.v1"], close_timeout=0.5) as socket:
             viewer = Viewer(socket, view, player, clock)
             viewer.play(0.5)
@@ -125,7 +125,7 @@ def test_the_time_that_viewers_are_told_is_that_of_the_replay(viewer):
     assert viewer.time_ns > 700_000_000
 
 
-def test_viewers_pause_wind_and_change_the_rate(viewer):
+def test_viewers_pause_seek_and_change_the_rate(viewer):
     viewer.wish(PAUSE)
     viewer.until(lambda: viewer.player.paused)
     viewer.until(lambda: viewer.states and viewer.states[-1][0] == 1)
@@ -136,13 +136,13 @@ def test_viewers_pause_wind_and_change_the_rate(viewer):
     viewer.until(lambda: viewer.states[-1] == (0, 3_000_000_000, 2.0))
 
 
-def test_after_winding_back_viewers_begin_anew_with_the_pitch(viewer):
+def test_after_seeking_back_viewers_begin_anew_with_the_pitch(viewer):
     viewer.subscribe()
     viewer.play(2.0)
     viewer.until(lambda: FIELD in viewer.data)
     before = len(viewer.sessions)
     viewer.data.clear()
-    viewer.player.control(ReplayRequest(deed=ReplayDeed.SEEK, to="1.0"))
+    viewer.player.control(ReplayRequest(operation=ReplayOperation.SEEK, to="1.0"))
     viewer.play(0.1)
     viewer.until(lambda: len(viewer.sessions) > before)
     viewer.subscribe()
@@ -168,7 +168,7 @@ def test_without_its_extra_the_line_that_brings_it_is_said(monkeypatch, recorded
 
 def test_a_recording_without_a_setup_is_shown_without_a_drawing(recorded):
     with LiveView("bare", None, None, 0) as view:
-        view.say(next(recorded.messages("world")))
+        view.publish(next(recorded.messages("world")))
         with connect(view.address, subprotocols=["foxglove.sdk.v1"]) as socket:
             told = [json.loads(socket.recv(timeout=PATIENCE_S)) for _ in range(2)]
     assert "playbackControl" not in told[0]["capabilities"], "nobody knows how far it goes"

@@ -9,10 +9,10 @@ from collections.abc import Callable, Iterator
 import pytest
 from websockets.sync.client import connect
 
-from recordings.reader import open_recording
-from schemas.bus.endpoint import with_port
-from schemas.bus.zenoh_bus import open_client
-from schemas.clock import WallClock
+from recordings.reading.recording import open_recording
+from schemas.bus.endpoint import with_free_port
+from schemas.bus.zenoh.bus import open_client
+from schemas.process.clock import WallClock
 
 LIMIT = 60.0
 """Seconds after which something that should have happened will not; nothing depends on how soon it does."""
@@ -37,17 +37,17 @@ def start() -> Iterator[Callable[..., subprocess.Popen[str]]]:
 
 @pytest.mark.processes
 def test_record_replay_record_gives_equal_payloads_in_equal_order(recorded, start, tmp_path):
-    endpoint, again = with_port("tcp/127.0.0.1:0"), tmp_path / "again.mcap"
+    endpoint, again = with_free_port("tcp/127.0.0.1:0"), tmp_path / "again.mcap"
     at = ("--match", "again", "--connect", endpoint)
     listen = ("--listen", endpoint, "--match", "again")
-    replay = start("arena", "replay", str(recorded.path), "--fast", "--paused", "--json", *listen)
+    replay = start("touchline", "replay", str(recorded.path), "--fast", "--paused", "--json", *listen)
     with open_client("again", WallClock(), endpoint, LIMIT) as bus:
         watch = bus.watch_alive()
         recorder = start("recordings", *at, "--out", str(again))
         while (presence := watch.receive(LIMIT)) is not None and presence.kind != "recorder":
             continue
         assert presence is not None
-    player = start("arena", "player", "play", "--json", *at)
+    player = start("touchline", "player", "play", "--json", *at)
     said, error = player.communicate(timeout=LIMIT)
     assert (player.returncode, error) == (0, "") and json.loads(said)["paused"] is False
     played, error = replay.communicate(timeout=LIMIT)
@@ -64,7 +64,9 @@ def test_record_replay_record_gives_equal_payloads_in_equal_order(recorded, star
 
 @pytest.mark.processes
 def test_the_command_serves_a_live_view_until_the_viewer_had_enough(recorded, start):
-    replay = start("arena", "replay", str(recorded.path), "--fast", "--foxglove", "--foxglove-port", "0", *_ANYWHERE)
+    replay = start(
+        "touchline", "replay", str(recorded.path), "--fast", "--foxglove", "--foxglove-port", "0", *_ANYWHERE
+    )
     address = next(line.split()[-1] for line in replay.stderr if "ws://" in line)
     with connect(address, subprotocols=["foxglove.sdk.v1"]) as socket:
         assert json.loads(socket.recv(timeout=LIMIT))["op"] == "serverInfo"

@@ -1,32 +1,32 @@
-"""A match made by hand, tick by tick, as moments: four robots, ticks of 0.1 s, the ball in play from the second on."""
+"""A match made by hand, tick by tick: four robots, ticks of 0.1 s, the ball in play from the second on."""
 
 from collections.abc import Callable, Iterable
 from typing import Any
 
 import pytest
 
-from recordings.manifest import Manifest
-from recordings.stats.figures import Figures
-from recordings.stats.measure import Measure
-from recordings.stats.moment import Moment, moments
+from recordings.container.manifest import Manifest
+from recordings.stats.figures import MatchFigures
+from recordings.stats.match_statistics import MatchStatistics
+from recordings.stats.match_tick import MatchTick, match_ticks
 from recordings.stats.page.content import content_of
-from recordings.stats.page.course import Course
-from recordings.stats.track import Tracks
-from schemas.command import Drive, Kick, KickMode
+from recordings.stats.page.game_history import GameHistory
+from recordings.stats.tracks import Tracks
+from schemas.config.match_config import load_match
+from schemas.config.profile import load_profile
+from schemas.config.roster import Placement, RosterEntry
+from schemas.config.rule_book import load_rule_book
 from schemas.game import EventKind, GameEvent, GameState, Phase, Score
-from schemas.host import Applied, AppliedInput, Setup
-from schemas.match_config import load_match
-from schemas.profile import load_profile
-from schemas.roster import Placement, RosterEntry
-from schemas.rule_book import load_rule_book
+from schemas.messages.command import Drive, Kick, KickMode
+from schemas.messages.host import Applied, AppliedInput, Setup
+from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.side import Side
-from schemas.world import BallTruth, RobotTruth, World
 
 TICK = 0.1
 CORNERS = {"cyan1": (-10.0, 0.0), "cyan2": (-2.0, 3.0), "magenta1": (10.0, 0.0), "magenta2": (2.0, -3.0)}
 
 
-class Film:
+class MatchScript:
     """Messages of a match, made tick by tick; what is not said stays as it was."""
 
     def __init__(self) -> None:
@@ -117,33 +117,33 @@ class Film:
         """The ball leaves the pitch, and the game is stopped."""
         self.shot(events=[{"kind": EventKind.BALL_OUT}], phase=Phase.STOPPED, running=False)
 
-    def moments(self) -> list[Moment]:
+    def match_ticks(self) -> list[MatchTick]:
         """What was made so far."""
-        return list(moments(self.setup, self.messages))
+        return list(match_ticks(self.setup, self.messages))
 
-    def figures(self) -> Figures:
+    def figures(self) -> MatchFigures:
         """What was made so far, in figures."""
-        return self.course()[0]
+        return self.history()[0]
 
-    def course(self) -> tuple[Figures, Tracks, Course]:
+    def history(self) -> tuple[MatchFigures, Tracks, GameHistory]:
         """The same, with where everybody was and what was being played."""
         end = self.tick * TICK
-        measure, tracks, course = Measure(self.setup, 0.0, end), Tracks(self.setup, 0.0, end), Course()
-        for moment in self.moments():
-            for taker in (measure, tracks, course):
-                taker.take(moment)
-        return measure.figures(), tracks, course
+        statistics, tracks, history = MatchStatistics(self.setup, 0.0, end), Tracks(self.setup, 0.0, end), GameHistory()
+        for match_tick in self.match_ticks():
+            for observer in (statistics, tracks, history):
+                observer.update(match_tick)
+        return statistics.figures(), tracks, history
 
     def content(self) -> dict[str, Any]:
         """What was made so far, as a page shows it."""
-        return content_of(self.manifest, self.setup, *self.course())
+        return content_of(self.manifest, self.setup, *self.history())
 
 
 @pytest.fixture
-def film() -> Film:
-    return Film()
+def script() -> MatchScript:
+    return MatchScript()
 
 
 @pytest.fixture
-def new_film() -> Callable[[], Film]:
-    return Film
+def new_script() -> Callable[[], MatchScript]:
+    return MatchScript

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from recordings.stats.aim import BESIDE, GRAVITY, Aim, aim
-from schemas.world import BallTruth
+from recordings.stats.aim import GRAVITY, NEAR_MISS_M, Aim, aim
+from schemas.messages.world import BallTruth
 
 HALF_GOAL_LINE = 11.0
 
@@ -15,17 +15,17 @@ def ball(x=0.0, y=0.0, z=0.11, vx=0.0, vy=0.0, vz=0.0) -> BallTruth:
 
 
 @pytest.fixture
-def aimed(film):
-    return lambda attack=1, **state: aim(ball(**state), attack, film.setup)
+def aimed(script):
+    return lambda attack=1, **state: aim(ball(**state), attack, script.setup)
 
 
 @pytest.fixture
-def pitch(film):
-    return film.setup.pitch
+def pitch(script):
+    return script.setup.pitch
 
 
 def test_the_post_is_the_edge_of_the_goal_and_a_metre_beside_it_of_the_shot(aimed, pitch) -> None:
-    for beside, expected in ((-0.01, Aim.AT_GOAL), (0.01, Aim.PAST_GOAL), (BESIDE + 0.01, Aim.ELSEWHERE)):
+    for beside, expected in ((-0.01, Aim.AT_GOAL), (0.01, Aim.PAST_GOAL), (NEAR_MISS_M + 0.01, Aim.ELSEWHERE)):
         y = pitch.goal_width / 2 + beside
         slope = y / pitch.goal_line
         for sign in (-1, 1):
@@ -39,9 +39,9 @@ def test_away_from_the_goal_and_behind_the_line_is_elsewhere(aimed) -> None:
     assert aimed(vy=9.0) is Aim.ELSEWHERE
 
 
-def test_a_ball_that_comes_to_rest_before_the_line_is_not_aimed_at_it(aimed, film) -> None:
+def test_a_ball_that_comes_to_rest_before_the_line_is_not_aimed_at_it(aimed, script) -> None:
     """A ball that loses a in m/s² from v rolls v²/2a."""
-    enough = math.sqrt(2 * film.setup.ball.rolling_deceleration * film.setup.pitch.goal_line)
+    enough = math.sqrt(2 * script.setup.ball.rolling_deceleration * script.setup.pitch.goal_line)
     assert aimed(vx=1.01 * enough) is Aim.AT_GOAL
     assert aimed(vx=0.99 * enough) is Aim.ELSEWHERE
 

@@ -7,11 +7,11 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page
 
-from recordings.reader import Recording, open_recording
-from recordings.stats.figures import Figures
+from recordings.reading.recording import Recording, open_recording
+from recordings.stats.figures import MatchFigures
 from recordings.stats.page import page, page_of, write_page
 from schemas.errors import TouchlineError
-from schemas.world import World
+from schemas.messages.world import World
 
 FILLS = {"cyan": (0x28, 0xB9, 0xDC), "magenta": (0xC9, 0x23, 0x7B)}
 
@@ -31,7 +31,7 @@ def recording(played: Path) -> Recording:
 
 
 @pytest.fixture(scope="module")
-def made(recording: Recording, tmp_path_factory: pytest.TempPathFactory) -> tuple[Figures, Path]:
+def made(recording: Recording, tmp_path_factory: pytest.TempPathFactory) -> tuple[MatchFigures, Path]:
     figures, text = page_of(recording)
     path = tmp_path_factory.mktemp("page") / "new" / "match.html"
     write_page(path, text)
@@ -79,7 +79,7 @@ class Opened:
 
 
 @pytest.fixture
-def opened(browser: Browser, made: tuple[Figures, Path]) -> Iterator[Opened]:
+def opened(browser: Browser, made: tuple[MatchFigures, Path]) -> Iterator[Opened]:
     tab = Opened(browser, made[1])
     yield tab
     assert tab.faults == []
@@ -104,7 +104,7 @@ def free(world: World) -> list[str]:
     ]
 
 
-def test_the_page_opens_from_disk_without_asking_for_anything(opened: Opened, made: tuple[Figures, Path]) -> None:
+def test_the_page_opens_from_disk_without_asking_for_anything(opened: Opened, made: tuple[MatchFigures, Path]) -> None:
     assert opened.requests == [made[1].as_uri()]
     assert opened.page.title() == "Simple – NuBot"
     assert "://" not in made[1].read_text("utf-8").split('<script type="application/json"')[0]
@@ -192,7 +192,7 @@ def test_pointing_at_the_momentum_jumps_there(opened: Opened) -> None:
     assert opened.time == pytest.approx(6.0, abs=0.1)
 
 
-def test_the_figures_of_the_page_are_those_of_the_table(opened: Opened, made: tuple[Figures, Path]) -> None:
+def test_the_figures_of_the_page_are_those_of_the_table(opened: Opened, made: tuple[MatchFigures, Path]) -> None:
     pairs = opened.page.locator(".pair")
     texts = [pairs.nth(number).inner_text().split("\n") for number in range(pairs.count())]
     figures, _ = made
@@ -219,7 +219,7 @@ def test_a_keepers_heat_is_at_its_own_goal_on_the_left(opened: Opened) -> None:
 
 @pytest.mark.parametrize("width", [320, 390, 768])
 def test_a_phone_shows_the_whole_page_without_scrolling_sideways(
-    browser: Browser, made: tuple[Figures, Path], width: int
+    browser: Browser, made: tuple[MatchFigures, Path], width: int
 ) -> None:
     tab = Opened(browser, made[1], width, 844)
     assert tab.page.evaluate("document.documentElement.scrollWidth") <= width
@@ -230,7 +230,7 @@ def test_a_phone_shows_the_whole_page_without_scrolling_sideways(
     tab.context.close()
 
 
-def test_a_link_opens_the_page_at_a_time(browser: Browser, made: tuple[Figures, Path]) -> None:
+def test_a_link_opens_the_page_at_a_time(browser: Browser, made: tuple[MatchFigures, Path]) -> None:
     tab = Opened(browser, made[1])
     tab.page.goto("about:blank")
     tab.page.goto(f"{made[1].as_uri()}#t=8.5")
@@ -239,10 +239,10 @@ def test_a_link_opens_the_page_at_a_time(browser: Browser, made: tuple[Figures, 
     tab.context.close()
 
 
-def test_a_recording_that_tells_little_makes_a_page_that_says_so(browser: Browser, film: Any, tmp_path: Path) -> None:
-    film.rest(5)
-    film.messages = [(time, message) for time, message in film.messages if not hasattr(message, "phase")]
-    write_page(tmp_path / "little.html", page(film.content()))
+def test_a_recording_that_tells_little_makes_a_page_that_says_so(browser: Browser, script: Any, tmp_path: Path) -> None:
+    script.rest(5)
+    script.messages = [(time, message) for time, message in script.messages if not hasattr(message, "phase")]
+    write_page(tmp_path / "little.html", page(script.content()))
     tab = Opened(browser, tmp_path / "little.html")
     assert tab.page.locator("#score").inner_text() == "– : –"
     assert tab.page.locator("#remarks li").count() == 4

@@ -9,13 +9,13 @@ from typing import Any
 import pytest
 from pytest import approx
 
-from recordings.reader import Recorded, Recording, open_recording
-from recordings.stats.figures import Figures
-from recordings.stats.kicks import Outcome
-from recordings.stats.measure import figures_of_recording
+from recordings.reading.recording import RecordedMessage, Recording, open_recording
+from recordings.stats.figures import MatchFigures
+from recordings.stats.kicks import KickOutcome
+from recordings.stats.match_statistics import figures_of_recording
 from schemas.game import EventKind, Phase
+from schemas.messages.world import World
 from schemas.side import Side
-from schemas.world import World
 
 
 @pytest.fixture(scope="module")
@@ -24,11 +24,11 @@ def recording(played: Path) -> Recording:
 
 
 @pytest.fixture(scope="module")
-def figures(recording: Recording) -> Figures:
+def figures(recording: Recording) -> MatchFigures:
     return figures_of_recording(recording)
 
 
-def test_the_score_is_the_referees_and_that_of_the_goal_events(recording: Recording, figures: Figures) -> None:
+def test_the_score_is_the_referees_and_that_of_the_goal_events(recording: Recording, figures: MatchFigures) -> None:
     *_, (_, last) = recording.decoded("game/state")
     events = [event for _, event in recording.decoded("game/event") if event.kind is EventKind.GOAL]
     for side in Side:
@@ -37,7 +37,7 @@ def test_the_score_is_the_referees_and_that_of_the_goal_events(recording: Record
         assert figures.sides[side].goals == sum(goal.side is side for goal in figures.goals)
 
 
-def test_a_robots_distance_is_the_integral_of_its_recorded_speed(recording: Recording, figures: Figures) -> None:
+def test_a_robots_distance_is_the_integral_of_its_recorded_speed(recording: Recording, figures: MatchFigures) -> None:
     worlds = [world for _, world in recording.decoded("world")]
     for robot in figures.robots:
         speeds = [math.hypot(world.robots[robot.name].vx, world.robots[robot.name].vy) for world in worlds]
@@ -51,7 +51,7 @@ def test_a_robots_distance_is_the_integral_of_its_recorded_speed(recording: Reco
         assert [robot.keeper for robot in own] == [True, False, False, False, False]
 
 
-def test_the_time_in_play_is_the_referees_effective_time(recording: Recording, figures: Figures) -> None:
+def test_the_time_in_play_is_the_referees_effective_time(recording: Recording, figures: MatchFigures) -> None:
     *_, (_, last) = recording.decoded("game/state")
     assert figures.in_play_s is not None and figures.in_play_s > 5.0
     assert last.time == figures.duration == 24.0
@@ -59,7 +59,7 @@ def test_the_time_in_play_is_the_referees_effective_time(recording: Recording, f
     assert figures.in_play_s == approx(figures.in_play * figures.duration)
 
 
-def test_possession_and_nobodys_time_make_up_the_time_in_play(figures: Figures) -> None:
+def test_possession_and_nobodys_time_make_up_the_time_in_play(figures: MatchFigures) -> None:
     sides = [figures.sides[side] for side in Side]
     assert sum(side.possession_s for side in sides) + figures.free_s == approx(figures.in_play_s)
     assert sum(side.possession for side in sides) == approx(1.0)
@@ -69,14 +69,14 @@ def test_possession_and_nobodys_time_make_up_the_time_in_play(figures: Figures) 
         assert held <= figures.sides[side].possession_s
 
 
-def test_every_kick_of_the_recording_is_told_once_and_counted_once(recording: Recording, figures: Figures) -> None:
+def test_every_kick_of_the_recording_is_told_once_and_counted_once(recording: Recording, figures: MatchFigures) -> None:
     kicked = [(world.time, world.kicked) for _, world in recording.decoded("world") if world.kicked is not None]
     assert kicked
     assert sorted((kick.time, kick.robot) for kick in figures.kicks) == kicked
     assert all(kick.mode is not None and kick.speed > 0.5 for kick in figures.kicks)
     for side in Side:
         counts = figures.sides[side].kicks
-        neither = (Outcome.KEPT, Outcome.OWN_GOAL, Outcome.UNDECIDED)
+        neither = (KickOutcome.KEPT, KickOutcome.OWN_GOAL, KickOutcome.UNDECIDED)
         others = sum(kick.side is side and kick.outcome in neither for kick in figures.kicks)
         assert counts.kicks == counts.passes + counts.shots + others
         assert counts.passes_completed <= counts.passes
@@ -86,7 +86,7 @@ def test_every_kick_of_the_recording_is_told_once_and_counted_once(recording: Re
         assert counts.shots == sum(robot.shots for robot in own)
 
 
-def test_restarts_are_those_that_the_referee_signalled(recording: Recording, figures: Figures) -> None:
+def test_restarts_are_those_that_the_referee_signalled(recording: Recording, figures: MatchFigures) -> None:
     signalled = [event for _, event in recording.decoded("game/event") if event.kind is EventKind.RESTART]
     assert signalled
     counted = sum(sum(figures.sides[side].restarts.values()) for side in Side) + figures.drop_balls
@@ -94,16 +94,16 @@ def test_restarts_are_those_that_the_referee_signalled(recording: Recording, fig
     assert figures.sides[Side.CYAN].restarts[Phase.KICK_OFF] >= 1
 
 
-def test_the_figures_rest_on_every_message_that_was_recorded(recording: Recording, figures: Figures) -> None:
+def test_the_figures_rest_on_every_message_that_was_recorded(recording: Recording, figures: MatchFigures) -> None:
     counts = {channel.key: channel.messages for channel in recording.channels}
-    evidence = figures.evidence
-    assert (evidence.worlds, evidence.events) == (counts["world"], counts["game/event"])
-    assert (evidence.states, evidence.unreadable) == (counts["game/state"], 0)
-    assert evidence.touched >= evidence.held > 0
+    coverage = figures.coverage
+    assert (coverage.worlds, coverage.events) == (counts["world"], counts["game/event"])
+    assert (coverage.states, coverage.unreadable) == (counts["game/state"], 0)
+    assert coverage.touched >= coverage.held > 0
 
 
 def test_the_lines_of_python_in_the_documents_read_the_kicks(
-    played: Path, figures: Figures, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    played: Path, figures: MatchFigures, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     text = (Path(__file__).parents[3] / "docs" / "recordings.md").read_text("utf-8")
     code = text.split("## Figures and the page")[1].split("```python\n")[1].split("```")[0]
@@ -113,12 +113,12 @@ def test_the_lines_of_python_in_the_documents_read_the_kicks(
 
 
 def test_worlds_that_cannot_be_are_counted_and_in_no_figure(
-    played: Path, figures: Figures, monkeypatch: pytest.MonkeyPatch
+    played: Path, figures: MatchFigures, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     recording = open_recording(played)
     decoded = recording.decoded
 
-    def spoiled(*keys: str) -> Iterator[tuple[Recorded, Any]]:
+    def spoiled(*keys: str) -> Iterator[tuple[RecordedMessage, Any]]:
         for recorded, message in decoded(*keys):
             if isinstance(message, World) and message.tick in (300, 301):
                 message = message.model_copy(update={"time": 1e12})
@@ -127,6 +127,6 @@ def test_worlds_that_cannot_be_are_counted_and_in_no_figure(
     monkeypatch.setattr(recording, "decoded", spoiled)
     for _ in range(2):  # what was counted at the first reading is not counted again
         again = figures_of_recording(recording)
-        assert (again.evidence.unreadable, again.evidence.worlds) == (2, figures.evidence.worlds - 2)
+        assert (again.coverage.unreadable, again.coverage.worlds) == (2, figures.coverage.worlds - 2)
         assert again.duration == figures.duration
         assert again.sides[Side.CYAN].distance == approx(figures.sides[Side.CYAN].distance, rel=0.01)

@@ -5,17 +5,17 @@ from schemas.game import Card, EventKind, Phase
 from schemas.side import Side
 
 
-def test_the_tables_tell_what_was_counted(film) -> None:
-    film.held_by = "cyan2"
-    film.shot(touches=["cyan2"])
-    film.held_by = None
-    film.shot(touches=["cyan2"], kicked="cyan2", speed=(8.0, 0.0, 0.0))
-    film.rest(1)
-    film.goal(Side.CYAN, "cyan2")
+def test_the_tables_tell_what_was_counted(script) -> None:
+    script.held_by = "cyan2"
+    script.shot(touches=["cyan2"])
+    script.held_by = None
+    script.shot(touches=["cyan2"], kicked="cyan2", speed=(8.0, 0.0, 0.0))
+    script.rest(1)
+    script.goal(Side.CYAN, "cyan2")
     card = {"kind": EventKind.CARD, "side": Side.MAGENTA, "robot": "magenta2", "card": Card.RED}
-    film.shot(events=[{"kind": EventKind.FOUL, "side": Side.MAGENTA, "robot": "magenta2"}, card])
-    film.shot(phase=Phase.KICK_OFF, side=Side.MAGENTA)
-    figures = film.figures()
+    script.shot(events=[{"kind": EventKind.FOUL, "side": Side.MAGENTA, "robot": "magenta2"}, card])
+    script.shot(phase=Phase.KICK_OFF, side=Side.MAGENTA)
+    figures = script.figures()
     assert headline(figures).startswith("Team cyan 1 : 0 Team magenta   0.6 s recorded, ball in play 0.4 s")
     rows = {name: values for name, *values in side_rows(figures)}
     assert rows["possession"] == ["100 %", "0 %"]
@@ -29,9 +29,9 @@ def test_the_tables_tell_what_was_counted(film) -> None:
     assert remarks(figures) == []
 
 
-def test_what_a_recording_does_not_tell_is_unknown_and_not_zero(film) -> None:
-    film.messages = [(time, message) for time, message in film.messages if not hasattr(message, "phase")]
-    figures = film.figures()
+def test_what_a_recording_does_not_tell_is_unknown_and_not_zero(script) -> None:
+    script.messages = [(time, message) for time, message in script.messages if not hasattr(message, "phase")]
+    figures = script.figures()
     rows = {name: values for name, *values in side_rows(figures)}
     for name in ("goals", "possession", "passes completed", "shots on goal", "saves", "dribbles"):
         assert rows[name] == [UNKNOWN, UNKNOWN]

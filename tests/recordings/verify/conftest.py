@@ -9,12 +9,12 @@ from mcap.reader import make_reader
 from mcap.writer import Writer
 from pydantic_core import from_json, to_json
 
-from recordings.manifest import sealed
-from schemas.match_config import load_match
-from schemas.parameters import ParameterDeed, ParametersRequest
-from schemas.roster import Placement
-from schemas.scene import SceneDeed, SceneRequest
-from sim_host.simulation import Simulation
+from recordings.container.manifest import sealed
+from schemas.config.match_config import load_match
+from schemas.config.roster import Placement
+from schemas.config.scene import SceneOperation, SceneRequest
+from schemas.messages.parameters import ParameterOperation, ParametersRequest
+from sim_host.match.simulation import Simulation
 
 Fields = dict[str, Any]
 Edit = Callable[[Fields], Fields | None]
@@ -28,13 +28,15 @@ def operate(simulation: Simulation) -> None:
     match simulation.world.tick:
         case 260:
             place = [Placement(body="ball", x=1.0, y=2.0, vx=-1.0, vy=0.5)]
-            assert simulation.scene(SceneRequest(deed=SceneDeed.PLACE, place=place)).accepted
+            assert simulation.handle_scene(SceneRequest(operation=SceneOperation.PLACE, place=place)).accepted
         case 320:
             values = {"drive.max_speed": 3.0, "ball.rolling_deceleration": 0.8}
-            assert simulation.parameters(ParametersRequest(deed=ParameterDeed.SET, values=values)).accepted
+            assert simulation.handle_parameters(
+                ParametersRequest(operation=ParameterOperation.SET, values=values)
+            ).accepted
         case 380:
-            deed = SceneRequest(deed=SceneDeed.ADD, obstacles=[POST])
-            assert simulation.scene(deed).accepted
+            request = SceneRequest(operation=SceneOperation.ADD, obstacles=[POST])
+            assert simulation.handle_scene(request).accepted
 
 
 @pytest.fixture(name="operate")

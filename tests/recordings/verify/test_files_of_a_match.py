@@ -9,22 +9,22 @@ from typing import Any, cast
 import pytest
 from typer.testing import CliRunner
 
-from arena.__main__ import app
-from arena.against import play_against
-from arena.verification import verify
-from recordings.reader import Recording, open_recording
+from recordings.reading.cursor import Cursor
+from recordings.reading.recording import Recording, open_recording
 from recordings.replay.player import Player
-from recordings.tape import Tape
-from schemas.clock import SteppedClock
+from schemas.config.match_config import load_match
+from schemas.config.scene import load_scene
 from schemas.errors import TouchlineError
-from schemas.match_config import load_match
-from schemas.scene import load_scene
+from schemas.process.clock import SteppedClock
 from schemas.side import Side
+from touchline.__main__ import app
+from touchline.verify.compare_brain import compare_brain
+from touchline.verify.resimulate import verify
 
 NUBOT = "robot_agent.teams.nubot:NuBot"
 
 SCENE = """
-says = "Two against one, and a robot that stands still."
+description = "Two against one, and a robot that stands still."
 robots = [
     { name = "anna", side = "cyan", x = -2.0, y = 0.5 },
     { name = "bert", side = "cyan", x = -4.0, y = -1.0 },
@@ -33,7 +33,7 @@ robots = [
 ]
 """
 ANOTHER_SCENE = """
-says = "One alone."
+description = "One alone."
 robots = [{ name = "zoe", side = "cyan", x = 0.0, y = 3.0 }]
 """
 PROFILE = 'extends = "msl"\n[drive]\nmax_speed = { value = 1.5, unit = "m/s", origin = "ours" }\n'
@@ -105,7 +105,7 @@ def test_a_recording_is_opened_and_verified_when_the_files_of_its_match_are_gone
 def test_it_is_replayed_message_by_message_without_them(from_files: Path, change: Callable[[Path], None]) -> None:
     change(from_files.parent)
     clock, shown = SteppedClock(), []
-    player = Player(Tape(from_files), clock, shown.append)
+    player = Player(Cursor(from_files), clock, shown.append)
     while not player.ended:
         if not player.pump():
             clock.sleep_until(clock.now() + max(1e-6, player.wait()))
@@ -115,7 +115,7 @@ def test_it_is_replayed_message_by_message_without_them(from_files: Path, change
 @pytest.mark.parametrize("change", [delete, rewrite])
 def test_its_sights_are_simulated_again_without_them(from_files: Path, change: Callable[[Path], None]) -> None:
     change(from_files.parent)
-    verdict = play_against(open_recording(from_files), "cleo", NUBOT)
+    verdict = compare_brain(open_recording(from_files), "cleo", NUBOT)
     assert (verdict.compared, verdict.different) == (50, 0)
 
 
@@ -129,7 +129,7 @@ def test_where_a_config_names_a_file_that_is_there_it_is_read(named: Callable[..
     recording = open_recording(named(str(tmp_path / "mine.toml")))
     assert robots(recording) == ["anna", "bert", "cleo"]
     (tmp_path / "slow.toml").unlink()
-    assert play_against(recording, "cleo", NUBOT).compared == 50
+    assert compare_brain(recording, "cleo", NUBOT).compared == 50
 
 
 @pytest.mark.parametrize("types", [{}, {"cleo": "keeper"}])
@@ -146,7 +146,7 @@ def test_where_a_config_names_a_file_that_is_gone_the_setup_says_who_played(
     assert info(path)["seed"] == 7
     assert verify(path).identical
     with pytest.raises(TouchlineError, match=r"its scene .*mine\.toml cannot be read; restore"):
-        play_against(recording, "cleo", NUBOT)
+        compare_brain(recording, "cleo", NUBOT)
 
 
 @pytest.mark.parametrize("types", [{}, {"cleo": "keeper"}])
@@ -164,5 +164,5 @@ def test_sights_that_are_simulated_from_an_edited_scene_are_not_compared(
 ) -> None:
     path = named(str(tmp_path / "mine.toml"))
     rewrite(tmp_path)
-    verdict = play_against(open_recording(path), "cleo", NUBOT)
+    verdict = compare_brain(open_recording(path), "cleo", NUBOT)
     assert (verdict.compared, verdict.until) == (0, "at tick 0 the world is not the recorded one any more")

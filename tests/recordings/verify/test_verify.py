@@ -6,14 +6,14 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from arena import verification
-from arena.__main__ import app
-from arena.verification import verify
-from recordings.course import Why, course_of
-from recordings.output import Limits
-from recordings.reader import open_recording
+from recordings.reading.recording import open_recording
+from recordings.reading.tick_index import SkipReason, tick_index_of
+from recordings.recorder.sink import FileLimits
+from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
-from schemas.match_config import load_match
+from touchline.__main__ import app
+from touchline.verify import resimulate
+from touchline.verify.resimulate import verify
 
 
 def run(*words: str | Path) -> Result:
@@ -24,23 +24,23 @@ def test_a_real_match_is_identical(played: Path) -> None:
     result = run(played, "--jobs", "1")
     assert result.exit_code == 0
     assert result.stdout.splitlines()[0] == "identical, 1201 ticks"
-    assert f"kick-offs to begin with: {len(course_of(open_recording(played)).kick_offs)}" in result.stdout
+    assert f"kick-offs to begin with: {len(tick_index_of(open_recording(played)).kick_offs)}" in result.stdout
 
 
 def test_a_match_on_wheels_with_scenes_and_parameters_is_identical_from_each_of_its_starts(operated: Path) -> None:
     recording = open_recording(operated)
-    course = course_of(recording)
-    assert len(course.starts) == 1 + len(course.kick_offs) + 3
-    for stretch in course.stretches(0, 0):
-        came = verification.retrace(operated, stretch)
+    index = tick_index_of(recording)
+    assert len(index.starts) == 1 + len(index.kick_offs) + 3
+    for segment in index.segments(0, 0):
+        came = resimulate.resimulate_segment(operated, segment)
         assert came.difference is None
-        assert came.ticks == len(stretch.ticks) > 0
+        assert came.ticks == len(segment.ticks) > 0
     whole = verify(operated)
-    assert whole.identical and whole.ticks == len(course.times)
+    assert whole.identical and whole.ticks == len(index.times)
 
 
 def test_several_processes_say_what_one_says(operated: Path, edited, at_tick, monkeypatch) -> None:
-    monkeypatch.setattr(verification, "_WORTH_A_PROCESS", 50)
+    monkeypatch.setattr(resimulate, "_WORTH_A_PROCESS", 50)
     one, two = verify(operated, processes=1), verify(operated, processes=2)
     assert two.processes == 2
     assert (one.identical, one.ticks, one.left_out) == (two.identical, two.ticks, two.left_out)
@@ -50,7 +50,7 @@ def test_several_processes_say_what_one_says(operated: Path, edited, at_tick, mo
 
 
 def test_from_a_kick_off_on(operated: Path) -> None:
-    first = course_of(open_recording(operated)).kick_offs[0].tick
+    first = tick_index_of(open_recording(operated)).kick_offs[0].tick
     verdict = verify(operated, from_kick_off=1)
     assert verdict.identical and verdict.ticks == verify(operated).ticks - first
     result = run(operated, "--from-kickoff", "9")
@@ -132,11 +132,15 @@ def test_a_body_that_was_set_down_elsewhere_shows_where_it_is(operated: Path, ed
 
 
 def test_ticks_that_are_missing_are_said_and_the_rest_is_compared(operated: Path, edited) -> None:
-    after = next(start.tick for start in course_of(open_recording(operated)).starts if start.tick > 310)
+    after = next(start.tick for start in tick_index_of(open_recording(operated)).starts if start.tick > 310)
     path = edited(operated, "host/applied", lambda fields: None if 300 <= fields["tick"] < 310 else fields)
     verdict = verify(path)
     assert not verdict.identical and verdict.difference is None
-    assert (verdict.left_out[0].first, verdict.left_out[0].last, verdict.left_out[0].why) == (300, 309, Why.MISSING)
+    assert (verdict.left_out[0].first, verdict.left_out[0].last, verdict.left_out[0].why) == (
+        300,
+        309,
+        SkipReason.MISSING,
+    )
     assert verdict.ticks == 300 + verify(operated).ticks - after
     result = run(path, "--jobs", "1")
     assert result.exit_code == 1
@@ -144,7 +148,7 @@ def test_ticks_that_are_missing_are_said_and_the_rest_is_compared(operated: Path
 
 
 def test_a_difference_before_ticks_that_are_missing_is_told_by_one_process_as_by_two(operated: Path, edited) -> None:
-    """What stands behind the gap is a stretch of its own, and is not gone over any more."""
+    """What stands behind the gap is a segment of its own, and is not gone over any more."""
 
     def edit(fields):
         if 300 <= fields["tick"] < 310:
@@ -160,12 +164,12 @@ def test_a_difference_before_ticks_that_are_missing_is_told_by_one_process_as_by
 
 def test_a_recording_that_sets_in_late_is_compared_from_its_first_kick_off(operated: Path, edited, tmp_path) -> None:
     """Who takes part, with what numbers, and what stands there: from the setup and the world."""
-    course = course_of(open_recording(operated))
-    kick_off = course.kick_offs[0].tick
+    index = tick_index_of(open_recording(operated))
+    kick_off = index.kick_offs[0].tick
     late = edited(operated, "host/applied", lambda fields: None if fields["tick"] < kick_off - 5 else fields)
     verdict = verify(late)
-    assert verdict.identical and verdict.ticks == len(course.times) - kick_off
-    assert [one.why for one in verdict.left_out] == [Why.BEFORE, Why.NO_START]
+    assert verdict.identical and verdict.ticks == len(index.times) - kick_off
+    assert [one.why for one in verdict.left_out] == [SkipReason.BEFORE, SkipReason.NO_START]
     result = run(late, "--jobs", "1")
     assert result.exit_code == 0
     assert f"ticks {kick_off - 5} to {kick_off - 1} stand before the first tick" in result.stdout
@@ -234,12 +238,12 @@ def test_each_part_of_a_split_recording_is_compared_from_its_first_start(
     """A later part begins with what stood then: who takes part, numbers that were changed, the world before."""
     teams = {"teams.cyan.size": 1, "teams.magenta.size": 1}
     config = load_match(None, {"seed": 3, "duration": 10.0, **teams})
-    match_recorder(tmp_path / "m.mcap", config, until=9.0, between=operate, limits=Limits(duration=6.6))
+    match_recorder(tmp_path / "m.mcap", config, until=9.0, between=operate, limits=FileLimits(duration=6.6))
     first, second = sorted(tmp_path.glob("*.mcap"))
     assert verify(first).identical
     verdict = verify(second)
     assert verdict.identical and verdict.difference is None
-    start = next(start for start in course_of(open_recording(second)).starts if start.tick > 0)
+    start = next(start for start in tick_index_of(open_recording(second)).starts if start.tick > 0)
     assert [one.tick for one in start.changes] == [0, 321]
     assert verdict.ticks == 451 - start.tick
-    assert [one.why for one in verdict.left_out] == [Why.BEFORE, Why.NO_START]
+    assert [one.why for one in verdict.left_out] == [SkipReason.BEFORE, SkipReason.NO_START]

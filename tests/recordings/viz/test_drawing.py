@@ -10,17 +10,17 @@ from pydantic_core import to_json
 from recordings.viz.colours import BALL, MARK, PITCH, ROBOT, Colour
 from recordings.viz.drawing import BALL as BALL_TOPIC
 from recordings.viz.drawing import EVENTS, FIELD, GAME, REPEAT_NS, ROBOTS, TF, Drawing
-from schemas.bus.contract import Received
+from schemas.bus.contract import ReceivedMessage
+from schemas.config.match_config import load_match
+from schemas.config.obstacle import Shape
+from schemas.config.profile import load_profile
+from schemas.config.roster import RosterEntry
+from schemas.config.rule_book import load_rule_book
 from schemas.game import EventKind, GameEvent, GameState, OffField, Phase, Score
-from schemas.host import Applied, Setup
-from schemas.match_config import load_match
-from schemas.obstacle import Shape
-from schemas.profile import load_profile
-from schemas.roster import RosterEntry
-from schemas.rule_book import load_rule_book
+from schemas.messages.host import Applied, Setup
+from schemas.messages.world import BallTruth, ObstacleTruth, RobotTruth, World
 from schemas.side import Side
 from schemas.topics import APPLIED, COMMAND, EVENT, STATE, WORLD
-from schemas.world import BallTruth, ObstacleTruth, RobotTruth, World
 
 CLASSES = {TF: FrameTransforms_pb2.FrameTransforms, EVENTS: Log_pb2.Log}
 TICK_NS = 20_000_000
@@ -57,7 +57,7 @@ class Board:
         """Topic → the messages that this one brought."""
         at = round(message.time * 1e9) if ns is None else ns
         out: dict = {}
-        for name, payload in self.drawing.take(Received(topic, topic.key, to_json(message), None), at):
+        for name, payload in self.drawing.draw(ReceivedMessage(topic, topic.key, to_json(message), None), at):
             out.setdefault(name, []).append(CLASSES.get(name, SceneUpdate_pb2.SceneUpdate).FromString(payload))
         return out
 
@@ -300,7 +300,7 @@ def test_an_event_is_a_line_of_the_log_as_grave_as_it_is(board, kind, level):
     ],
 )
 def test_of_a_payload_that_is_no_message_nothing_is_drawn(board, topic, payload):
-    assert board.drawing.take(Received(topic, topic.key, payload, None), 0) == []
+    assert board.drawing.draw(ReceivedMessage(topic, topic.key, payload, None), 0) == []
 
 
 def luminance(colour: Colour) -> float:

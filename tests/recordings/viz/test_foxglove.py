@@ -5,8 +5,8 @@ from foxglove_schemas_protobuf import FrameTransforms_pb2, Log_pb2, SceneUpdate_
 from google.protobuf import descriptor_pb2, descriptor_pool
 from pydantic_core import to_json
 
-from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE, descriptors, encode, stamp
-from recordings.viz.look import look_at
+from recordings.viz.drawn_world import decode_world
+from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE, descriptors, encode, timestamp
 from recordings.viz.transforms import STEP_M, Transforms
 
 THEIRS = {
@@ -47,7 +47,7 @@ def test_the_descriptors_are_those_of_foxglove_field_by_field(message):
 
 def test_every_kind_of_field_is_read_back_as_it_was_written():
     values = {
-        "deletions": [{"timestamp": stamp(3), "type": "ALL", "id": "gone"}],
+        "deletions": [{"timestamp": timestamp(3), "type": "ALL", "id": "gone"}],
         "entities": [
             {
                 "timestamp": {"seconds": 7, "nanos": 9},
@@ -81,7 +81,7 @@ def test_every_kind_of_field_is_read_back_as_it_was_written():
 
 @pytest.mark.parametrize("ns", [0, 999_999_999, 1_000_000_000, 5_400_020_000_000])
 def test_a_stamp_is_seconds_and_nanoseconds(ns):
-    read = Log_pb2.Log.FromString(encode(LOG, {"timestamp": stamp(ns)}))
+    read = Log_pb2.Log.FromString(encode(LOG, {"timestamp": timestamp(ns)}))
     assert read.timestamp.ToNanoseconds() == ns
 
 
@@ -93,12 +93,12 @@ def test_transforms_put_together_by_hand_are_those_of_the_table():
         },
         "ball": {"x": 1.2, "y": -0.3, "z": 0.11},
     }
-    written = Transforms().encode(look_at(to_json(world)), 8_240_000_000)
+    written = Transforms().encode(decode_world(to_json(world)), 8_240_000_000)
     read = FrameTransforms_pb2.FrameTransforms.FromString(written)
     assert read.SerializeToString() != b""
     plain = [
         {
-            "timestamp": stamp(8_240_000_000),
+            "timestamp": timestamp(8_240_000_000),
             "parent_frame_id": one.parent_frame_id,
             "child_frame_id": one.child_frame_id,
             "translation": {"x": one.translation.x, "y": one.translation.y, "z": one.translation.z},

@@ -6,10 +6,10 @@ from collections.abc import Callable
 import pytest
 
 from robot_agent.contract import Briefing, load_brain
-from schemas.command import Command, Motion
-from schemas.host import Setup
+from schemas.messages.command import Command, Motion
+from schemas.messages.host import Setup
+from schemas.messages.sight import ReceivedRadio, Sight
 from schemas.side import Side
-from schemas.sight import Heard, Sight
 
 BRAINS = {"simple": "robot_agent.teams.simple:Simple", "nubot": "robot_agent.teams.nubot:NuBot"}
 
@@ -22,13 +22,13 @@ class Squad:
         self.poses = dict(poses)
         self.sight_of = sight_of
         self.tick = 0
-        self.said: dict[str, Heard] = {}
+        self.said: dict[str, ReceivedRadio] = {}
         self.brains = {name: load_brain(BRAINS[team], Briefing.of(name, setup)) for name in poses}
 
     def meet(self) -> None:
         """Let everybody have heard everybody."""
         for name, (x, y, heading) in self.poses.items():
-            self.said[name] = Heard(age=0.0, self=Motion(x=x, y=y, heading=heading))
+            self.said[name] = ReceivedRadio(age=0.0, self=Motion(x=x, y=y, heading=heading))
 
     def act(self, **seen: object) -> dict[str, Command]:
         """One tick: everybody's command."""
@@ -37,7 +37,7 @@ class Squad:
             self.said[name] = heard.model_copy(update={"age": heard.age + 0.02})
         for name, command in commands.items():
             if command.radio is not None:
-                self.said[name] = Heard(
+                self.said[name] = ReceivedRadio(
                     age=0.0, **{key: getattr(command.radio, key) for key in type(command.radio).model_fields}
                 )
         self.tick += 1

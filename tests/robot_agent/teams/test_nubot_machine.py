@@ -5,11 +5,11 @@ from itertools import pairwise
 
 import pytest
 
-from robot_agent.bodies import Body, Limits
-from robot_agent.teams.nubot.machine import TABLE, Machine, Points, Situation, State
+from robot_agent.bodies import Body, DriveLimits
+from robot_agent.teams.nubot.machine import TRANSITIONS, Machine, Points, Situation, State
 from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
-from schemas.command import KickMode
 from schemas.frames import wrap
+from schemas.messages.command import KickMode
 
 DT = 0.021
 PATH = [
@@ -73,13 +73,13 @@ def test_a_run_goes_through_the_states_of_the_paper_in_their_order(played):
 
 
 def test_every_step_of_a_run_is_a_row_of_the_table(played):
-    rows = {(row.state, row.next) for row in TABLE}
+    rows = {(row.state, row.next) for row in TRANSITIONS}
     path = played.path()
     assert all(step in rows for step in pairwise(path))
 
 
 def test_the_table_has_exactly_the_papers_transitions():
-    assert [(row.state.value, row.condition.__name__, row.next.value) for row in TABLE] == [
+    assert [(row.state.value, row.condition.__name__, row.next.value) for row in TRANSITIONS] == [
         ("CHASE_BALL", "ball_in_reach", "DRIBBLE_BALL/MOVE_BALL"),
         ("DRIBBLE_BALL/MOVE_BALL", "hold_lost", "CHASE_BALL"),
         ("DRIBBLE_BALL/MOVE_BALL", "at_dribble_point", "DRIBBLE_BALL/ROTATE_BALL"),
@@ -193,6 +193,6 @@ def test_a_trapezoid_rises_holds_and_falls_to_its_floor():
 
 
 def test_limits_of_the_paper_profile_are_those_of_the_trajectories(paper_setup):
-    limits = Limits.of(paper_setup)
+    limits = DriveLimits.of(paper_setup)
     assert (limits.acceleration, limits.speed) == TRANSLATION[:2]
     assert (limits.turn_acceleration, limits.turn_rate) == pytest.approx(ROTATION[:2])

@@ -6,12 +6,12 @@ import math
 import pytest
 
 from robot_agent.contract import Briefing, load_brain
-from robot_agent.teams.player import SPEAKS_EVERY
-from robot_agent.teams.set_piece import asked_distance
+from robot_agent.teams.player import RADIO_EVERY
+from robot_agent.teams.set_piece import required_distance
 from robot_agent.teams.simple.striker import PATIENCE
-from schemas.coach import CoachMode, CoachOrder
-from schemas.command import Drive
-from schemas.game import OffField, Point, Standing, TeamPhase
+from schemas.game import DisciplinaryRecord, OffField, Point, TeamPhase
+from schemas.messages.coach import CoachMode, CoachOrder
+from schemas.messages.command import Drive
 from schemas.side import Side
 
 TEAMS = ("simple", "nubot")
@@ -41,7 +41,7 @@ def players(squad):
 @pytest.mark.parametrize("ball", [(0.0, 0.0), (-6.0, 0.0), (4.0, 5.0), (-2.0, 0.0), (-5.0, 0.0)])
 def test_exactly_one_robot_plays_the_ball(squad, team, ball):
     made = squad(team)
-    for _ in range(2 * SPEAKS_EVERY):
+    for _ in range(2 * RADIO_EVERY):
         made.act(ball=ball)
     assert len(players(made)) == 1
 
@@ -52,7 +52,7 @@ def test_who_plays_does_not_change_each_tick_with_two_robots_equally_near(squad,
     seen = set()
     for tick in range(60):
         made.act(ball=(0.0, 0.05 if tick % 2 else -0.05))
-        if tick > 2 * SPEAKS_EVERY:
+        if tick > 2 * RADIO_EVERY:
             seen.add(tuple(players(made)))
     assert len(seen) == 1
 
@@ -93,7 +93,7 @@ def test_a_striker_in_a_hurry_between_two_receivers_turns_to_one_of_them(squad):
 def test_before_start_everybody_stands_as_far_from_the_ball_as_the_rules_ask(squad, setup, team, phase):
     made = squad(team)
     spot = settle(made, phase)
-    radius, asked = setup.robot.radius, asked_distance(phase, setup.restarts)
+    radius, asked = setup.robot.radius, required_distance(phase, setup.restarts)
     distances = {name: math.dist(pose[:2], spot) - radius for name, pose in made.poses.items()}
     taker = min(distances, key=distances.get) if phase.ours else None
     for name, distance in distances.items():
@@ -315,7 +315,7 @@ def test_every_phase_has_an_answer_with_or_without_a_ball(squad, team, phase, ba
 @pytest.mark.parametrize("team", TEAMS)
 def test_while_the_goalkeeper_is_off_the_field_the_next_robot_keeps_the_goal_until_it_is_back(squad, setup, team):
     made = squad(team)
-    off = {"cyan1": Standing(off_field=OffField.REPAIR)}
+    off = {"cyan1": DisciplinaryRecord(off_field=OffField.REPAIR)}
 
     def play(robots, ticks=400):
         for _ in range(ticks):

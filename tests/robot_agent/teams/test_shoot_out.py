@@ -4,11 +4,11 @@ import math
 
 import pytest
 
-from schemas.command import Drive
-from schemas.game import OffField, Stage, Standing, TeamPhase
+from schemas.game import DisciplinaryRecord, GameStage, OffField, TeamPhase
+from schemas.messages.command import Drive
 
 MARK = {"x": 7.4, "y": 0.0}
-SHOOT_OUT = {"stage": Stage.SHOOT_OUT}
+SHOOT_OUT = {"stage": GameStage.SHOOT_OUT}
 TEAMS = pytest.mark.parametrize("team", ["simple", "nubot"])
 
 
@@ -71,7 +71,7 @@ def test_a_penalty_is_aimed_past_a_goalkeeper_that_has_left_the_middle(squad, te
 @TEAMS
 def test_the_next_on_the_field_takes_it_when_the_first_is_off(squad, team):
     players = squad(team)
-    game = SHOOT_OUT | {"robots": {"cyan2": Standing(red=1, off_field=OffField.RED_CARD)}}
+    game = SHOOT_OUT | {"robots": {"cyan2": DisciplinaryRecord(red=1, off_field=OffField.RED_CARD)}}
     driven(players, 8.0, ball=(7.4, 0.0), phase=TeamPhase.OUR_PENALTY, running=False, spot=MARK, game=game)
     assert math.hypot(*players.poses["cyan3"][:2]) < players.setup.pitch.centre_circle_radius
 
@@ -80,7 +80,7 @@ def test_the_next_on_the_field_takes_it_when_the_first_is_off(squad, team):
 def test_who_is_off_the_field_rests_and_the_others_play_without_it(squad, team):
     """The one nearest to the ball is off: another goes for it."""
     players = squad(team)
-    seen = {"ball": (-1.5, 1.0), "game": {"robots": {"cyan2": Standing(off_field=OffField.REPAIR, left=9.0)}}}
+    seen = {"ball": (-1.5, 1.0), "game": {"robots": {"cyan2": DisciplinaryRecord(off_field=OffField.REPAIR, left=9.0)}}}
     for _ in range(60):
         commands = players.act(**seen)
         assert commands["cyan2"].drive == Drive()

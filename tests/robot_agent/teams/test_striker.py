@@ -2,17 +2,17 @@
 
 import pytest
 
-from robot_agent.bodies import Body, Limits
-from robot_agent.teams.simple.striker import PATIENCE, Ground, play_ball
-from robot_agent.world_model import Mate
+from robot_agent.bodies import Body, DriveLimits
+from robot_agent.teams.simple.striker import PATIENCE, StrikerSituation, play_ball
+from robot_agent.world_model import Teammate
 
 
 @pytest.fixture
 def intention(setup):
     def of(mate, held):
         me = Body(0.0, 0.0, 0.0)
-        mates = {"cyan3": Mate(Body(*mate, 0.0), "", "", None)}
-        return play_ball(Ground(me, mates, (), held, 0.0, "cyan3"), setup, Limits.of(setup)).intention
+        mates = {"cyan3": Teammate(Body(*mate, 0.0), "", "", None)}
+        return play_ball(StrikerSituation(me, mates, (), held, 0.0, "cyan3"), setup, DriveLimits.of(setup)).intention
 
     return of
 

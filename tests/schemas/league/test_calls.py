@@ -4,9 +4,9 @@ from typing import Any
 
 import pytest
 
-from schemas.game import GameState, OffField, Phase, Score, Stage, Standing
+from schemas.game import DisciplinaryRecord, GameStage, GameState, OffField, Phase, Score
 from schemas.league.calls import calls
-from schemas.league.numbers import numbers_of
+from schemas.league.robot_numbers import numbers_of
 from schemas.side import Side
 
 SIDES = {"cyan1": Side.CYAN, "cyan2": Side.CYAN, "magenta4": Side.MAGENTA}
@@ -59,12 +59,12 @@ def restart(phase: Phase, side: Side | None, **content: Any) -> GameState:
         ),
         (
             state(phase=Phase.HALF_TIME, running=False, half=2),
-            restart(Phase.KICK_OFF, Side.CYAN, half=3, stage=Stage.EXTRA_TIME),
+            restart(Phase.KICK_OFF, Side.CYAN, half=3, stage=GameStage.EXTRA_TIME),
             ["FIRST_HALF_OVERTIME", "KICKOFF cyan"],
         ),
         (
             state(phase=Phase.HALF_TIME, running=False, half=4),
-            restart(Phase.PENALTY, Side.CYAN, half=4, stage=Stage.SHOOT_OUT),
+            restart(Phase.PENALTY, Side.CYAN, half=4, stage=GameStage.SHOOT_OUT),
             ["PENALTY cyan"],
         ),
         (stopped(half=2), state(phase=Phase.FULL_TIME, running=False, half=2), ["END_GAME"]),
@@ -77,23 +77,29 @@ def test_a_change_of_the_game_is_signalled(old: GameState | None, new: GameState
 @pytest.mark.parametrize(
     ("was", "now", "expected"),
     [
-        (Standing(), Standing(yellow=1), ["YELLOW_CARD cyan cyan2"]),
-        (Standing(yellow=1), Standing(yellow=2, off_field=OffField.SECOND_YELLOW), ["DOUBLE_YELLOW cyan cyan2"]),
-        (Standing(yellow=2), Standing(red=1, off_field=OffField.RED_CARD), ["RED_CARD cyan cyan2"]),
-        (Standing(), Standing(off_field=OffField.REPAIR), ["REPAIR cyan cyan2"]),
-        (Standing(off_field=OffField.REPAIR), Standing(), ["REPAIR_END cyan cyan2"]),
-        (Standing(), Standing(off_field=OffField.SUBSTITUTION), ["SUBSTITUTION cyan cyan2"]),
-        (Standing(), Standing(off_field=OffField.SILENT), ["IS_ALIVE cyan cyan2"]),
-        (Standing(off_field=OffField.SILENT), Standing(), []),
-        (Standing(yellow=1), Standing(), []),
+        (DisciplinaryRecord(), DisciplinaryRecord(yellow=1), ["YELLOW_CARD cyan cyan2"]),
+        (
+            DisciplinaryRecord(yellow=1),
+            DisciplinaryRecord(yellow=2, off_field=OffField.SECOND_YELLOW),
+            ["DOUBLE_YELLOW cyan cyan2"],
+        ),
+        (DisciplinaryRecord(yellow=2), DisciplinaryRecord(red=1, off_field=OffField.RED_CARD), ["RED_CARD cyan cyan2"]),
+        (DisciplinaryRecord(), DisciplinaryRecord(off_field=OffField.REPAIR), ["REPAIR cyan cyan2"]),
+        (DisciplinaryRecord(off_field=OffField.REPAIR), DisciplinaryRecord(), ["REPAIR_END cyan cyan2"]),
+        (DisciplinaryRecord(), DisciplinaryRecord(off_field=OffField.SUBSTITUTION), ["SUBSTITUTION cyan cyan2"]),
+        (DisciplinaryRecord(), DisciplinaryRecord(off_field=OffField.SILENT), ["IS_ALIVE cyan cyan2"]),
+        (DisciplinaryRecord(off_field=OffField.SILENT), DisciplinaryRecord(), []),
+        (DisciplinaryRecord(yellow=1), DisciplinaryRecord(), []),
     ],
 )
-def test_what_becomes_of_a_robot_is_signalled_with_its_name(was: Standing, now: Standing, expected: list[str]) -> None:
+def test_what_becomes_of_a_robot_is_signalled_with_its_name(
+    was: DisciplinaryRecord, now: DisciplinaryRecord, expected: list[str]
+) -> None:
     assert said(state(robots={"cyan2": was}), state(robots={"cyan2": now})) == expected
 
 
 def test_a_robot_that_is_nobodys_is_passed_over() -> None:
-    assert said(state(), state(robots={"ghost": Standing(red=1)})) == []
+    assert said(state(), state(robots={"ghost": DisciplinaryRecord(red=1)})) == []
 
 
 def test_robots_have_the_number_at_the_end_of_their_names_or_their_place() -> None:

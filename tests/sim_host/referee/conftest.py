@@ -1,4 +1,4 @@
-"""A bench for the referee: a world of points that does what the referee asks and nothing else."""
+"""A rig for the referee: a world of points that does what the referee asks and nothing else."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -6,17 +6,17 @@ from typing import Any
 
 import pytest
 
+from schemas.config.match_config import load_match
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
 from schemas.frames import Pose
 from schemas.game import ActionName, EventKind, GameEvent, Phase, Point, RefereeAction
-from schemas.match_config import load_match
-from schemas.profile import load_profile
-from schemas.rule_book import load_rule_book
 from schemas.side import Side
 from sim_host.referee.core import Referee, Ruling
-from sim_host.snapshot import BallState, ObstacleState, Robots, RobotState, Roster, Snapshot
+from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster, Snapshot
 
 
-class Bench:
+class RefereeRig:
     """Ball and robots as points at rest, moved by the test and by the referee's placements.
 
     Robots stand where no restart in the middle of the field disturbs them; `mirrored` swaps colours and turns the
@@ -79,7 +79,9 @@ class Bench:
         A ball without another `spin`, in rad/s, rolls.
         """
         turning = spin or (-self.velocity[1] / self.radius, self.velocity[0] / self.radius)
-        robots = Robots(self._seen(name, *motions.get(self.robot(name), (0.0, 0.0, 0.0))) for name in self.roster.names)
+        robots = RobotStates(
+            self._seen(name, *motions.get(self.robot(name), (0.0, 0.0, 0.0))) for name in self.roster.names
+        )
         ball = BallState(
             *self._turned(*self.ball[:2]), self.ball[2], *self._turned(*self.velocity[:2]), self.velocity[2]
         )
@@ -132,7 +134,7 @@ class Bench:
     def run(self, seconds: float) -> list[Ruling]:
         return [self.tick() for _ in range(round(seconds / self.dt))]
 
-    def until(self, done: Callable[[Any], bool], limit: float = 60.0) -> "Bench":
+    def until(self, done: Callable[[Any], bool], limit: float = 60.0) -> "RefereeRig":
         """Tick until the state is as wanted."""
         for _ in range(round(limit / self.dt)):
             if done(self.state):
@@ -140,7 +142,7 @@ class Bench:
             self.tick()
         raise AssertionError(f"not reached within {limit} s; the state is {self.state}")
 
-    def playing(self, ball: Sequence[float] = (1.0, 0.0), touches: Sequence[str] = ("cyan2",)) -> "Bench":
+    def playing(self, ball: Sequence[float] = (1.0, 0.0), touches: Sequence[str] = ("cyan2",)) -> "RefereeRig":
         """Bring the game into play, with the ball at `ball`, touched last by `touches`."""
         self.until(lambda state: state.running)
         takers = [name for name in self.roster.names if self.roster.side_of(name) is self.state.side][1:3]
@@ -172,11 +174,11 @@ class Bench:
 
 
 @pytest.fixture(scope="session")
-def new_bench() -> type[Bench]:
-    return Bench
+def new_rig() -> type[RefereeRig]:
+    return RefereeRig
 
 
 @pytest.fixture(params=["msl", "paper"])
-def bench(request: pytest.FixtureRequest) -> Bench:
-    """A bench of each profile, with its own rule book."""
-    return Bench(request.param)
+def rig(request: pytest.FixtureRequest) -> RefereeRig:
+    """A rig of each profile, with its own rule book."""
+    return RefereeRig(request.param)

@@ -2,39 +2,39 @@
 
 import pytest
 
-from schemas.game import EventKind, Mode, Phase, Score
+from schemas.game import EventKind, OfficiatingMode, Phase, Score
 from schemas.side import Side
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
 
 
-def out(bench):
+def out(rig):
     """In play, the ball crosses the touch line; it stays there."""
-    touch = bench.pitch.touch_line
-    return bench.crossing((1.0, touch - 0.1), (1.0, touch + 0.3), ["cyan2"])
+    touch = rig.pitch.touch_line
+    return rig.crossing((1.0, touch - 0.1), (1.0, touch + 0.3), ["cyan2"])
 
 
-def begun(bench):
+def begun(rig):
     """The match is started by word and the kick-off, too."""
-    bench.ask("start")
-    bench.tick()
-    bench.ask("start")
-    return bench
+    rig.ask("start")
+    rig.tick()
+    rig.ask("start")
+    return rig
 
 
 @pytest.fixture
-def manual(new_bench):
-    return begun(new_bench(mode=Mode.MANUAL, automatic=False, duration=60.0))
+def manual(new_rig):
+    return begun(new_rig(mode=OfficiatingMode.MANUAL, automatic=False, duration=60.0))
 
 
 @pytest.fixture
-def mixed(new_bench):
-    return new_bench(mode=Mode.MIXED, proposal=2.0)
+def mixed(new_rig):
+    return new_rig(mode=OfficiatingMode.MIXED, proposal=2.0)
 
 
-def scored(bench):
-    line = bench.pitch.goal_line
-    return bench.crossing((line - 0.1, 0.0), (line + 0.3, 0.0), ["cyan3"])
+def scored(rig):
+    line = rig.pitch.goal_line
+    return rig.crossing((line - 0.1, 0.0), (line + 0.3, 0.0), ["cyan3"])
 
 
 def test_in_manual_officiating_nothing_is_judged_but_the_clock(manual):
@@ -98,69 +98,69 @@ def test_where_nothing_is_proposed_there_is_nothing_to_say(mixed, name):
     assert not reply.accepted and "nothing is proposed" in reply.reason
 
 
-def test_the_end_of_a_half_is_no_proposal(new_bench):
-    bench = new_bench(mode=Mode.MIXED, proposal=2.0, duration=20.0)
-    bench.playing()
-    bench.until(lambda state: state.phase is Phase.PARKING)
-    assert bench.state.clock == pytest.approx(10.0)
+def test_the_end_of_a_half_is_no_proposal(new_rig):
+    rig = new_rig(mode=OfficiatingMode.MIXED, proposal=2.0, duration=20.0)
+    rig.playing()
+    rig.until(lambda state: state.phase is Phase.PARKING)
+    assert rig.state.clock == pytest.approx(10.0)
 
 
-def test_undo_of_a_goal_brings_the_score_back_and_drops_the_ball_where_play_was(bench):
-    scored(bench)
-    clock = bench.state.clock
-    bench.run(1.0)
-    ruling = bench.ask("undo")
-    assert ruling.replies[0].accepted and bench.state.score == Score()
-    assert bench.state.clock == pytest.approx(clock + 1.02)
-    assert bench.state.phase is Phase.STOPPED and bench.state.pending.phase is Phase.DROP_BALL
-    bench.until(lambda state: state.phase is Phase.PLAY)
+def test_undo_of_a_goal_brings_the_score_back_and_drops_the_ball_where_play_was(rig):
+    scored(rig)
+    clock = rig.state.clock
+    rig.run(1.0)
+    ruling = rig.ask("undo")
+    assert ruling.replies[0].accepted and rig.state.score == Score()
+    assert rig.state.clock == pytest.approx(clock + 1.02)
+    assert rig.state.phase is Phase.STOPPED and rig.state.pending.phase is Phase.DROP_BALL
+    rig.until(lambda state: state.phase is Phase.PLAY)
 
 
-def test_one_decision_can_be_undone_and_not_the_one_before(bench):
-    scored(bench)
-    bench.ask("undo")
-    (reply,) = bench.ask("undo").replies
+def test_one_decision_can_be_undone_and_not_the_one_before(rig):
+    scored(rig)
+    rig.ask("undo")
+    (reply,) = rig.ask("undo").replies
     assert not reply.accepted and "no decision" in reply.reason
 
 
-def test_undo_of_a_restart_that_was_ordered_signals_the_one_before_again(bench):
-    bench.until(lambda state: state.phase is Phase.KICK_OFF)
-    bench.ask("free_kick", MAGENTA, (1.0, 1.0))
-    bench.until(lambda state: state.phase is Phase.FREE_KICK)
-    bench.ask("undo")
-    assert (bench.state.phase, bench.state.side, bench.ball[:2]) == (Phase.KICK_OFF, CYAN, (0.0, 0.0))
+def test_undo_of_a_restart_that_was_ordered_signals_the_one_before_again(rig):
+    rig.until(lambda state: state.phase is Phase.KICK_OFF)
+    rig.ask("free_kick", MAGENTA, (1.0, 1.0))
+    rig.until(lambda state: state.phase is Phase.FREE_KICK)
+    rig.ask("undo")
+    assert (rig.state.phase, rig.state.side, rig.ball[:2]) == (Phase.KICK_OFF, CYAN, (0.0, 0.0))
 
 
-def test_undo_of_a_red_card_sets_the_robot_on_the_field_again(bench):
-    bench.playing()
-    bench.ask("stop")
-    bench.ask("red_card", robot="magenta1")
-    bench.ask("undo")
-    assert bench.state.people.away == {} and bench.state.people.records == {}
-    assert abs(bench.robots["magenta1"][1]) <= bench.pitch.touch_line
-    assert bench.state.phase is Phase.STOPPED
+def test_undo_of_a_red_card_sets_the_robot_on_the_field_again(rig):
+    rig.playing()
+    rig.ask("stop")
+    rig.ask("red_card", robot="magenta1")
+    rig.ask("undo")
+    assert rig.state.participation.absences == {} and rig.state.participation.cards == {}
+    assert abs(rig.robots["magenta1"][1]) <= rig.pitch.touch_line
+    assert rig.state.phase is Phase.STOPPED
 
 
-def test_a_half_that_was_ended_by_mistake_goes_on_and_one_whose_time_is_up_does_not(new_bench):
-    bench = new_bench(duration=60.0)
-    bench.playing()
-    bench.ask("end_half")
-    assert bench.ask("undo").replies[0].accepted and bench.state.half == 1
-    bench.until(lambda state: state.phase is Phase.PARKING)
-    (reply,) = bench.ask("undo").replies
+def test_a_half_that_was_ended_by_mistake_goes_on_and_one_whose_time_is_up_does_not(new_rig):
+    rig = new_rig(duration=60.0)
+    rig.playing()
+    rig.ask("end_half")
+    assert rig.ask("undo").replies[0].accepted and rig.state.half == 1
+    rig.until(lambda state: state.phase is Phase.PARKING)
+    (reply,) = rig.ask("undo").replies
     assert not reply.accepted and "time is up" in reply.reason
 
 
-def test_what_was_decided_in_the_other_half_is_settled(bench):
-    scored(bench)
-    bench.ask("end_half")
-    bench.until(lambda state: state.half == 2)
-    assert not bench.ask("undo").replies[0].accepted
+def test_what_was_decided_in_the_other_half_is_settled(rig):
+    scored(rig)
+    rig.ask("end_half")
+    rig.until(lambda state: state.half == 2)
+    assert not rig.ask("undo").replies[0].accepted
 
 
-def test_a_state_remembers_one_state_before_and_no_chain(bench):
-    bench.playing()
+def test_a_state_remembers_one_state_before_and_no_chain(rig):
+    rig.playing()
     for _ in range(5):
-        bench.ask("goal", CYAN)
-    assert bench.state.before.before is None
-    assert bench.state._replace(before=None) != bench.state
+        rig.ask("goal", CYAN)
+    assert rig.state.before.before is None
+    assert rig.state._replace(before=None) != rig.state

@@ -3,15 +3,15 @@
 import pytest
 
 from schemas.side import Side
-from sim_host.referee.evidence import NOTHING
+from sim_host.referee.evidence import NO_EVIDENCE
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
 
 
 @pytest.fixture
-def played(new_bench):
-    """A bench of the league in play, where nobody is near the ball."""
-    return new_bench().playing((1.0, 0.0))
+def played(new_rig):
+    """A rig of the league in play, where nobody is near the ball."""
+    return new_rig().playing((1.0, 0.0))
 
 
 def test_the_last_touch_and_the_other_robot_before_it_are_kept(played):
@@ -48,7 +48,7 @@ def test_nothing_is_kept_over_a_stop(played):
     played.tick((0.0, 1.0), ["cyan3"], possession="cyan3")
     played.ask("stop")
     played.tick()
-    assert played.state.evidence is NOTHING and played.state.last_touch is None
+    assert played.state.evidence is NO_EVIDENCE and played.state.last_touch is None
 
 
 def test_a_catch_is_where_and_when_the_hold_began(played):

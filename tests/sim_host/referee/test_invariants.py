@@ -3,9 +3,9 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from schemas.game import RESTARTS, ActionName, EventKind, Mode, Phase, Point, RefereeAction, Stage
-from schemas.match_config import MatchConfig
-from schemas.profile import load_profile
+from schemas.config.match_config import MatchConfig
+from schemas.config.profile import load_profile
+from schemas.game import RESTARTS, ActionName, EventKind, GameStage, OfficiatingMode, Phase, Point, RefereeAction
 from schemas.side import Side
 from sim_host.snapshot import Roster
 
@@ -41,40 +41,36 @@ silences = st.sampled_from([(), (), ("cyan2",), ("magenta1", "magenta3")])
 @settings(max_examples=40)
 @given(
     rules=st.sampled_from(["friendly", "msl", "paper", "china-sim-2020"]),
-    mode=st.sampled_from(Mode),
+    mode=st.sampled_from(OfficiatingMode),
     winner=st.booleans(),
     story=st.lists(st.tuples(flights, wishes, silences, scuffles), max_size=40),
 )
-def test_score_clock_and_restarts_are_sound_in_any_match(new_bench, rules, mode, winner, story):
+def test_score_clock_and_restarts_are_sound_in_any_match(new_rig, rules, mode, winner, story):
     profile = "paper" if rules == "paper" else "msl"
-    bench = new_bench(profile, rules, dt=0.1, duration=24.0, mode=mode, proposal=1.0, winner=winner)
+    rig = new_rig(profile, rules, dt=0.1, duration=24.0, mode=mode, proposal=1.0, winner=winner)
     for (x, y, z, toucher, ticks), wish, silent, scuffle in story:
-        seen = scuffled(bench, scuffle)
+        seen = scuffled(rig, scuffle)
         for left in range(ticks, 0, -1):
-            way = (
-                [b + (n - b) / left for b, n in zip(bench.ball, (x, y, z), strict=True)]
-                if bench.state.running
-                else None
-            )
+            way = [b + (n - b) / left for b, n in zip(rig.ball, (x, y, z), strict=True)] if rig.state.running else None
             touches = [toucher] if toucher and left == ticks else []
             asked = [wish] if wish and left == ticks else []
-            sound_step(bench, way, touches, asked, kicked=toucher if touches else None, silent=silent, **seen)
+            sound_step(rig, way, touches, asked, kicked=toucher if touches else None, silent=silent, **seen)
     for _ in range(9000):
-        if bench.state.phase is Phase.FULL_TIME:
+        if rig.state.phase is Phase.FULL_TIME:
             break
-        word = what_people_must_say(bench.state, mode)
-        sound_step(bench, None, [], [RefereeAction(action=word)] if word else [])
-    assert bench.state.phase is Phase.FULL_TIME
-    every_stop_leads_on(bench.events)
+        word = what_people_must_say(rig.state, mode)
+        sound_step(rig, None, [], [RefereeAction(action=word)] if word else [])
+    assert rig.state.phase is Phase.FULL_TIME
+    every_stop_leads_on(rig.events)
 
 
-def scuffled(bench, scuffle):
+def scuffled(rig, scuffle):
     """What there is to see of a scuffle: contact and motion of two robots, or a hold."""
     if scuffle is None:
         return {}
     name, x, y, other, holds = scuffle
-    if bench.robot(name) not in bench.state.people.away:
-        bench.robots[name] = (x, y)
+    if rig.robot(name) not in rig.state.participation.absences:
+        rig.robots[name] = (x, y)
     pushing = {"motions": {name: (0.5, 1.0, 0.5), other: (0.5, 1.0, 0.4)}}
     if name != other:
         pushing["contacts"] = [(name, other)]
@@ -83,10 +79,10 @@ def scuffled(bench, scuffle):
 
 def what_people_must_say(state, mode):
     """The word without which a match would not go on."""
-    by_hand = mode is Mode.MANUAL
-    if state.stage is Stage.SHOOT_OUT and state.shoot_out.taken.cyan + state.shoot_out.taken.magenta > 1:
+    by_hand = mode is OfficiatingMode.MANUAL
+    if state.stage is GameStage.SHOOT_OUT and state.shoot_out.taken.cyan + state.shoot_out.taken.magenta > 1:
         return ActionName.END_GAME  # it would be played for long: nobody scores
-    if by_hand and state.running and state.stage is Stage.SHOOT_OUT:
+    if by_hand and state.running and state.stage is GameStage.SHOOT_OUT:
         return ActionName.STOP
     if state.pending is not None or state.running:
         return None
@@ -94,9 +90,9 @@ def what_people_must_say(state, mode):
     return ActionName.START if waits else None
 
 
-def sound_step(bench, ball, touches, asked, **seen):
-    before = bench.state
-    ruling = bench.tick(ball, touches, asked, **seen)
+def sound_step(rig, ball, touches, asked, **seen):
+    before = rig.state
+    ruling = rig.tick(ball, touches, asked, **seen)
     after = ruling.state
     kinds = {event.kind for event in ruling.events}
     goals = [event for event in ruling.events if event.kind is EventKind.GOAL]
@@ -107,26 +103,26 @@ def sound_step(bench, ball, touches, asked, **seen):
         assert after.score.magenta - before.score.magenta == sum(goal.side is Side.MAGENTA for goal in goals)
     assert before.clock <= after.clock <= after.timing.limit
     assert len(ruling.replies) == len(asked)
-    assert after.running <= (after.timing.runs or after.stage is Stage.SHOOT_OUT)
+    assert after.running <= (after.timing.runs or after.stage is GameStage.SHOOT_OUT)
     assert (after.spot is not None) == (after.phase in RESTARTS)
     assert after.spot is None or after.pending is None, "two restarts at once"
     assert after.timing.effective >= before.timing.effective or any(event.rule == "undo" for event in ruling.events)
-    assert after.stage is not Stage.SHOOT_OUT or after.score == before.score
+    assert after.stage is not GameStage.SHOOT_OUT or after.score == before.score
     for placement in ruling.placements:
-        inside = abs(placement.x) <= bench.pitch.goal_line and abs(placement.y) <= bench.pitch.touch_line
-        assert inside or placement.body in {*after.people.away, *before.people.away}
+        inside = abs(placement.x) <= rig.pitch.goal_line and abs(placement.y) <= rig.pitch.touch_line
+        assert inside or placement.body in {*after.participation.absences, *before.participation.absences}
     for event in ruling.events:
         if event.kind is EventKind.FOUL and event.rule in TOO_MUCH:
             assert event.measured > event.limit and event.robot is not None and event.unit
-    one_robot_of_each_number(bench)
-    after.game_state(bench.at, bench.at * bench.dt)
+    one_robot_of_each_number(rig)
+    after.game_state(rig.at, rig.at * rig.dt)
 
 
-def one_robot_of_each_number(bench):
+def one_robot_of_each_number(rig):
     """Who is off the field stands beyond the boundary, all others within it."""
-    reach = bench.pitch.touch_line + bench.pitch.border
-    for name, (_, y) in bench.robots.items():
-        assert (abs(y) > reach) == (bench.robot(name) in bench.state.people.away), name
+    reach = rig.pitch.touch_line + rig.pitch.border
+    for name, (_, y) in rig.robots.items():
+        assert (abs(y) > reach) == (rig.robot(name) in rig.state.participation.absences), name
 
 
 def every_stop_leads_on(events):

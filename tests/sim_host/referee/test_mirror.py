@@ -21,8 +21,8 @@ STORIES = {
 
 @pytest.mark.parametrize("profile", ["msl", "paper"])
 @pytest.mark.parametrize("story", STORIES.values(), ids=STORIES.keys())
-def test_a_mirrored_story_has_mirrored_decisions(new_bench, profile, story):
-    told = [tell(new_bench(profile, duration=40.0, dt=0.1, mirrored=mirrored), story) for mirrored in (False, True)]
+def test_a_mirrored_story_has_mirrored_decisions(new_rig, profile, story):
+    told = [tell(new_rig(profile, duration=40.0, dt=0.1, mirrored=mirrored), story) for mirrored in (False, True)]
     assert told[0] == told[1] and len(told[0]) > 8
 
 
@@ -37,40 +37,40 @@ SET_PIECES = {
 
 @pytest.mark.parametrize("name", ["free_kick", "throw_in", "corner", "penalty"])
 @pytest.mark.parametrize("story", SET_PIECES.values(), ids=SET_PIECES.keys())
-def test_a_mirrored_set_piece_has_mirrored_decisions(new_bench, name, story):
+def test_a_mirrored_set_piece_has_mirrored_decisions(new_rig, name, story):
     told = []
     for mirrored in (False, True):
-        bench = new_bench("msl", duration=60.0, dt=0.1, mirrored=mirrored)
-        bench.playing()
-        bench.ask(name, Side.CYAN)
-        bench.robots["magenta4"] = (2.0, 2.0)
-        bench.until(lambda state: state.running)
-        x, y = bench.ball[:2]
+        rig = new_rig("msl", duration=60.0, dt=0.1, mirrored=mirrored)
+        rig.playing()
+        rig.ask(name, Side.CYAN)
+        rig.robots["magenta4"] = (2.0, 2.0)
+        rig.until(lambda state: state.running)
+        x, y = rig.ball[:2]
         for way, touches, kicker in story:
-            bench.tick((x - way, y), touches, kicked=kicker)
-        bench.ask("yellow_card", robot=bench.robot("cyan3"))
-        bench.ask("red_card", robot=bench.robot("magenta5"))
-        bench.run(20.0)
-        told.append(([unmirrored(bench, event) for event in bench.events], bench.robots))
+            rig.tick((x - way, y), touches, kicked=kicker)
+        rig.ask("yellow_card", robot=rig.robot("cyan3"))
+        rig.ask("red_card", robot=rig.robot("magenta5"))
+        rig.run(20.0)
+        told.append(([unmirrored(rig, event) for event in rig.events], rig.robots))
     assert told[0][0] == told[1][0] and any(event[1] is EventKind.FOUL for event in told[0][0])
     for robot, place in told[0][1].items():
         assert told[1][1][robot] == pytest.approx(place)
 
 
-def tell(bench, story):
+def tell(rig, story):
     """Every event of the story to the end of the match, as cyan of the story that is not mirrored would tell it."""
-    bench.playing((1.0, 0.0), [])
+    rig.playing((1.0, 0.0), [])
     for (share_x, share_y, *height), touches in story:
-        bench.tick((share_x * bench.pitch.goal_line, share_y * bench.pitch.touch_line, *height), touches)
+        rig.tick((share_x * rig.pitch.goal_line, share_y * rig.pitch.touch_line, *height), touches)
     for _ in range(1500):
-        bench.tick()
-    return [unmirrored(bench, event) for event in bench.events]
+        rig.tick()
+    return [unmirrored(rig, event) for event in rig.events]
 
 
-def unmirrored(bench, event):
-    sign = -1 if bench.mirrored else 1
-    robot = event.robot and bench.robot(event.robot)
-    side = event.side and bench.side(event.side)
+def unmirrored(rig, event):
+    sign = -1 if rig.mirrored else 1
+    robot = event.robot and rig.robot(event.robot)
+    side = event.side and rig.side(event.side)
     place = event.place and (sign * event.place.x + 0.0, sign * event.place.y + 0.0)
-    score = event.score and tuple(getattr(event.score, bench.side(side)) for side in Side)
+    score = event.score and tuple(getattr(event.score, rig.side(side)) for side in Side)
     return event.tick, event.kind, event.rule, side, robot, place, score

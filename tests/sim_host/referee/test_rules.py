@@ -8,93 +8,91 @@ from schemas.side import Side
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
 
 
-def beyond(bench, axis, by):
+def beyond(rig, axis, by):
     """A coordinate `by` m beyond the place where the whole ball has passed the line."""
-    line = bench.pitch.goal_line if axis == "x" else bench.pitch.touch_line
-    return line + bench.radius + by
+    line = rig.pitch.goal_line if axis == "x" else rig.pitch.touch_line
+    return line + rig.radius + by
 
 
 @pytest.mark.parametrize(("end", "scorers", "toucher"), [(1, CYAN, "cyan3"), (-1, MAGENTA, "magenta4")])
-def test_a_ball_wholly_over_the_goal_line_in_the_goal_counts_and_the_other_side_kicks_off(bench, end, scorers, toucher):
-    ruling = bench.crossing(
-        (end * (bench.pitch.goal_line - 0.1), 0.5), (end * beyond(bench, "x", 0.01), 0.5), [toucher]
-    )
+def test_a_ball_wholly_over_the_goal_line_in_the_goal_counts_and_the_other_side_kicks_off(rig, end, scorers, toucher):
+    ruling = rig.crossing((end * (rig.pitch.goal_line - 0.1), 0.5), (end * beyond(rig, "x", 0.01), 0.5), [toucher])
     goal, stop = ruling.events
     assert (goal.kind, goal.rule, goal.side, goal.robot) == (EventKind.GOAL, "goal", scorers, toucher)
     assert goal.score == Score(**{scorers.value: 1}) == ruling.state.score
-    assert goal.place.x == pytest.approx(end * beyond(bench, "x", 0.0)) and goal.place.y == pytest.approx(0.5)
+    assert goal.place.x == pytest.approx(end * beyond(rig, "x", 0.0)) and goal.place.y == pytest.approx(0.5)
     assert stop.kind is EventKind.STOP and ruling.state.phase is Phase.STOPPED and not ruling.state.running
-    bench.until(lambda state: state.phase is Phase.KICK_OFF)
-    assert bench.state.side is scorers.opponent and bench.state.spot == (0.0, 0.0)
+    rig.until(lambda state: state.phase is Phase.KICK_OFF)
+    assert rig.state.side is scorers.opponent and rig.state.spot == (0.0, 0.0)
 
 
-def test_a_ball_not_wholly_over_the_goal_line_is_no_goal(bench):
-    ruling = bench.crossing((bench.pitch.goal_line - 0.1, 0.5), (beyond(bench, "x", -0.001), 0.5))
+def test_a_ball_not_wholly_over_the_goal_line_is_no_goal(rig):
+    ruling = rig.crossing((rig.pitch.goal_line - 0.1, 0.5), (beyond(rig, "x", -0.001), 0.5))
     assert ruling.events == () and ruling.state.phase is Phase.PLAY
 
 
-def test_an_own_goal_counts_for_the_other_side_and_is_called_so(bench):
-    bench.playing()
-    bench.tick((bench.pitch.goal_line - 0.1, 0.0), ["magenta1"], possession="magenta1")
-    ruling = bench.tick((beyond(bench, "x", 0.01), 0.0))
+def test_an_own_goal_counts_for_the_other_side_and_is_called_so(rig):
+    rig.playing()
+    rig.tick((rig.pitch.goal_line - 0.1, 0.0), ["magenta1"], possession="magenta1")
+    ruling = rig.tick((beyond(rig, "x", 0.01), 0.0))
     assert ruling.state.score == Score(cyan=1)
     assert ruling.events[0].robot == "magenta1" and "own goal" in ruling.events[0].text
 
 
-def test_a_shot_that_a_defender_deflects_is_the_kickers_goal(bench):
-    bench.playing()
-    bench.tick((5.0, 0.0), ["cyan3"], kicked="cyan3")
-    bench.tick((bench.pitch.goal_line - 0.1, 0.0), ["magenta1"])
-    ruling = bench.tick((beyond(bench, "x", 0.01), 0.0))
+def test_a_shot_that_a_defender_deflects_is_the_kickers_goal(rig):
+    rig.playing()
+    rig.tick((5.0, 0.0), ["cyan3"], kicked="cyan3")
+    rig.tick((rig.pitch.goal_line - 0.1, 0.0), ["magenta1"])
+    ruling = rig.tick((beyond(rig, "x", 0.01), 0.0))
     assert ruling.events[0].robot == "cyan3" and "own goal" not in ruling.events[0].text
 
 
 @pytest.mark.parametrize(
     ("aside", "over", "scored"), [(-0.01, -0.01, True), (0.01, -0.01, False), (-0.01, 0.01, False)]
 )
-def test_a_goal_passes_between_the_posts_and_under_the_bar(bench, aside, over, scored):
-    y, z = bench.pitch.goal_width / 2 + aside, bench.pitch.goal_height + over
-    ruling = bench.crossing((bench.pitch.goal_line - 0.1, y, z), (beyond(bench, "x", 0.1), y, z))
+def test_a_goal_passes_between_the_posts_and_under_the_bar(rig, aside, over, scored):
+    y, z = rig.pitch.goal_width / 2 + aside, rig.pitch.goal_height + over
+    ruling = rig.crossing((rig.pitch.goal_line - 0.1, y, z), (beyond(rig, "x", 0.1), y, z))
     assert ruling.events[0].kind is (EventKind.GOAL if scored else EventKind.BALL_OUT)
 
 
-def test_the_way_of_a_fast_ball_decides_whether_it_passed_between_the_posts(bench):
-    line, half = beyond(bench, "x", 0.0), bench.pitch.goal_width / 2
-    ruling = bench.crossing((line - 0.1, half - 0.05), (line + 0.1, half + 0.04))
+def test_the_way_of_a_fast_ball_decides_whether_it_passed_between_the_posts(rig):
+    line, half = beyond(rig, "x", 0.0), rig.pitch.goal_width / 2
+    ruling = rig.crossing((line - 0.1, half - 0.05), (line + 0.1, half + 0.04))
     assert ruling.events[0].kind is EventKind.GOAL
     assert ruling.events[0].place.y == pytest.approx(half - 0.005)
 
 
-def test_no_goal_is_scored_before_start(bench):
-    bench.until(lambda state: state.phase is Phase.KICK_OFF)
-    ruling = bench.tick((beyond(bench, "x", 0.1), 0.0), ["cyan2"])
+def test_no_goal_is_scored_before_start(rig):
+    rig.until(lambda state: state.phase is Phase.KICK_OFF)
+    ruling = rig.tick((beyond(rig, "x", 0.1), 0.0), ["cyan2"])
     assert ruling.state.score == Score() and ruling.events == ()
 
 
 @pytest.mark.parametrize(("sign", "toucher", "taker"), [(1, "cyan3", MAGENTA), (-1, "magenta2", CYAN)])
-def test_a_ball_over_the_touch_line_gives_a_throw_in_to_the_other_side(bench, sign, toucher, taker):
-    touch = bench.pitch.touch_line
-    ruling = bench.crossing((1.0, sign * (touch - 0.1)), (2.0, sign * (touch + 0.9)), [toucher])
+def test_a_ball_over_the_touch_line_gives_a_throw_in_to_the_other_side(rig, sign, toucher, taker):
+    touch = rig.pitch.touch_line
+    ruling = rig.crossing((1.0, sign * (touch - 0.1)), (2.0, sign * (touch + 0.9)), [toucher])
     out = ruling.events[0]
-    crossed = 1.0 + (0.1 + bench.radius)
+    crossed = 1.0 + (0.1 + rig.radius)
     assert (out.kind, out.rule, out.robot) == (EventKind.BALL_OUT, "touch_line", toucher)
     assert out.place.x == pytest.approx(crossed) and toucher in out.text and "touch line" in out.text
     assert ruling.state.pending.phase is Phase.THROW_IN and ruling.state.pending.side is taker
-    inset = bench.book.restarts.touch_line_inset
+    inset = rig.book.restarts.touch_line_inset
     assert ruling.state.pending.spot == pytest.approx((crossed, sign * (touch - inset)))
 
 
-def test_a_ball_on_the_touch_line_is_in(bench):
-    ruling = bench.crossing((1.0, 0.0), (1.0, beyond(bench, "y", -0.001)))
+def test_a_ball_on_the_touch_line_is_in(rig):
+    ruling = rig.crossing((1.0, 0.0), (1.0, beyond(rig, "y", -0.001)))
     assert ruling.events == () and ruling.state.running
 
 
-def test_a_ball_past_both_lines_is_judged_by_the_one_it_passed_first(bench):
-    x, y = beyond(bench, "x", 0.0), beyond(bench, "y", 0.0)
-    ruling = bench.crossing((x - 0.1, y - 0.05), (x + 0.1, y + 0.15), ["cyan2"])
+def test_a_ball_past_both_lines_is_judged_by_the_one_it_passed_first(rig):
+    x, y = beyond(rig, "x", 0.0), beyond(rig, "y", 0.0)
+    ruling = rig.crossing((x - 0.1, y - 0.05), (x + 0.1, y + 0.15), ["cyan2"])
     assert ruling.events[0].rule == "touch_line"
     spot = ruling.state.pending.spot
-    assert abs(spot[0]) <= bench.pitch.goal_line and abs(spot[1]) <= bench.pitch.touch_line
+    assert abs(spot[0]) <= rig.pitch.goal_line and abs(spot[1]) <= rig.pitch.touch_line
 
 
 @pytest.mark.parametrize(
@@ -107,88 +105,86 @@ def test_a_ball_past_both_lines_is_judged_by_the_one_it_passed_first(bench):
     ],
 )
 def test_over_the_goal_line_a_defenders_touch_gives_a_corner_and_an_attackers_a_goal_kick(
-    bench, end, toucher, phase, taker
+    rig, end, toucher, phase, taker
 ):
-    ruling = bench.crossing(
-        (end * (bench.pitch.goal_line - 0.1), -3.0), (end * beyond(bench, "x", 0.2), -3.0), [toucher]
-    )
+    ruling = rig.crossing((end * (rig.pitch.goal_line - 0.1), -3.0), (end * beyond(rig, "x", 0.2), -3.0), [toucher])
     assert ruling.events[0].rule == "goal_line" and ruling.events[0].robot == toucher
     assert (ruling.state.pending.phase, ruling.state.pending.side) == (phase, taker)
-    inset = bench.book.restarts.corner_inset
-    corner = (end * (bench.pitch.goal_line - inset), -(bench.pitch.touch_line - inset))
-    marker = (end * (bench.pitch.goal_line - bench.pitch.penalty_mark), -bench.pitch.touch_line / 2)
+    inset = rig.book.restarts.corner_inset
+    corner = (end * (rig.pitch.goal_line - inset), -(rig.pitch.touch_line - inset))
+    marker = (end * (rig.pitch.goal_line - rig.pitch.penalty_mark), -rig.pitch.touch_line / 2)
     assert ruling.state.pending.spot == pytest.approx(corner if phase is Phase.CORNER else marker)
 
 
-def test_the_last_of_several_touches_in_one_tick_counts(bench):
-    bench.playing((1.0, 0.0), ["cyan2"])
-    bench.tick((1.0, bench.pitch.touch_line), ["cyan2", "magenta3"])
-    ruling = bench.tick((1.0, beyond(bench, "y", 0.1)))
+def test_the_last_of_several_touches_in_one_tick_counts(rig):
+    rig.playing((1.0, 0.0), ["cyan2"])
+    rig.tick((1.0, rig.pitch.touch_line), ["cyan2", "magenta3"])
+    ruling = rig.tick((1.0, beyond(rig, "y", 0.1)))
     assert ruling.events[0].robot == "magenta3" and ruling.state.pending.side is CYAN
 
 
 @pytest.mark.parametrize("axis", ["x", "y"])
-def test_a_ball_out_that_nobody_touched_is_dropped_inside_the_field(bench, axis):
-    place = (beyond(bench, "x", 0.1), 4.0) if axis == "x" else (1.0, beyond(bench, "y", 0.1))
-    ruling = bench.crossing((1.0, 4.0), place, [])
+def test_a_ball_out_that_nobody_touched_is_dropped_inside_the_field(rig, axis):
+    place = (beyond(rig, "x", 0.1), 4.0) if axis == "x" else (1.0, beyond(rig, "y", 0.1))
+    ruling = rig.crossing((1.0, 4.0), place, [])
     assert ruling.events[0].robot is None and "nobody" in ruling.events[0].text
-    pending, inset = ruling.state.pending, bench.book.restarts.field_inset
+    pending, inset = ruling.state.pending, rig.book.restarts.field_inset
     assert pending.phase is Phase.DROP_BALL and pending.side is None
-    assert abs(pending.spot[0]) <= bench.pitch.goal_line - inset
-    assert abs(pending.spot[1]) <= bench.pitch.touch_line - inset
+    assert abs(pending.spot[0]) <= rig.pitch.goal_line - inset
+    assert abs(pending.spot[1]) <= rig.pitch.touch_line - inset
 
 
-def test_touches_before_start_are_forgotten(bench):
-    bench.until(lambda state: state.phase is Phase.KICK_OFF)
-    bench.tick(touches=["magenta2"])
-    bench.until(lambda state: state.running)
-    assert bench.state.last_touch is None
+def test_touches_before_start_are_forgotten(rig):
+    rig.until(lambda state: state.phase is Phase.KICK_OFF)
+    rig.tick(touches=["magenta2"])
+    rig.until(lambda state: state.running)
+    assert rig.state.last_touch is None
 
 
-def test_a_ball_under_the_ground_is_lost_and_dropped(bench):
-    ruling = bench.crossing((2.0, 1.0), (2.0, 1.0, -bench.radius - 0.01))
+def test_a_ball_under_the_ground_is_lost_and_dropped(rig):
+    ruling = rig.crossing((2.0, 1.0), (2.0, 1.0, -rig.radius - 0.01))
     assert (ruling.events[0].kind, ruling.events[0].rule) == (EventKind.BALL_OUT, "lost_ball")
     assert ruling.state.pending.phase is Phase.DROP_BALL and ruling.state.pending.spot == (2.0, 1.0)
 
 
-def test_a_ball_pressed_a_little_into_the_ground_is_not_lost(bench):
-    assert bench.crossing((2.0, 1.0), (2.0, 1.0, -bench.radius + 0.01)).events == ()
+def test_a_ball_pressed_a_little_into_the_ground_is_not_lost(rig):
+    assert rig.crossing((2.0, 1.0), (2.0, 1.0, -rig.radius + 0.01)).events == ()
 
 
-def test_a_ball_outside_that_crossed_no_line_is_lost_and_dropped_at_the_nearest_legal_place(bench):
-    bench.until(lambda state: state.running)
-    out = beyond(bench, "y", 0.5)
-    bench.state = bench.state._replace(ball=(3.0, out, bench.radius))
-    ruling = bench.tick((3.0, out))
+def test_a_ball_outside_that_crossed_no_line_is_lost_and_dropped_at_the_nearest_legal_place(rig):
+    rig.until(lambda state: state.running)
+    out = beyond(rig, "y", 0.5)
+    rig.state = rig.state._replace(ball=(3.0, out, rig.radius))
+    ruling = rig.tick((3.0, out))
     assert ruling.events[0].rule == "lost_ball"
-    assert ruling.state.pending.spot == pytest.approx((3.0, bench.pitch.touch_line - bench.book.restarts.field_inset))
+    assert ruling.state.pending.spot == pytest.approx((3.0, rig.pitch.touch_line - rig.book.restarts.field_inset))
 
 
-def test_a_ball_that_does_not_move_for_long_is_dropped_where_it_lies(bench):
-    bench.playing((3.0, 1.0))
-    bench.velocity = (bench.book.stall.still_speed * 0.9, 0.0, 0.0)
-    bench.run(bench.book.stall.still_duration - 0.04)
-    assert bench.state.phase is Phase.PLAY
-    bench.run(0.04)
-    assert bench.events[-2].kind is EventKind.STALL and bench.events[-2].rule == "stall"
-    assert bench.state.pending.phase is Phase.DROP_BALL and bench.state.pending.spot == (3.0, 1.0)
+def test_a_ball_that_does_not_move_for_long_is_dropped_where_it_lies(rig):
+    rig.playing((3.0, 1.0))
+    rig.velocity = (rig.book.stall.still_speed * 0.9, 0.0, 0.0)
+    rig.run(rig.book.stall.still_duration - 0.04)
+    assert rig.state.phase is Phase.PLAY
+    rig.run(0.04)
+    assert rig.events[-2].kind is EventKind.STALL and rig.events[-2].rule == "stall"
+    assert rig.state.pending.phase is Phase.DROP_BALL and rig.state.pending.spot == (3.0, 1.0)
 
 
-def test_a_ball_that_moves_in_between_is_not_stalled(bench):
-    bench.playing((3.0, 1.0))
-    bench.velocity = (0.0, 0.0, 0.0)
-    bench.run(bench.book.stall.still_duration - 0.1)
-    bench.velocity = (bench.book.stall.still_speed * 1.1, 0.0, 0.0)
-    bench.tick()
-    bench.velocity = (0.0, 0.0, 0.0)
-    bench.run(bench.book.stall.still_duration - 0.1)
-    assert EventKind.STALL not in bench.kinds()
+def test_a_ball_that_moves_in_between_is_not_stalled(rig):
+    rig.playing((3.0, 1.0))
+    rig.velocity = (0.0, 0.0, 0.0)
+    rig.run(rig.book.stall.still_duration - 0.1)
+    rig.velocity = (rig.book.stall.still_speed * 1.1, 0.0, 0.0)
+    rig.tick()
+    rig.velocity = (0.0, 0.0, 0.0)
+    rig.run(rig.book.stall.still_duration - 0.1)
+    assert EventKind.STALL not in rig.kinds()
 
 
 @pytest.mark.parametrize("end", [1, -1])
-def test_a_ball_stalled_in_a_penalty_area_is_dropped_at_the_nearest_restart_spot(bench, end):
-    bench.playing((end * (bench.pitch.goal_line - 1.0), 2.5))
-    bench.velocity = (0.0, 0.0, 0.0)
-    bench.run(bench.book.stall.still_duration)
-    expected = (end * (bench.pitch.goal_line - bench.pitch.penalty_mark), bench.pitch.touch_line / 2)
-    assert bench.state.pending.spot == pytest.approx(expected)
+def test_a_ball_stalled_in_a_penalty_area_is_dropped_at_the_nearest_restart_spot(rig, end):
+    rig.playing((end * (rig.pitch.goal_line - 1.0), 2.5))
+    rig.velocity = (0.0, 0.0, 0.0)
+    rig.run(rig.book.stall.still_duration)
+    expected = (end * (rig.pitch.goal_line - rig.pitch.penalty_mark), rig.pitch.touch_line / 2)
+    assert rig.state.pending.spot == pytest.approx(expected)

@@ -6,14 +6,14 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from schemas.noise import PERFECT
-from schemas.profile import load_profile
-from schemas.robot_model import RobotModel
-from schemas.sections import Sensing
+from schemas.config.noise import PERFECT
+from schemas.config.profile import load_profile
+from schemas.config.robot_model import RobotModel
+from schemas.config.sections import Sensing
 from schemas.side import Side
 from sim_host.sensing.perception import Percept, Perception
-from sim_host.sensing.streams import Streams
-from sim_host.snapshot import BallState, ObstacleState, Robots, RobotState, Roster, Snapshot
+from sim_host.sensing.random_streams import RandomStreams
+from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster, Snapshot
 
 TICK = 0.02
 Place = tuple[float, ...]
@@ -58,7 +58,7 @@ class Scenery:
         cyan = count if cyan is None else cyan
         self.roster = sensing.pop("roster", None) or roster_of(cyan, count - cyan)
         whole: Sensing = sensing.pop("sensing", PERFECT)
-        streams = Streams(sensing.pop("seed", 1))
+        streams = RandomStreams(sensing.pop("seed", 1))
         self.attacks = 1
         self.obstacles: tuple[ObstacleState, ...] = ()
         self.tick = 0
@@ -66,7 +66,7 @@ class Scenery:
 
     def look(self) -> list[Seen]:
         """Everybody's percept of the next tick."""
-        bodies = self.roster, Robots(self.robots), self.ball
+        bodies = self.roster, RobotStates(self.robots), self.ball
         snapshot = Snapshot(self.tick, self.tick * TICK, *bodies, None, (), obstacles=self.obstacles)
         self.tick += 1
         return [seen_of(percept) for percept in self.perception.at(snapshot, self.attacks)]

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from schemas.obstacle import Shape, StaticObstacle
-from schemas.profile import load_profile
-from schemas.robot_model import RobotModel
+from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.config.profile import load_profile
+from schemas.config.robot_model import RobotModel
 from sim_host.sensing.shutter import Shutter
 from sim_host.snapshot import ObstacleState
 

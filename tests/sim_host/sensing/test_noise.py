@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from schemas.noise import PERFECT, SIMATCH, sensing_of
-from schemas.profile import load_profile
+from schemas.config.noise import PERFECT, SIMATCH, sensing_of
+from schemas.config.profile import load_profile
 
 N = 4000
 ME, BALL, OTHER = (0.0, 0.0, 0.7), (3.0, 4.0, 0.3, 1.0, 2.0), (-3.0, 0.0)
@@ -73,7 +73,7 @@ def test_noises_of_different_numbers_robots_and_things_are_independent(errors):
 
 @pytest.mark.parametrize(("distance", "where"), [(1.0, (1.0, 0.0)), (5.0, (3.0, 4.0)), (6.0, (0.0, -6.0))])
 def test_noise_grows_with_the_distance_along_and_across_the_line_of_sight(errors, distance, where):
-    """√(near² + (share·d)²) along, √(near² + (angle·d)²) across, as `schemas.sections.Sensing` says."""
+    """√(near² + (share·d)²) along, √(near² + (angle·d)²) across, as `schemas.config.sections.Sensing` says."""
     of = errors(ball=(*where, 0.11), ball_position=0.02, range_noise=0.03, bearing_noise=0.01)(0)
     error = np.stack((of["ball", 0] - where[0], of["ball", 1] - where[1]))
     ux, uy = where[0] / distance, where[1] / distance

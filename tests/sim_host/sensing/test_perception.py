@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from schemas.match_config import load_match
-from schemas.noise import sensing_of
-from schemas.profile import load_profile
-from schemas.sections import Sensing
+from schemas.config.match_config import load_match
+from schemas.config.noise import sensing_of
+from schemas.config.profile import load_profile
+from schemas.config.sections import Sensing
 from sim_host.snapshot import Roster
 
 ROBOTS = (
@@ -146,7 +146,7 @@ def test_robots_that_stay_when_others_come_and_go_know_what_they_knew(scenery):
         before = made.look()
     names = (*made.roster.names[:3], "magenta9")
     roster = replace(made.roster, names=names)
-    made.perception, made.roster = made.perception.handed_on(sensing, roster), roster
+    made.perception, made.roster = made.perception.with_roster(sensing, roster), roster
     after = made.look()
     for one, other in zip(before[:3], after[:3], strict=True):
         assert other.ball == one.ball is not None and not other.visible

@@ -1,9 +1,0 @@
-"""A brain that answers at once, for measuring everything but brains."""
-
-from schemas.command import Command
-from schemas.sight import Sight
-
-
-def act(sight: Sight) -> Command:
-    """Stand still."""
-    return Command(answers_tick=sight.tick)

@@ -1,0 +1,116 @@
+"""The tokens: whoever has one may command in its role. They stand in a file, so that they outlast the process."""
+
+import hmac
+import json
+import os
+import secrets
+import stat
+import tempfile
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Self
+
+from coach_gateway.web.protocol import Role
+from schemas.errors import TouchlineError
+
+_LEAST = 8
+"""Characters that a token has at least."""
+_RANDOM_BYTES = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Tokens:
+    """One token for each role but the spectator's, who has none."""
+
+    referee: str
+    cyan: str
+    magenta: str
+
+    @classmethod
+    def random(cls) -> Self:
+        """New ones, of 128 bits each."""
+        return cls(*(secrets.token_urlsafe(_RANDOM_BYTES) for _ in fields(cls)))
+
+    def role_of(self, token: str) -> Role | None:
+        """Whom a token stands for: a spectator where it is empty, nothing where it is nobody's.
+
+        Takes equally long for every token of one length.
+        """
+        if not token:
+            return Role.SPECTATOR
+        given, found = token.encode(errors="replace"), None
+        for role in (Role.REFEREE, Role.CYAN, Role.MAGENTA):
+            if hmac.compare_digest(given, self.of(role).encode()):
+                found = role
+        return found
+
+    def lines(self) -> list[str]:
+        """Each role and its token, for whoever runs the process."""
+        return [f"{field.name}'s token: {getattr(self, field.name)}" for field in fields(self)]
+
+    def of(self, role: Role) -> str:
+        """The token of a role."""
+        return "" if role is Role.SPECTATOR else str(getattr(self, role.value))
+
+
+def page_address(origin: str, token: str) -> str:
+    """Where a browser finds the page with a token, which stays in the browser: what stands behind # is not sent."""
+    return f"{origin}/#token={token}" if token else f"{origin}/"
+
+
+def tokens_of(path: Path | None) -> Tokens:
+    """Those of a file, or without one new ones that last as long as the process.
+
+    Raises:
+        TouchlineError: as `read_or_make`.
+    """
+    return read_or_make(path) if path is not None else Tokens.random()
+
+
+def read_or_make(path: Path) -> Tokens:
+    """The tokens of a file; a file that is not there is made, for its owner's eyes alone.
+
+    Raises:
+        TouchlineError: others may read it, or it is not what it should be.
+    """
+    try:
+        return _make(path)
+    except FileExistsError:
+        return _read(path)
+    except OSError as error:
+        raise TouchlineError(f"--tokens {path} cannot be written ({error.strerror}); name another file") from None
+
+
+def _make(path: Path) -> Tokens:
+    """The file appears at once and whole: a bridge and a page may be started beside each other."""
+    tokens = Tokens.random()
+    text = json.dumps({field.name: getattr(tokens, field.name) for field in fields(Tokens)}, indent=2)
+    handle, draft = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)  # for its owner's eyes alone
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8") as file:
+            file.write(text + "\n")
+        os.link(draft, path)
+    finally:
+        Path(draft).unlink()
+    return tokens
+
+
+def _read(path: Path) -> Tokens:
+    try:
+        with path.open("rb") as file:
+            open_to = stat.S_IMODE(os.fstat(file.fileno()).st_mode)
+            content = json.loads(file.read())
+    except OSError as error:
+        raise TouchlineError(f"--tokens {path} cannot be read ({error.strerror}); name another file") from None
+    except ValueError:
+        raise TouchlineError(f"--tokens {path} is not JSON; delete it, and it is made anew") from None
+    if open_to & 0o077:
+        raise TouchlineError(f"--tokens {path} may be read by others (mode {open_to:o}); chmod 600 {path}")
+    names = [field.name for field in fields(Tokens)]
+    given = [content.get(name) for name in names] if isinstance(content, dict) else []
+    tokens = [token for token in given if isinstance(token, str) and len(token) >= _LEAST]
+    if len(set(tokens)) != len(names):
+        raise TouchlineError(
+            f"--tokens {path}: {', '.join(names)} need a token each, different ones of at least {_LEAST} characters"
+        )
+    return Tokens(*tokens)

@@ -1,0 +1,54 @@
+"""The match as plain lines, one whenever something changes, until its host goes."""
+
+import threading
+from collections.abc import Callable
+
+from coach_gateway.match.follower import MatchFollower
+from coach_gateway.match.host_presence import HostPresence
+from coach_gateway.match.lines import event_line, state_line
+from schemas.bus.contract import Bus
+from schemas.errors import TouchlineError
+from schemas.game import GameEvent, GameState
+from schemas.messages.host import Health
+
+_POLL = 0.05
+"""s of wall time between looks."""
+
+
+def log_changes(bus: Bus, log: Callable[[str], None], stop: threading.Event, patience: float = 5.0) -> None:
+    """Say a line for each change until the host goes or `stop` is set.
+
+    Raises:
+        TouchlineError: no host shows itself within `patience` s of wall time.
+    """
+    follower = MatchFollower(bus)
+    host = HostPresence(bus)
+    bus.declare_alive("coach", "watch")
+    if not host.wait(patience):
+        raise TouchlineError(f'match "{bus.match}": no host plays it there; name the match with --match')
+    before: GameState | None = None
+    going = True
+    while going:
+        going = not (host.gone() or stop.is_set())  # looked at first, so that the last messages are still said
+        for message in follower.update():
+            line = change_line(before, message)
+            before = message if isinstance(message, GameState) else before
+            if line is not None:
+                log(line)
+        if going:
+            bus.clock.sleep_until(bus.clock.now() + _POLL)
+
+
+def change_line(before: GameState | None, message: GameEvent | GameState | Health) -> str | None:
+    """The line for a message, or nothing when it holds nothing new to people."""
+    match message:
+        case GameEvent():
+            return event_line(message)
+        case GameState():
+            return state_line(message) if before is None or _what(before) != _what(message) else None
+        case Health():
+            return None
+
+
+def _what(state: GameState) -> tuple[object, ...]:
+    return state.phase, state.side, state.running, state.half, state.score

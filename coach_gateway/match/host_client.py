@@ -1,0 +1,141 @@
+"""The core of the coach gateway: asks the referee, orders a side, and knows how the match is set up."""
+
+from typing import Any
+
+from pydantic import ValidationError
+
+from coach_gateway.match.orders import OrderFollower, Receipt
+from schemas.bus.contract import Bus, NoReplyError, Publisher
+from schemas.config.scene import SceneReply, SceneRequest
+from schemas.errors import TouchlineError, did_you_mean
+from schemas.game import ActionReply, RefereeAction
+from schemas.message import BadMessageError, Message, reason_of
+from schemas.messages.coach import CoachOrder
+from schemas.messages.host import Setup, SetupRequest
+from schemas.messages.parameters import ParametersReply, ParametersRequest
+from schemas.messages.replay import ReplayReply, ReplayRequest
+from schemas.side import Side
+from schemas.topic import Topic
+from schemas.topics import ACTION, ORDER, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
+
+_LOOK_S = 0.02
+"""s of wall time between two looks for acknowledgements."""
+
+
+class HostClient:
+    """One coach's seat in a match."""
+
+    def __init__(self, bus: Bus, patience: float = 3.0) -> None:
+        self._bus = bus
+        self._patience = patience
+        """How long an answer may take, in s of wall time."""
+        self._orders: dict[Side, Publisher] = {}
+        self._sequence = 0
+        self._watch: OrderFollower | None = None
+
+    def setup(self) -> Setup:
+        """How the match is set up.
+
+        Raises:
+            TouchlineError: no host answers for this match.
+        """
+        setup: Setup = self._ask(SETUP, SetupRequest())
+        return setup
+
+    def act(self, action: RefereeAction) -> ActionReply:
+        """Ask the referee for an action; the reply says whether it was accepted, and why not.
+
+        Raises:
+            TouchlineError: no host answers for this match.
+        """
+        reply: ActionReply = self._ask(ACTION, action)
+        return reply
+
+    def parameters(self, request: ParametersRequest) -> ParametersReply:
+        """Ask for live parameters, or change them; the reply says whether it was accepted, and why not.
+
+        Raises:
+            TouchlineError: no host answers for this match.
+        """
+        reply: ParametersReply = self._ask(PARAMETERS, request)
+        return reply
+
+    def scene(self, request: SceneRequest) -> SceneReply:
+        """Set bodies down, add or remove some, or begin anew; the reply says whether it was accepted, and why not.
+
+        Raises:
+            TouchlineError: no host answers for this match.
+        """
+        reply: SceneReply = self._ask(SCENE, request)
+        return reply
+
+    def replay(self, request: ReplayRequest) -> ReplayReply:
+        """Ask a replay how it stands, or to go elsewhere; the reply says whether it was accepted, and why not.
+
+        Raises:
+            TouchlineError: no replay answers, as when a match is played.
+        """
+        reply: ReplayReply = self._ask(REPLAY_CONTROL, request)
+        return reply
+
+    @property
+    def orders(self) -> OrderFollower:
+        """Which orders stand and who has acknowledged them, from when this was first asked for."""
+        if self._watch is None:
+            self._watch = OrderFollower(self._bus)
+        return self._watch
+
+    def order(self, side: Side, **content: Any) -> CoachOrder:
+        """Give a side its new standing order, numbered after every one before it; returns it once the host has it.
+
+        Raises:
+            TouchlineError: no host answers for this match, a robot named in the order is not in it, or a field may not
+                be what it is.
+        """
+        setup = self.setup()
+        robots = setup.teams[side].robots
+        for key in ("robot_a", "robot_b"):
+            name = content.get(key)
+            if name is not None and name not in robots:
+                raise TouchlineError(f'{key} is "{name}", no robot of {side.value}; {did_you_mean(name, robots)}')
+        self._sequence = self._next_number(side, setup)
+        try:
+            order = CoachOrder.model_validate({**content, "sequence": self._sequence})
+        except ValidationError as error:
+            raise TouchlineError(f"the order cannot be given: {reason_of(error)}") from None
+        if side not in self._orders:
+            self._orders[side] = self._bus.publisher(ORDER, side=side.value)
+        self._orders[side].put(order)
+        self.setup()  # answered after the order on the same link: the host has taken the order in
+        return order
+
+    def wait_for_robots(self, side: Side, order: CoachOrder, patience: float) -> Receipt:
+        """Who has acknowledged an order, waiting up to `patience` s of wall time for all of them."""
+        clock = self._bus.clock
+        deadline = clock.now() + patience
+        while True:
+            self.orders.update()
+            receipt = self.orders.book.receipt(side, order.sequence)
+            if receipt.is_final or clock.now() >= deadline:
+                return receipt
+            clock.sleep_until(clock.now() + _LOOK_S)
+
+    def _next_number(self, side: Side, setup: Setup) -> int:
+        """Wall time in ms numbers the orders of successive processes; where a larger number stands, from that one on.
+
+        An older host's setup does not tell what stands; what was heard of it since counts there.
+        """
+        self.orders.update()
+        active = self.orders.book.active(side)
+        after = max(active.order.sequence if active is not None else 0, setup.orders.get(side, 0))
+        return max(self._sequence + 1, after + 1, self._bus.clock.unix_ns() // 1_000_000)
+
+    def _ask(self, topic: Topic, request: Message) -> Any:
+        try:
+            return self._bus.query(topic, request, self._patience).result(self._patience)
+        except NoReplyError as error:
+            raise TouchlineError(
+                f'match "{self._bus.match}": {error}; name the match that the host plays with --match'
+            ) from None
+        except BadMessageError as error:
+            raise TouchlineError(f"{topic.key}: the host's answer cannot be read: {error}") from None

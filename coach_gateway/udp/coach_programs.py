@@ -1,0 +1,262 @@
+"""All coach programs: who may come, what they may ask, what is answered at once and what has to be done. Pure."""
+
+import hmac
+import json
+import secrets
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import ValidationError
+
+from coach_gateway.access import rights
+from coach_gateway.access.rate_limit import TokenBucket
+from coach_gateway.udp.coach_record import TEST_MODES, MatchMode, Meaning, for_coach, for_referee
+from coach_gateway.udp.protocol import (
+    MAX_BYTES,
+    PROGRAM_REQUEST,
+    Ack,
+    Bye,
+    Hello,
+    ProgramAction,
+    ProgramEvents,
+    ProgramMatchMode,
+    ProgramOrder,
+    ProgramRequest,
+)
+from coach_gateway.udp.session import AT_ONCE, PER_SECOND, SequenceStatus, Session
+from coach_gateway.web.protocol import OrderContent, PageAction, PageOrder, Role
+from schemas.game import ActionName, RefereeAction
+from schemas.message import reason_of
+from schemas.messages.coach import CoachMode
+from schemas.side import Side
+
+MOST = 64
+"""Programs at the same time."""
+MOST_WAITING = 8
+"""Datagrams of one program that may wait for the host's answer; a stop may always be asked for."""
+UNKNOWN_PER_SECOND, UNKNOWN_AT_ONCE = 20.0, 50.0
+"""Datagrams without a session that are read at all; the others are left out and not answered."""
+
+Address = tuple[Any, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class PendingRequest:
+    """Something to be done for a program, and to be answered when it is."""
+
+    session: Session
+    address: Address
+    sequence: int
+    kind: str
+    action: RefereeAction | None = None
+    sides: tuple[Side, ...] = ()
+    """Whom an order is for."""
+    order: Mapping[str, Any] | None = None
+
+    @property
+    def is_stop(self) -> bool:
+        """The game is to be stopped."""
+        return self.action is not None and self.action.action is ActionName.STOP
+
+
+@dataclass(frozen=True, slots=True)
+class DatagramResult:
+    """What comes of a datagram: an answer at once, something to be done, or nothing at all."""
+
+    ack: Ack | None = None
+    request: PendingRequest | None = None
+    events_since: int | None = None
+    """Tell the events from this one on again."""
+
+
+_NOTHING = DatagramResult()
+
+
+class CoachPrograms:
+    """The sessions, by the address that their datagrams come from."""
+
+    def __init__(self, role_of: Callable[[str], Role | None], now: float) -> None:
+        """`role_of` tells whom a token stands for; `now` is wall time in s."""
+        self._role_of = role_of
+        self._unknown_limit = TokenBucket(UNKNOWN_PER_SECOND, UNKNOWN_AT_ONCE, now)
+        self.sessions: dict[Address, Session] = {}
+        self.invalid = 0
+        """Datagrams that were none of the protocol."""
+        self.left_out = 0
+        """Datagrams of nobody's session, beyond what is read."""
+
+    def handle(self, data: bytes, address: Address, now: float, robots: Mapping[str, Side]) -> DatagramResult:
+        """The next datagram; `robots` are all that take part."""
+        session = self.sessions.get(address)
+        if session is None and not self._unknown_limit.allow(now):
+            self.left_out += 1
+            return _NOTHING
+        if session is not None and not session.is_within_limit(now):
+            return _NOTHING
+        ask = _read(data)
+        if isinstance(ask, Ack):
+            self.invalid += 1
+            return DatagramResult(ask)
+        if isinstance(ask, Hello):
+            return DatagramResult(self._begin(ask, address, now))
+        if session is None or not hmac.compare_digest(session.key.encode(), ask.session.encode()):
+            return DatagramResult(
+                _refused(ask, "there is no such session here; say hello, and give the session it answers")
+            )
+        session.heard_at = now
+        return self._dispatch(session, ask, address, robots)
+
+    def end(self, address: Address) -> None:
+        """A session is over."""
+        self.sessions.pop(address, None)
+
+    def finish(self, request: PendingRequest, ack: Ack) -> None:
+        """Something is done: its answer is kept in case the datagram comes again."""
+        request.session.answered(request.sequence, ack)
+
+    def _begin(self, hello: Hello, address: Address, now: float) -> Ack:
+        """A program comes, or begins anew; a hello that comes again is answered with the session it began.
+
+        One that is said after anything else, whatever its number, is that of a program that was started again.
+        """
+        session = self.sessions.get(address)
+        role = self._role_of(hello.token)
+        if role is None or role is Role.SPECTATOR:
+            return _refused(hello, "the token is nobody's; a side's coach or the referee has one")
+        if session is not None and session.role is role and hello.sequence == session.newest:
+            known = session.answer(hello.sequence)
+            if known is not None and known.of == "hello":
+                session.heard_at = now
+                return known.model_copy(update={"duplicate": True})
+        if session is None and len(self.sessions) >= MOST:
+            return _refused(hello, f"{MOST} coach programs are connected, which is the limit")
+        rate_limit = session.rate_limit if session is not None else TokenBucket(PER_SECOND, AT_ONCE, now)
+        session = Session(secrets.token_urlsafe(12), role, hello.name, now, hello.rate, rate_limit=rate_limit)
+        self.sessions[address] = session
+        session.check(hello.sequence)
+        ack = Ack(sequence=hello.sequence, of=hello.kind, accepted=True, session=session.key, role=role)
+        session.answered(hello.sequence, ack)
+        return ack
+
+    def _dispatch(self, session: Session, ask: Any, address: Address, robots: Mapping[str, Side]) -> DatagramResult:
+        status = session.check(ask.sequence)
+        if status is SequenceStatus.LATE:
+            return DatagramResult(_late(ask))
+        if status is SequenceStatus.UNANSWERED:
+            return _NOTHING
+        if status is SequenceStatus.ANSWERED:
+            before = session.answer(ask.sequence)
+            return DatagramResult(before.model_copy(update={"duplicate": True})) if before is not None else _NOTHING
+        done = self._do(session, ask, address, robots)
+        if isinstance(done, PendingRequest) and session.waiting > MOST_WAITING and not done.is_stop:
+            done = f"{MOST_WAITING} datagrams of this program still wait for their answers"
+        if isinstance(done, PendingRequest):
+            return DatagramResult(request=done)
+        ack = Ack(sequence=ask.sequence, of=ask.kind, accepted=not done, reason=done)
+        session.answered(ask.sequence, ack)
+        if isinstance(ask, Bye):
+            self.end(address)
+        return DatagramResult(ack, events_since=ask.since if isinstance(ask, ProgramEvents) else None)
+
+    def _do(
+        self, session: Session, ask: ProgramRequest, address: Address, robots: Mapping[str, Side]
+    ) -> PendingRequest | str:
+        """What is to be done; otherwise why not, empty where nothing more is to be done."""
+        match ask:
+            case ProgramAction():
+                return _act(session, ask.sequence, ask.kind, address, ask.action, robots)
+            case ProgramOrder():
+                return _order(session, ask, address, robots)
+            case ProgramMatchMode():
+                return _match_mode(session, ask, address, robots)
+        return ""
+
+
+def _read(data: bytes) -> Any:
+    """The valid datagram, or the refusal of one that is none."""
+    if len(data) > MAX_BYTES:
+        return Ack(sequence=None, accepted=False, reason=f"{len(data)} bytes, at most {MAX_BYTES}")
+    try:
+        return PROGRAM_REQUEST.validate_json(data)
+    except ValidationError as error:
+        said = _object(data)
+        number, kind = said.get("sequence"), said.get("kind")
+        return Ack(
+            sequence=number if isinstance(number, int) and not isinstance(number, bool) else None,
+            of=kind if isinstance(kind, str) and len(kind) <= 20 else "",
+            accepted=False,
+            reason=reason_of(error)[:300],
+        )
+
+
+def _object(data: bytes) -> dict[str, Any]:
+    try:
+        said = json.loads(data)
+    except (ValueError, RecursionError):
+        return {}
+    return said if isinstance(said, dict) else {}
+
+
+def _refused(ask: Any, reason: str) -> Ack:
+    return Ack(sequence=ask.sequence, of=ask.kind, accepted=False, reason=reason)
+
+
+def _late(ask: Any) -> Ack:
+    return _refused(ask, "late: a datagram with a larger number has been heard; say it again with a new number")
+
+
+def _act(
+    session: Session, sequence: int, kind: str, address: Address, action: RefereeAction, robots: Mapping[str, Side]
+) -> PendingRequest | str:
+    why = rights.refusal(session.role, PageAction(id=0, deed="action", action=action), robots)
+    if why is not None:
+        return why
+    return PendingRequest(
+        session, address, sequence, kind, action=action.model_copy(update={"source": f"coach program {session.name}"})
+    )
+
+
+def _order(session: Session, ask: ProgramOrder, address: Address, robots: Mapping[str, Side]) -> PendingRequest | str:
+    side = ask.side or rights.COACHES.get(session.role)
+    if side is None:
+        return "the referee's order has to name its side"
+    why = rights.refusal(session.role, PageOrder(id=0, deed="order", side=side, order=OrderContent()), robots)
+    if why is not None:
+        return why
+    content = ask.order.model_dump(exclude={"sequence", "version"})
+    if ask.test_mode is not None:
+        tested = TEST_MODES.get(ask.test_mode)
+        if tested is None:
+            return f"test_mode is {ask.test_mode}; known: {', '.join(map(str, TEST_MODES))}"
+        content |= {"mode": CoachMode.TEST, **tested._asdict()}
+    return PendingRequest(session, address, ask.sequence, ask.kind, sides=(side,), order=content)
+
+
+def _match_mode(
+    session: Session, ask: ProgramMatchMode, address: Address, robots: Mapping[str, Side]
+) -> PendingRequest | str:
+    try:
+        mode = ask.mode if isinstance(ask.mode, MatchMode) else MatchMode.of_number(ask.mode)
+    except KeyError:
+        return f"mode is {ask.mode}; known: {', '.join(str(known.number) for known in MatchMode)}"
+    if mode is MatchMode.TEST:
+        return "a test is an order: it says which"
+    own = rights.COACHES.get(session.role)
+    if own is not None and ask.side not in (None, own):
+        return f"the match mode of {ask.side} is not for {own.value}'s coach"
+    meaning = for_coach(mode) if own is not None else for_referee(mode, ask.side or Side.CYAN)
+    if meaning is None:
+        return f"{mode.value} is the referee's to give: it needs the referee's token"
+    return _request_for(session, ask, address, meaning, robots)
+
+
+def _request_for(
+    session: Session, ask: ProgramMatchMode, address: Address, meaning: Meaning, robots: Mapping[str, Side]
+) -> PendingRequest | str:
+    if meaning.action is not None:
+        action = RefereeAction(action=meaning.action, side=meaning.side)
+        return _act(session, ask.sequence, ask.kind, address, action, robots)
+    own = rights.COACHES.get(session.role)
+    sides = (own,) if own is not None else tuple(Side) if ask.side is None else (ask.side,)
+    return PendingRequest(session, address, ask.sequence, ask.kind, sides=sides, order={"mode": meaning.order})

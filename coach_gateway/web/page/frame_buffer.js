@@ -1,0 +1,85 @@
+// Where everything is at the moment of drawing: between the pictures that came, a little behind the newest.
+
+const KEPT = 40; // pictures
+const DELAY_MS = 45; // behind the newest: pictures come every 20 ms, now and then one is late
+const SETTLE_MS = 180; // in which the shown time comes near to where it should be
+const STALE_MS = 260; // without a picture for so long, nothing moves any more: the newest is shown as it is
+const JUMP_M = 0.5; // what moves farther between two pictures than this and its speed allow was set down there
+const FASTEST = 25; // m/s
+
+export class FrameBuffer {
+  #pictures = [];
+  #shown = 0;
+  #drawnAt = 0;
+
+  /** Shows the newest picture exactly, and nothing between. */
+  still = false;
+
+  /** The newest world that came, or nothing. */
+  get newest() {
+    return this.#pictures.at(-1)?.world ?? null;
+  }
+
+  /** Forgets what was before: the world begins anew. */
+  clear() {
+    this.#pictures = [];
+  }
+
+  /** Takes in a world that came at `now`, in ms. */
+  add(world, now) {
+    const last = this.#pictures.at(-1);
+    if (last && (world.time < last.world.time || world.time > last.world.time + 30)) this.clear();
+    else if (last && world.tick === last.world.tick) this.#pictures.pop();
+    this.#pictures.push({ world, at: now });
+    if (this.#pictures.length > KEPT) this.#pictures.shift();
+  }
+
+  /** The world as it is to be drawn at `now`, in ms; nothing before the first picture. */
+  at(now) {
+    const last = this.#pictures.at(-1);
+    if (last === undefined) return null;
+    const passed = Math.min(now - this.#drawnAt, 100);
+    this.#drawnAt = now;
+    if (this.still || now - last.at > STALE_MS || this.#pictures.length < 3) {
+      this.#shown = last.world.time;
+      return last.world;
+    }
+    const first = this.#pictures[0];
+    const rate = (last.world.time - first.world.time) / Math.max(last.at - first.at, 1);
+    const wanted = last.world.time + rate * (now - last.at - DELAY_MS);
+    this.#shown += rate * passed;
+    const off = wanted - this.#shown;
+    this.#shown += Math.abs(off) > 400 * rate ? off : off * (1 - Math.exp(-passed / SETTLE_MS));
+    this.#shown = Math.min(Math.max(this.#shown, first.world.time), last.world.time);
+    return this.#between(this.#shown);
+  }
+
+  #between(time) {
+    let place = this.#pictures.length - 1;
+    while (place > 0 && this.#pictures[place - 1].world.time > time) place -= 1;
+    const after = this.#pictures[place].world;
+    const before = this.#pictures[place - 1]?.world;
+    if (before === undefined || after.time <= before.time) return after;
+    const share = (time - before.time) / (after.time - before.time);
+    const reach = JUMP_M + FASTEST * (after.time - before.time);
+    const robots = {};
+    for (const [name, robot] of Object.entries(after.robots)) robots[name] = mixed(before.robots[name], robot, share, reach);
+    return { ...after, time, robots, ball: mixed(before.ball, after.ball, share, reach) };
+  }
+}
+
+/** A body between two pictures; what was set down elsewhere goes there at once. */
+function mixed(before, after, share, reach) {
+  if (before === undefined || Math.hypot(after.x - before.x, after.y - before.y) > reach) return after;
+  const body = {
+    ...after,
+    x: before.x + share * (after.x - before.x),
+    y: before.y + share * (after.y - before.y),
+    z: before.z + share * (after.z - before.z),
+  };
+  if (after.heading !== undefined) {
+    const turn = after.heading - before.heading;
+    body.heading = before.heading + share * Math.atan2(Math.sin(turn), Math.cos(turn));
+  }
+  return body;
+}

@@ -1,0 +1,108 @@
+"""Carries out what a page asks for and its role allows: asks host or replay, gives orders, drives robots."""
+
+import asyncio
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+from coach_gateway.match.host_client import HostClient
+from coach_gateway.web.protocol import (
+    PageAction,
+    PageDrive,
+    PageOrder,
+    PageParameters,
+    PageReplay,
+    PageRequest,
+    PageScene,
+    Reply,
+    Role,
+)
+from schemas.bus.contract import Bus, Publisher
+from schemas.errors import TouchlineError
+from schemas.game import ActionName
+from schemas.message import Message
+from schemas.messages.coach import CoachOrder
+from schemas.side import Side
+from schemas.topics import MANUAL
+
+SOURCES = {Role.REFEREE: "referee's page", Role.CYAN: "cyan's page", Role.MAGENTA: "magenta's page"}
+"""How the match names who asked."""
+
+_THREADS = 4
+"""Questions of one role, or stops, that are on their way at once; further ones wait."""
+_IN_EVERY_REPLY = frozenset({"version", "accepted", "reason"})
+
+
+class RequestHandler:
+    """Takes what pages ask to the match."""
+
+    def __init__(self, bus: Bus) -> None:
+        self.client = HostClient(bus)
+        self._bus = bus
+        self._manual: dict[str, Publisher] = {}
+        self._order_clients = {side: HostClient(bus) for side in Side}
+        self._ordering = {side: asyncio.Lock() for side in Side}
+        self._threads = {role: ThreadPoolExecutor(_THREADS, thread_name_prefix=role.value) for role in Role}
+        self._stops = ThreadPoolExecutor(_THREADS, thread_name_prefix="stop")
+
+    async def answer(self, role: Role, request: PageRequest) -> Reply:
+        """Ask the match, and say what came of it; questions of one role wait for no other's, orders of one side
+        for none of the other's, and a stop for nothing at all."""
+        try:
+            match request:
+                case PageOrder():
+                    async with self._ordering[request.side]:  # of two orders the later one has the larger number
+                        order = await _in_thread(self._threads[role], lambda: self._order(request))
+                    return _accepted(request, order)
+                case _:
+                    threads = self._stops if is_stop(request) else self._threads[role]
+                    reply = await _in_thread(threads, self._query(role, request))
+        except TouchlineError as error:
+            return Reply(id=request.id, accepted=False, reason=str(error))
+        return Reply(id=request.id, accepted=reply.accepted, reason=reply.reason, answer=_content(reply))
+
+    def drive(self, request: PageDrive) -> None:
+        """Have a person drive a robot; sent, and not waited for."""
+        if request.robot not in self._manual:
+            self._manual[request.robot] = self._bus.publisher(MANUAL, robot=request.robot)
+        self._manual[request.robot].put(request.manual)
+
+    def _query(self, role: Role, request: PageRequest) -> Callable[[], Any]:
+        """What to ask the match; takes as long as the answer."""
+        source = {"source": SOURCES.get(role, role.value)}
+        match request:
+            case PageAction():
+                action = request.action.model_copy(update=source)
+                return lambda: self.client.act(action)
+            case PageScene():
+                scene = request.request.model_copy(update=source)
+                return lambda: self.client.scene(scene)
+            case PageParameters():
+                parameters = request.request.model_copy(update=source)
+                return lambda: self.client.parameters(parameters)
+            case PageReplay():
+                replay = request.request
+                return lambda: self.client.replay(replay)
+        raise TypeError(f"{request.deed} is no question to the match")
+
+    def _order(self, request: PageOrder) -> CoachOrder:
+        content = request.order.model_dump(exclude={"version", "sequence"}, exclude_unset=True)
+        return self._order_clients[request.side].order(request.side, **content)
+
+
+def is_stop(request: PageRequest) -> bool:
+    """Whether the game is to be stopped."""
+    return isinstance(request, PageAction) and request.action.action is ActionName.STOP
+
+
+async def _in_thread(threads: ThreadPoolExecutor, request: Callable[[], Any]) -> Any:
+    return await asyncio.get_running_loop().run_in_executor(threads, request)
+
+
+def _accepted(request: PageRequest, order: CoachOrder) -> Reply:
+    return Reply(id=request.id, accepted=True, answer=order.model_dump(mode="json", exclude={"version"}))
+
+
+def _content(reply: Message) -> dict[str, Any] | None:
+    """What was said beside yes or no."""
+    return reply.model_dump(mode="json", exclude=set(_IN_EVERY_REPLY)) or None

@@ -1,0 +1,208 @@
+"""The WebSocket's door: who comes in, what is read of them, and who is sent away. One page never harms another."""
+
+import asyncio
+import contextlib
+
+from pydantic import ValidationError
+from pydantic_core import from_json
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from coach_gateway.access import rights
+from coach_gateway.access.client_network import client_network
+from coach_gateway.access.origins import Origins
+from coach_gateway.access.tokens import Tokens
+from coach_gateway.web.broadcaster import PageBroadcaster
+from coach_gateway.web.manual_control import ManualControl
+from coach_gateway.web.pages import Page, Pages
+from coach_gateway.web.protocol import (
+    MAX_BYTES,
+    PAGE_REQUEST,
+    PageDrive,
+    PageRequest,
+    PageTokenCheck,
+    Refusal,
+    Reply,
+    Role,
+)
+from coach_gateway.web.requests import RequestHandler, is_stop
+from schemas.process.clock import Clock
+
+_MOST_PENDING = 8
+"""Questions of one page that may wait for their answers."""
+_POLICY, _TRY_AGAIN = 1008, 1013
+"""WebSocket close codes: breach of the rules, and no room now."""
+_CLOSING_S = 1.0
+_UNKNOWN_TOKEN = "nobody has this token; open the page with the address that was given out"
+
+
+class SocketEndpoint:
+    """Lets pages in."""
+
+    def __init__(
+        self,
+        broadcaster: PageBroadcaster,
+        pages: Pages,
+        requests: RequestHandler,
+        tokens: Tokens,
+        origins: Origins,
+        clock: Clock,
+    ) -> None:
+        self._broadcaster, self._pages, self._requests = broadcaster, pages, requests
+        self._tokens, self._origins, self._clock = tokens, origins, clock
+        self._manual_control = ManualControl()
+
+    async def enter(self, socket: WebSocket) -> None:
+        """One page, from its coming to its going."""
+        origin, host = socket.headers.get("origin"), socket.headers.get("host")
+        if not self._origins.allows(origin, host):
+            self._pages.counts["foreign"] += 1
+            await socket.close(_POLICY)  # before it is accepted: HTTP 403
+            return
+        await socket.accept()
+        network = client_network(socket.client.host if socket.client is not None else None)
+        if why := self._pages.why_no_room(network):
+            self._pages.counts["full"] += 1
+            await _close(socket, why, _TRY_AGAIN)
+            return
+        page = Page(origin, host, self._clock.now(), network)
+        self._pages.enter(page)
+        self._broadcaster.welcome(page)
+        try:
+            await self._run(socket, page)
+        finally:
+            self._pages.forget(page)
+
+    async def _run(self, socket: WebSocket, page: Page) -> None:
+        """Until either side leaves."""
+        works = (self._send(socket, page), self._read(socket, page), _leaves(page))
+        tasks = [asyncio.create_task(work) for work in works]
+        try:
+            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in tasks:
+                task.cancel()
+            ends = await asyncio.gather(*tasks, return_exceptions=True)
+        for end in ends:
+            if isinstance(end, Exception) and not isinstance(end, WebSocketDisconnect):
+                raise end  # a fault of ours ends its own page, and stands in the log
+        if page.close_reason:
+            await _close(socket, page.close_reason, _POLICY)
+
+    async def _send(self, socket: WebSocket, page: Page) -> None:
+        """Send what waits, as fast as the page reads."""
+        while True:
+            text = await page.queue.next()
+            page.sending_since = self._clock.now()
+            await socket.send({"type": "websocket.send", "text": text})
+            page.sending_since = None
+
+    async def _read(self, socket: WebSocket, page: Page) -> None:
+        """Take what the page says, until it goes."""
+        while True:
+            message = await socket.receive()
+            if message["type"] == "websocket.disconnect":
+                return
+            if not page.rate_limit.allow(self._clock.now()):
+                self._reject_excess(page)
+                continue
+            request = self._parsed(page, message.get("text"))
+            if request is not None:
+                self._handle(page, request)
+
+    def _reject_excess(self, page: Page) -> None:
+        self._pages.counts["too much"] += 1
+        page.note_bad()
+        if page.rate_limit_notice.allow(self._clock.now()):
+            _reply(page, Reply(id=None, accepted=False, reason="this page says too much at once; say it more slowly"))
+
+    def _parsed(self, page: Page, text: str | None) -> PageRequest | None:
+        """What a message asks for; one that cannot be read is counted and answered."""
+        number: int | None = None
+        if text is None:
+            why = "only text is understood here"
+        elif len(text) > MAX_BYTES:
+            why = f"a message of {len(text)} characters is too long; at most {MAX_BYTES} are read"
+        else:
+            try:
+                return PAGE_REQUEST.validate_json(text)
+            except ValidationError as error:
+                number, why = _number(text), _why(error)
+        self._pages.counts["bad"] += 1
+        page.note_bad()
+        _reply(page, Reply(id=number, accepted=False, reason=why))
+        return None
+
+    def _handle(self, page: Page, request: PageRequest) -> None:
+        """Do what is asked, or say why not; origin, token and right are looked at each time."""
+        role = self._tokens.role_of(request.token) if self._origins.allows(page.origin, page.host) else None
+        if role is None:
+            self._pages.counts["wrong token"] += 1
+            page.note_wrong_token()
+            _reply(page, Reply(id=request.id, accepted=False, reason=_UNKNOWN_TOKEN))
+            return
+        why = (
+            rights.refusal(role, request, self._broadcaster.robots())
+            or self._broadcaster.refusal(request)
+            or self._why_busy(page, request)
+        )
+        if why is not None:
+            _reply(page, Reply(id=request.id, accepted=False, reason=why))
+        elif isinstance(request, PageTokenCheck):
+            _reply(page, Reply(id=request.id, accepted=True))
+            page.role = role
+            self._broadcaster.welcome(page)
+        elif isinstance(request, PageDrive):
+            self._requests.drive(request)
+        else:
+            task = asyncio.create_task(self._answer(page, role, request))
+            page.pending.add(task)
+            task.add_done_callback(page.pending.discard)
+
+    def _why_busy(self, page: Page, request: PageRequest) -> str | None:
+        """Why a page has to wait before it asks this, or for another page; a stop never has to."""
+        if isinstance(request, PageDrive):
+            return self._manual_control.refusal(page, request, self._clock.now())
+        if isinstance(request, PageTokenCheck) and not page.welcomes.allow(self._clock.now()):
+            return "this page has asked too often what its token is worth; wait a second"
+        if len(page.pending) >= _MOST_PENDING and not (isinstance(request, PageTokenCheck) or is_stop(request)):
+            return f"{_MOST_PENDING} questions of this page still wait for their answers"
+        return None
+
+    async def _answer(self, page: Page, role: Role, request: PageRequest) -> None:
+        """Put a question to the match, and tell the page what came of it."""
+        reply = await self._requests.answer(role, request)
+        _reply(page, reply)
+
+
+async def _leaves(page: Page) -> None:
+    await page.leave.wait()
+
+
+def _reply(page: Page, reply: Reply) -> None:
+    page.queue.put(reply.model_dump_json())
+
+
+async def _close(socket: WebSocket, why: str, code: int) -> None:
+    """Tell a page why it is closed, and close it; one that does not read is not waited for."""
+    refusal = Refusal(reason=why).model_dump_json()
+    with contextlib.suppress(WebSocketDisconnect, RuntimeError, TimeoutError):
+        async with asyncio.timeout(_CLOSING_S):
+            await socket.send({"type": "websocket.send", "text": refusal})
+            await socket.close(code, why)
+
+
+def _number(text: str) -> int | None:
+    """The number of a message that could not be read otherwise."""
+    try:
+        content = from_json(text)
+    except ValueError:
+        return None
+    number = content.get("id") if isinstance(content, dict) else None
+    return number if isinstance(number, int) and not isinstance(number, bool) and number >= 0 else None
+
+
+def _why(error: ValidationError) -> str:
+    """What is wrong with a message, in one line."""
+    first = error.errors(include_url=False)[0]
+    where = ".".join(str(step) for step in first["loc"])
+    return f"{where or 'the message'}: {first['msg']}"

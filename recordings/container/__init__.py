@@ -1,0 +1,1 @@
+"""The file: MCAP records, manifest, header, schemas, partial and numbered files. Knows no bus."""

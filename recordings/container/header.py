@@ -1,0 +1,69 @@
+"""The header of a recording, before the first message: its manifest, and the files attached to it."""
+
+from datetime import UTC, datetime
+
+from pydantic_core import to_json
+
+from recordings.container.environment import libm_fingerprint, versions
+from recordings.container.json_schema import whole_schema
+from recordings.container.key_selection import EVERYTHING, KeySelection
+from recordings.container.manifest import Manifest
+from schemas.config.match_config import MatchConfig
+from schemas.config.profile import profile_tables
+from schemas.config.rule_book import rule_book_text
+from schemas.message import VERSION, Message
+from schemas.messages.host import Setup
+from schemas.process.clock import Clock
+from schemas.topic import Delivery
+from schemas.topics import TOPICS
+
+MEDIA_TYPES = {".json": "application/json", ".toml": "application/toml"}
+"""Suffix of an attachment → its media type."""
+PROFILE = "profile.json"
+"""The attachment with the whole profile: with those that it extends, for `schemas.config.profile.profile_of`."""
+
+
+def make_manifest(
+    match: str,
+    recorder: str,
+    clock: Clock,
+    setup: Setup | None,
+    config: MatchConfig | None,
+    *,
+    sights: bool,
+    selection: KeySelection = EVERYTHING,
+) -> Manifest:
+    """The manifest of a recording that begins now, on this machine."""
+    return Manifest(
+        contract=VERSION,
+        match=match,
+        recorder=recorder,
+        started=timestamp(clock),
+        sights=sights,
+        versions=versions(),
+        libm=libm_fingerprint(),
+        setup=setup,
+        config=config,
+        include=list(selection.include),
+        exclude=list(selection.exclude),
+    )
+
+
+def make_attachments(config: MatchConfig | None) -> dict[str, bytes]:
+    """What goes into the file beside the messages: their whole schemas, the match file, profile and rule book."""
+    models: dict[str, type[Message]] = {
+        topic.message.__name__: topic.message
+        for topic in TOPICS.values()
+        if topic.message is not None and topic.delivery is not Delivery.QUERY  # questions are in no recording
+    }
+    files = {"message_schemas.json": to_json({name: whole_schema(model) for name, model in models.items()})}
+    if config is not None:
+        files["match.json"] = to_json(config)
+        files[PROFILE] = to_json(config.profile_tables or profile_tables(config.profile))
+        files["rules.toml"] = rule_book_text(config.rules).encode()
+    return files
+
+
+def timestamp(clock: Clock) -> str:
+    """The clock's wall time, ISO 8601, UTC, to the millisecond."""
+    return datetime.fromtimestamp(clock.unix_ns() / 1e9, UTC).isoformat(timespec="milliseconds")

@@ -1,0 +1,69 @@
+"""Which keys are meant: key expressions as the bus has them, some to include and some to exclude."""
+
+import re
+from dataclasses import dataclass
+from functools import cache
+
+from schemas.errors import TouchlineError
+
+
+@dataclass(frozen=True, slots=True)
+class KeySelection:
+    """Keys below the match: one that `include` names, or any where it names none, and that `exclude` does not name.
+
+    `*` stands for one chunk, `**` for any number of chunks, `$*` for any part of a chunk: `robot/*/command`,
+    `team/**`, `robot/cyan$*/sight`.
+
+    Raises:
+        TouchlineError: an expression that is none.
+    """
+
+    include: tuple[str, ...] = ()
+    exclude: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        for expression in (*self.include, *self.exclude):
+            key_pattern(expression)
+
+    def __bool__(self) -> bool:
+        """Whether anything is left out."""
+        return bool(self.include or self.exclude)
+
+    def includes(self, key: str) -> bool:
+        """Whether a key is meant."""
+        if any(key_pattern(expression).fullmatch(key) for expression in self.exclude):
+            return False
+        return not self.include or any(key_pattern(expression).fullmatch(key) for expression in self.include)
+
+
+EVERYTHING = KeySelection()
+"""No key is left out."""
+
+
+@cache
+def key_pattern(expression: str) -> re.Pattern[str]:
+    """What a key expression matches.
+
+    Raises:
+        TouchlineError: it is no key expression.
+    """
+    parts: list[str] = []
+    chunks = expression.split("/")
+    for number, chunk in enumerate(chunks):
+        if chunk == "**":
+            last = number == len(chunks) - 1
+            if last and parts:
+                parts[-1] = parts[-1].removesuffix("/")
+                parts.append(r"(?:/[^/]+)*")
+            else:
+                parts.append(r".*" if last else r"(?:[^/]+/)*")
+            continue
+        inner = r"[^/]+" if chunk == "*" else r"[^/]*".join(re.escape(piece) for piece in chunk.split("$*"))
+        bare = chunk.replace("$*", "")
+        if not chunk or (chunk != "*" and re.search(r"[*$#?\s]", bare)):
+            raise TouchlineError(
+                f'"{expression}" is no key expression; * is one chunk, ** any number of them, $* a part of one: '
+                "robot/*/command, team/**"
+            )
+        parts.append(inner + ("/" if number < len(chunks) - 1 else ""))
+    return re.compile("".join(parts))

@@ -1,0 +1,265 @@
+"""An MCAP file from outside: what it holds by its index, or, where it was cut off, by reading it up to the cut."""
+
+import mmap
+import struct
+import zlib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from io import BytesIO
+from pathlib import Path
+from typing import IO, cast
+
+import zstandard
+from mcap.data_stream import ReadDataStream, RecordBuilder
+from mcap.exceptions import McapError
+from mcap.opcode import Opcode
+from mcap.reader import SeekingReader
+from mcap.records import Attachment, Channel, Chunk, ChunkIndex, Header, McapRecord, Message, Metadata, Schema
+from mcap.stream_reader import StreamReader, breakup_chunk, get_chunk_data_stream
+from mcap.summary import Summary
+from mcap.writer import MCAP0_MAGIC
+
+from schemas.errors import TouchlineError
+
+BROKEN = (McapError, ValueError, LookupError, OverflowError, MemoryError, struct.error, zstandard.ZstdError)
+"""What the library raises on bytes that are cut off or damaged."""
+DAMAGED = "damaged inside ({}); take another copy of it, or have `touchline recover` leave out what is damaged"
+_RECORD_HEADER = struct.Struct("<BQ")
+"""Opcode and length of a record."""
+_MESSAGE = struct.Struct("<HIQQ")
+"""Channel, sequence, log time and publish time of a message; its payload follows."""
+_END_NS = 1 << 64
+"""Later than any time of a message."""
+_FOOTER = struct.Struct("<BQQQI")
+"""Opcode, length, start of the summary, start of its offsets, checksum of the summary."""
+DERIVED = "derived"
+"""What the metadata of a channel has whose messages are made of those of others, for viewers."""
+
+
+@dataclass(slots=True)
+class ChannelRecord:
+    """One channel and its extent; times in ns of simulated time."""
+
+    key: str
+    metadata: dict[str, str]
+    encoding: str = "json"
+    schema: Schema | None = None
+    messages: int = 0
+    first_ns: int = 0
+    last_ns: int = 0
+
+    def extend(self, log_ns: int) -> None:
+        """One more message."""
+        self.first_ns = min(self.first_ns, log_ns) if self.messages else log_ns
+        self.last_ns = max(self.last_ns, log_ns)
+        self.messages += 1
+
+
+@dataclass(slots=True)
+class McapFile:
+    """What is in the file."""
+
+    path: Path
+    complete: bool = True
+    """The file was finished by its writer."""
+    library: str = ""
+    metadata: dict[str, dict[str, str]] = field(default_factory=dict)
+    attachments: dict[str, bytes] = field(default_factory=dict)
+    channels: dict[int, ChannelRecord] = field(default_factory=dict)
+
+    def messages(
+        self, keys: set[str], start_ns: int | None = None, end_ns: int | None = None
+    ) -> Iterator[tuple[str, Message]]:
+        """Key and message, in the order of the file, from `start_ns` up to and without `end_ns`.
+
+        Raises:
+            TouchlineError: a finished file is damaged inside.
+        """
+        with self.path.open("rb") as file:
+            if not self.complete:
+                yield from self._streamed(file, keys, start_ns, end_ns)
+                return
+            try:
+                yield from self._indexed(file, keys, start_ns or 0, _END_NS if end_ns is None else end_ns)
+            except BROKEN as error:
+                raise TouchlineError(f"{self.path}: {DAMAGED.format(error)}") from None
+
+    def _indexed(self, file: IO[bytes], keys: set[str], start_ns: int, end_ns: int) -> Iterator[tuple[str, Message]]:
+        """From the chunks that the summary says can hold some; what is not asked for is passed over unread."""
+        summary = SeekingReader(file).get_summary()
+        wanted = {number: channel.key for number, channel in self.channels.items() if channel.key in keys}
+        for index in summary.chunk_indexes if summary is not None else ():
+            is_in_time = index.message_start_time < end_ns and index.message_end_time >= start_ns
+            places = index.message_index_offsets  # a chunk that was repaired may have none: it has to be read
+            if not is_in_time or (places and wanted.keys().isdisjoint(places)):
+                continue
+            file.seek(index.chunk_start_offset + 9)  # behind opcode and length
+            stream, size = get_chunk_data_stream(Chunk.read(ReadDataStream(file)), validate_crc=True)
+            data, at = stream.read(size), 0
+            while at < size:
+                opcode, length = _RECORD_HEADER.unpack_from(data, at)
+                at += _RECORD_HEADER.size
+                if opcode == Opcode.MESSAGE:
+                    channel, sequence, log_ns, sent_ns = _MESSAGE.unpack_from(data, at)
+                    if channel in wanted and start_ns <= log_ns < end_ns:
+                        content = data[at + _MESSAGE.size : at + length]
+                        yield wanted[channel], Message(channel, log_ns, content, sent_ns, sequence)
+                at += length
+            if at != size:
+                raise ValueError("a chunk ends within a record")
+
+    def _streamed(
+        self, file: IO[bytes], keys: set[str], start_ns: int | None, end_ns: int | None
+    ) -> Iterator[tuple[str, Message]]:
+        known: dict[int, str] = {}  # a file that is still written has more channels than when it was looked into
+        for record in _records(file, self.path.stat().st_size):
+            if isinstance(record, Channel):
+                known.setdefault(record.id, record.topic)
+            if not isinstance(record, Message):
+                continue
+            key = known[record.channel_id]
+            late_enough = start_ns is None or record.log_time >= start_ns
+            if key in keys and late_enough and (end_ns is None or record.log_time < end_ns):
+                yield key, record
+
+
+def open_mcap_file(path: Path) -> McapFile:
+    """Look into a file.
+
+    Raises:
+        TouchlineError: it cannot be read, or is not MCAP.
+    """
+    try:
+        with path.open("rb") as file:
+            if file.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
+                raise TouchlineError(f"{path}: not a recording; give an *.mcap file")
+            return _from_summary(path, file) or _from_records(path, file)
+    except OSError as error:
+        raise TouchlineError(f"{path}: {error.strerror}; give the path of a recording") from None
+
+
+def _from_summary(path: Path, file: IO[bytes]) -> McapFile | None:
+    """What the summary at the end says; nothing when the file has none, because it was cut off."""
+    size = path.stat().st_size
+    summary = summary_of(file, size) if summary_is_whole(file, size) else None
+    if summary is None or summary.statistics is None:
+        return None
+    file.seek(0)
+    try:
+        reader = SeekingReader(file, record_size_limit=size)
+        mcap_file = McapFile(path, library=reader.get_header().library)
+        mcap_file.metadata = {record.name: record.metadata for record in reader.iter_metadata()}
+        mcap_file.attachments = {record.name: record.data for record in reader.iter_attachments()}
+        counts = summary.statistics.channel_message_counts
+        chunks: dict[int, dict[int, list[int]]] = {}
+        for number, channel in summary.channels.items():
+            record = ChannelRecord(channel.topic, channel.metadata, channel.message_encoding)
+            record.schema = summary.schemas.get(channel.schema_id)
+            record.messages = counts.get(number, 0)
+            record.first_ns, record.last_ns = _extent(file, summary, number, chunks)
+            mcap_file.channels[number] = record
+    except BROKEN as error:
+        raise TouchlineError(f"{path}: {DAMAGED.format(error)}") from None
+    return mcap_file
+
+
+def is_derived(metadata: Mapping[str, str]) -> bool:
+    """Whether a channel of this metadata is there for viewers alone."""
+    return DERIVED in metadata
+
+
+def summary_is_whole(file: IO[bytes] | mmap.mmap, size: int) -> bool:
+    """Whether there is a summary and it is as it was written, by its checksum; a writer may have left that out."""
+    end = size - len(MCAP0_MAGIC) - _FOOTER.size
+    if end < len(MCAP0_MAGIC):
+        return False
+    file.seek(end)
+    footer = file.read(_FOOTER.size)
+    opcode, length, start, _, expected = _FOOTER.unpack(footer)
+    if file.read() != MCAP0_MAGIC or (opcode, length) != (Opcode.FOOTER, _FOOTER.size - 9) or not 0 < start <= end:
+        return False
+    file.seek(start)
+    return expected in (0, zlib.crc32(file.read(end - start) + footer[:-4]))
+
+
+def summary_of(file: IO[bytes] | mmap.mmap, size: int) -> Summary | None:
+    """The summary, or nothing where it cannot be read."""
+    file.seek(0)
+    try:
+        summary = SeekingReader(cast(IO[bytes], file), record_size_limit=size).get_summary()
+    except BROKEN:
+        return None
+    return summary if summary is not None and summary.statistics is not None else None
+
+
+def bytes_of(builder: RecordBuilder) -> bytes:
+    """The records that were built since this was last asked."""
+    return bytes(builder.end())  # type: ignore[no-untyped-call]
+
+
+def stream_of(content: bytes) -> ReadDataStream:
+    """Bytes to read a record from."""
+    return ReadDataStream(BytesIO(content))
+
+
+def _extent(file: IO[bytes], summary: Summary, channel: int, read: dict[int, dict[int, list[int]]]) -> tuple[int, int]:
+    """Times of the first and the last message of a channel, from its first and last chunk; `read` are chunks so far."""
+    chunks = [
+        index
+        for index in summary.chunk_indexes
+        if channel in (index.message_index_offsets or _times(file, index, read))
+    ]
+    if not chunks:
+        return 0, 0
+    return min(_times(file, chunks[0], read)[channel]), max(_times(file, chunks[-1], read)[channel])
+
+
+def _times(file: IO[bytes], chunk: ChunkIndex, read: dict[int, dict[int, list[int]]]) -> dict[int, list[int]]:
+    """Channel → log times of its messages in a chunk, which is checked; the indexes beside it have no checksum."""
+    at = chunk.chunk_start_offset
+    if at not in read:
+        file.seek(at + 9)  # behind opcode and length
+        times: dict[int, list[int]] = {}
+        for record in breakup_chunk(Chunk.read(ReadDataStream(file)), validate_crc=True):
+            if isinstance(record, Message):
+                times.setdefault(record.channel_id, []).append(record.log_time)
+        read[at] = times
+    return read[at]
+
+
+def _from_records(path: Path, file: IO[bytes]) -> McapFile:
+    """What can be read before the cut."""
+    mcap_file = McapFile(path, complete=False)
+    schemas: dict[int, Schema] = {}
+    file.seek(0)
+    for record in _records(file, path.stat().st_size):
+        match record:
+            case Header():
+                mcap_file.library = record.library
+            case Metadata():
+                mcap_file.metadata[record.name] = record.metadata
+            case Attachment():
+                mcap_file.attachments[record.name] = record.data
+            case Schema():
+                schemas[record.id] = record
+            case Channel():
+                channel = ChannelRecord(record.topic, record.metadata, record.message_encoding)
+                channel.schema = schemas.get(record.schema_id)
+                mcap_file.channels.setdefault(record.id, channel)
+            case Message():
+                mcap_file.channels[record.channel_id].extend(record.log_time)
+    return mcap_file
+
+
+def _records(file: IO[bytes], size: int) -> Iterator[McapRecord]:
+    """Every record up to the first that is not whole, or belongs to no channel."""
+    channels = set()
+    try:
+        for record in StreamReader(file, validate_crcs=True, record_size_limit=size).records:
+            if isinstance(record, Channel):
+                channels.add(record.id)
+            elif isinstance(record, Message) and record.channel_id not in channels:
+                return
+            yield record
+    except BROKEN:
+        return

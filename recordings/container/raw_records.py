@@ -1,0 +1,229 @@
+"""The records of an MCAP file as they lie in it: found by their headers, checked by their checksums, none decoded."""
+
+import mmap
+import struct
+import zlib
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import zstandard
+from mcap.data_stream import RecordBuilder
+from mcap.exceptions import McapError
+from mcap.opcode import Opcode
+from mcap.records import Channel, MessageIndex, Schema
+from mcap.writer import MCAP0_MAGIC
+
+from recordings.container.mcap_file import bytes_of, stream_of
+
+BROKEN = (McapError, ValueError, LookupError, OverflowError, MemoryError, struct.error, zstandard.ZstdError)
+"""What is raised on bytes that are cut off or damaged."""
+RECORD_HEADER = struct.Struct("<BQ")
+"""Opcode, and length of the content."""
+PRIVATE = 0x80
+"""Readers pass over records whose opcode is this or higher."""
+DAMAGED = 0x100
+"""Stands for an opcode that no record has: the header of this one is damaged."""
+_CHUNK = struct.Struct("<QQQII")
+"""First and last log time, size and checksum of what is in it uncompressed, length of the compression's name."""
+_INDEX = struct.Struct("<HI")
+"""Channel, bytes of its entries."""
+_MESSAGE = struct.Struct("<HIQ")
+"""Channel, sequence, log time."""
+_LAST_OPCODE = max(Opcode)
+_IN_DATA = frozenset({Opcode.CHUNK, Opcode.MESSAGE_INDEX, Opcode.ATTACHMENT, Opcode.METADATA})
+"""What stands between header and end of the data section; all else is in chunks, or behind it."""
+_DATA_END_BYTES = 4
+
+
+class RawRecord(NamedTuple):
+    """One record."""
+
+    opcode: int
+    at: int
+    """Where its header begins."""
+    end: int
+
+    @property
+    def content(self) -> int:
+        """Where its content begins."""
+        return self.at + RECORD_HEADER.size
+
+
+class ChunkHeader(NamedTuple):
+    """What stands before the packed content of a chunk."""
+
+    first_ns: int
+    last_ns: int
+    size: int
+    checksum: int
+    compression: str
+    packed: int
+    """Where the packed content begins."""
+
+
+@dataclass(slots=True)
+class RawChunk:
+    """A chunk, and the indexes behind it."""
+
+    raw: RawRecord
+    indexes: list[RawRecord] = field(default_factory=list)
+    broken: bool = False
+    """The header of one of the indexes is damaged."""
+
+    @property
+    def end(self) -> int:
+        """Behind its last index."""
+        return self.indexes[-1].end if self.indexes else self.raw.end
+
+
+def raw_records_of(content: mmap.mmap, known: list[int]) -> Iterator[RawRecord]:
+    """The records of the data section, up to its end or to the first that is not whole.
+
+    `known` are places where a record begins, in order: where the header of one is damaged, the next place is gone to,
+    and what lies between is one damaged record. So is one that has no business here: a bit of its opcode has changed.
+    """
+    at, size = len(MCAP0_MAGIC), len(content)
+    places = iter(known)
+    place = next(places, None)
+    while at + RECORD_HEADER.size <= size:
+        while place is not None and place <= at:
+            place = next(places, None)
+        opcode, length = RECORD_HEADER.unpack_from(content, at)
+        end = at + RECORD_HEADER.size + length
+        sound = 0 < opcode <= _LAST_OPCODE or opcode >= PRIVATE
+        if place is not None and (not sound or end > place):
+            opcode, end = DAMAGED, place
+        elif not sound or end > size:
+            return
+        elif not _is_allowed(opcode, at, end):
+            opcode = DAMAGED
+        yield RawRecord(opcode, at, end)
+        if opcode == Opcode.DATA_END:
+            return
+        at = end
+
+
+def _is_allowed(opcode: int, at: int, end: int) -> bool:
+    """Whether a record of this opcode may stand here."""
+    if opcode == Opcode.HEADER:
+        return at == len(MCAP0_MAGIC)
+    if opcode == Opcode.DATA_END:
+        return end - at == RECORD_HEADER.size + _DATA_END_BYTES
+    return opcode in _IN_DATA or opcode >= PRIVATE
+
+
+def raw_chunks_of(raw_records: list[RawRecord], known: list[int]) -> dict[int, RawChunk]:
+    """Chunks with the indexes behind them, by where they begin.
+
+    What is damaged there is an index, too, unless something else is `known` to begin there, or nothing is known.
+    """
+    places = frozenset(known)
+    chunks: dict[int, RawChunk] = {}
+    last: RawChunk | None = None
+    for raw in raw_records:
+        if raw.opcode == Opcode.CHUNK:
+            last = chunks[raw.at] = RawChunk(raw)
+        elif raw.opcode == Opcode.MESSAGE_INDEX and last is not None:
+            last.indexes.append(raw)
+        elif raw.opcode == DAMAGED and last is not None and places and raw.at not in places:
+            last.indexes.append(raw)
+            last.broken = True
+        else:
+            last = None
+    return chunks
+
+
+def damaged_chunks(content: mmap.mmap, chunks: dict[int, RawChunk]) -> set[int]:
+    """Where those chunks begin whose checksum does not fit; looked for on all cores."""
+    with ThreadPoolExecutor() as pool:
+        whole = pool.map(lambda chunk: _is_whole(content, chunk.raw), chunks.values())
+        return {at for at, fits in zip(chunks, whole, strict=True) if not fits}
+
+
+def _is_whole(content: mmap.mmap, raw: RawRecord) -> bool:
+    try:
+        return unpacked(content, raw) is not None
+    except BROKEN:
+        return False
+
+
+def chunk_header(content: mmap.mmap, raw: RawRecord) -> ChunkHeader:
+    """The header of a chunk.
+
+    Raises:
+        ValueError: the lengths in it do not fit each other.
+    """
+    first, last, size, checksum, name = _CHUNK.unpack_from(content, raw.content)
+    at = raw.content + _CHUNK.size + name
+    if name > 16 or at + 8 > raw.end or at + 8 + struct.unpack_from("<Q", content, at)[0] != raw.end:
+        raise ValueError("chunk of another length")
+    return ChunkHeader(first, last, size, checksum, content[at - name : at].decode(), at + 8)
+
+
+def unpacked(content: mmap.mmap, raw: RawRecord) -> bytes:
+    """The records in a chunk.
+
+    Raises:
+        ValueError, zstandard.ZstdError: it is damaged, or packed in a way that is not read here.
+    """
+    header = chunk_header(content, raw)
+    packed = content[header.packed : raw.end]
+    if header.compression == "zstd":
+        data = zstandard.ZstdDecompressor().decompress(packed)  # the packed bytes say how long it is, not the header
+    elif header.compression == "":
+        data = packed
+    else:
+        raise ValueError(f"compression {header.compression}")
+    if len(data) != header.size or (header.checksum and zlib.crc32(data) != header.checksum):
+        raise ValueError("checksum")
+    return data
+
+
+class ChunkContent(NamedTuple):
+    """What is in a chunk."""
+
+    schemas: dict[int, Schema]
+    channels: dict[int, Channel]
+    indexes: dict[int, MessageIndex]
+    """Channel → times and places of its messages, as the indexes behind a chunk have them."""
+
+
+def content_of(data: bytes) -> ChunkContent:
+    """Schemas, channels and the places of all messages in the unpacked records of a chunk."""
+    found = ChunkContent({}, {}, {})
+    at = 0
+    while at + RECORD_HEADER.size <= len(data):
+        opcode, length = RECORD_HEADER.unpack_from(data, at)
+        start = at + RECORD_HEADER.size
+        if opcode == Opcode.MESSAGE:
+            channel, _, log_ns = _MESSAGE.unpack_from(data, start)
+            index = found.indexes.setdefault(channel, MessageIndex(channel, []))
+            index.records.append((log_ns, at))
+        elif opcode == Opcode.SCHEMA:
+            schema = Schema.read(stream_of(data[start : start + length]))
+            found.schemas[schema.id] = schema
+        elif opcode == Opcode.CHANNEL:
+            channel_record = Channel.read(stream_of(data[start : start + length]))
+            found.channels[channel_record.id] = channel_record
+        at = start + length
+    return found
+
+
+def index_counts(content: mmap.mmap, chunk: RawChunk) -> dict[int, tuple[int, int]]:
+    """Channel → how many messages the indexes behind a chunk have of it, and where its index lies."""
+    found = {}
+    for raw in chunk.indexes:
+        channel, length = _INDEX.unpack_from(content, raw.content)
+        found[channel] = length // 16, raw.at
+    return found
+
+
+def index_bytes(indexes: dict[int, MessageIndex], at: int) -> tuple[bytes, dict[int, int]]:
+    """The indexes of a chunk as they are written at this place, and channel → where its index lies."""
+    builder, places = RecordBuilder(), {}
+    for channel, index in indexes.items():
+        places[channel] = at + builder.count
+        index.write(builder)
+    return bytes_of(builder), places

@@ -1,0 +1,1 @@
+"""Recordings made of recordings or of messages, and the repair of damaged ones."""

@@ -1,0 +1,134 @@
+"""The game of a log, told from the referee's signals as this project tells it: states, events, directions, clock."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from recordings.exchange.msl import LOG_PERIOD
+from recordings.exchange.msl.event_log import SignalLine
+from schemas.game import EventKind, GameEvent, GameStage, GameState, Phase, Score
+from schemas.league.signals import START
+
+_STATE_S = 1.0
+"""The state is said once a second, as a host does."""
+RULE = "referee box"
+"""What decided, in every event."""
+
+
+@dataclass(slots=True)
+class GameReconstruction:
+    """Follows the signals; all times in s since the log begins."""
+
+    messages: list[GameState | GameEvent] = field(default_factory=list)
+    _now: dict[str, Any] = field(default_factory=lambda: {"phase": Phase.PRE_GAME, "score": Score(), "half": 1})
+    _time: float = 0.0
+    _clock: float = 0.0
+    _effective: float = 0.0
+    _base: float = 0.0
+    _clock_runs: bool = False
+    _is_break: bool = False
+
+    def reconstruct(self, lines: list[SignalLine], start_ms: float, duration: float) -> None:
+        """Follow all signals; those from before the log begins, or after its end, count as given there."""
+        if not lines:
+            self._now |= {"phase": Phase.PLAY, "running": True}
+            self._clock_runs = True
+        self._add_state()
+        for line in lines:
+            self._advance_to(min(max(0.0, (line.epoch_ms - start_ms) / 1e3), duration), line.game_s)
+            self._apply(line)
+        self._advance_to(duration, None)
+        self._add_state()
+
+    def attacks(self, times: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """The x direction that cyan attacks at each time, +1 or −1."""
+        return self._values_at(times, [state.cyan_attacks for state in self._states()], stepwise=True)
+
+    def clock(self, times: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """The game clock at each time, s."""
+        return self._values_at(times, [state.clock for state in self._states()], stepwise=False)
+
+    def _states(self) -> Iterator[GameState]:
+        return (one for one in self.messages if isinstance(one, GameState))
+
+    def _values_at(
+        self, times: npt.NDArray[np.float64], values: list[Any], *, stepwise: bool
+    ) -> npt.NDArray[np.float64]:
+        state_times, state_values = np.array([state.time for state in self._states()]), np.array(values, dtype=float)
+        if not stepwise:
+            between: npt.NDArray[np.float64] = np.interp(times, state_times, state_values)
+            return between
+        newest: npt.NDArray[np.int64] = np.searchsorted(state_times, times + 1e-9, side="right") - 1
+        stepped: npt.NDArray[np.float64] = np.take(state_values, np.maximum(newest, 0))
+        return stepped
+
+    def _advance_to(self, time: float, box_clock: float | None) -> None:
+        """Let time pass, with a state each second; the box's own clock is right where it is off by a second."""
+        while self._time + _STATE_S <= time:
+            self._advance(self._time + _STATE_S)
+            self._add_state()
+        self._advance(max(time, self._time))
+        if box_clock is not None and self._clock_runs and not 0.0 <= self._clock - (self._base + box_clock) < 1.0:
+            self._clock = max(self._clock, self._base + box_clock)
+
+    def _advance(self, time: float) -> None:
+        if self._clock_runs:
+            self._clock += time - self._time
+        if self._now["phase"] is Phase.PLAY:
+            self._effective += time - self._time
+        self._time = time
+
+    def _apply(self, line: SignalLine) -> None:
+        signal = line.signal
+        half = signal.half or max(line.half, self._now["half"] + self._is_break)
+        restarts = signal is START or signal.kind is EventKind.RESTART or bool(signal.half)
+        if restarts and half > self._now["half"]:
+            self._begin_half(half)
+        if signal.phase is not None:
+            side = line.side if signal.sided else None
+            self._now |= {"phase": signal.phase, "side": side, "running": signal is START}
+            self._is_break = signal.phase is Phase.HALF_TIME
+            self._clock_runs = (self._clock_runs or signal is START) and signal.phase not in (
+                Phase.HALF_TIME,
+                Phase.FULL_TIME,
+            )
+        if signal.goals and line.side is not None:
+            before: Score = self._now["score"]
+            if before.of(line.side) + signal.goals >= 0:
+                self._now["score"] = before.plus(line.side, signal.goals)
+        self._add_event(line)
+        self._add_state()
+
+    def _begin_half(self, half: int) -> None:
+        """The teams change sides (reference 9.4: each team's own axes turn with it)."""
+        turned = (half - self._now["half"]) % 2 == 1
+        attacks = self._now.get("cyan_attacks", 1)
+        self._now |= {"half": half, "cyan_attacks": -attacks if turned else attacks}
+        self._now |= {"phase": Phase.STOPPED, "side": None, "running": False}
+        self._now["stage"] = GameStage.REGULAR if half <= 2 else GameStage.EXTRA_TIME
+        self._base, self._clock_runs, self._is_break = self._clock, False, False
+
+    def _add_event(self, line: SignalLine) -> None:
+        signal = line.signal
+        event = GameEvent(
+            **self._tick_and_time(),
+            clock=self._clock,
+            kind=signal.kind,
+            rule=RULE,
+            side=line.side,
+            score=self._now["score"] if signal.goals else None,
+            card=signal.card,
+            text=line.text,
+        )
+        self.messages.append(event)
+
+    def _add_state(self) -> None:
+        self.messages.append(
+            GameState(**self._tick_and_time(), clock=self._clock, effective=self._effective, **self._now)
+        )
+
+    def _tick_and_time(self) -> dict[str, Any]:
+        return {"tick": int(self._time / LOG_PERIOD + 1e-6), "time": self._time}

@@ -1,0 +1,217 @@
+"""The league's log → recording: what both teams said of themselves becomes the world, the signals become the game."""
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from heapq import merge
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from recordings.container.environment import libm_fingerprint, versions
+from recordings.container.header import make_attachments
+from recordings.container.manifest import Manifest, Result
+from recordings.editing.compose import TimedMessage, compose
+from recordings.exchange.msl import LOG_PERIOD
+from recordings.exchange.msl.event_log import TeamNames, read_events
+from recordings.exchange.msl.game_reconstruction import GameReconstruction
+from recordings.exchange.msl.log_files import LogFiles, log_files
+from recordings.exchange.msl.team_log import TeamLog, read_team
+from recordings.exchange.msl.tracks import Track, ball_track, fuse_balls, kicks, robot_tracks
+from schemas.config.match_config import MatchConfig
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
+from schemas.config.sections import TimeSteps
+from schemas.errors import TouchlineError
+from schemas.game import GameState
+from schemas.league.findings import Finding, Findings
+from schemas.message import VERSION
+from schemas.messages.host import Setup, TeamSetup
+from schemas.messages.world import BallTruth, RobotTruth, World
+from schemas.side import Side
+from schemas.topics import EVENT, STATE, WORLD
+
+_STEPS = TimeSteps(physics_step=LOG_PERIOD / 2, steps_per_tick=2)
+_IMPORTER = "import"
+"""Who recorded."""
+
+
+@dataclass(frozen=True, slots=True)
+class ImportSummary:
+    """What came of a log."""
+
+    out: Path
+    result: Result
+    teams: dict[Side, TeamLog]
+    signals: int
+    """That were read."""
+    kicks: int
+    """That were inferred."""
+    coped: list[Finding]
+    """Deviations from the schema that lost nothing."""
+    lost: list[Finding]
+    """What could not be read."""
+
+    def to_json(self) -> dict[str, Any]:
+        """As plain numbers and texts."""
+        return {
+            "out": str(self.out),
+            "duration": self.result.time,
+            "score": self.result.score.model_dump() if self.result.score is not None else None,
+            "teams": {
+                side.value: {
+                    "name": log.team,
+                    "records": log.records,
+                    "read": log.read,
+                    "robots": sorted(log.robots),
+                }
+                for side, log in self.teams.items()
+            },
+            "signals": self.signals,
+            "kicks_inferred": self.kicks,
+            "coped_with": [_plain(finding) for finding in self.coped],
+            "not_read": [_plain(finding) for finding in self.lost],
+        }
+
+
+def _plain(finding: Finding) -> dict[str, Any]:
+    return {"what": finding.what, "count": finding.count, "first": finding.first}
+
+
+def import_log(paths: list[Path], out: Path, profile: str = "msl", team_a: str | None = None) -> ImportSummary:
+    """Read a log from its zip, its folder or its files, and write it as a recording.
+
+    Its ticks are `LOG_PERIOD` apart. `profile` tells the pitch, which a log does not; `team_a` what team A is called in
+    the referee's signals, where they name addresses.
+
+    Raises:
+        TouchlineError: no log, nothing in it that can be read, or `out` cannot be written.
+    """
+    files, findings = log_files(paths), Findings()
+    for name in files.broken:
+        findings.place = name
+        findings.note("bytes that are no UTF-8", lost=True)
+    teams = {side: read_team(files.teams.get(letter, ""), letter, findings) for side, letter in _LETTERS.items()}
+    times_ms = [epoch_ms for log in teams.values() for epoch_ms in log.times_ms]
+    if not times_ms:
+        raise TouchlineError(f"{files.name}: no world state in it that could be read; {_main_reason(findings)}")
+    if out.exists():
+        raise TouchlineError(f"--out {out}: is there already; remove it, or give another name")
+    names = TeamNames(teams[Side.CYAN].team, teams[Side.MAGENTA].team, team_a)
+    signals = read_events(files.events or "", names, findings)
+    findings.place = files.name
+    if not signals:
+        findings.note("no signals of the referee: the ball counts as in play throughout")
+    start_ms, end_ms = min(times_ms), max(times_ms)
+    game = GameReconstruction()
+    game.reconstruct(signals, start_ms, (end_ms - start_ms) / 1e3)
+    setup = _setup(files, teams, profile)
+    world = _World(setup, teams, game, start_ms, end_ms)
+    manifest = Manifest(
+        contract=VERSION,
+        match=setup.match,
+        recorder=_IMPORTER,
+        started=datetime.fromtimestamp(start_ms / 1e3, UTC).isoformat(timespec="milliseconds"),
+        sights=False,
+        versions=versions(),
+        libm=libm_fingerprint(),
+        setup=setup,
+    )
+    result = compose(
+        out, manifest, make_attachments(None), merge(world.messages(), _game_messages(game), key=lambda one: one.sim_ns)
+    )
+    return ImportSummary(out, result, teams, len(signals), len(world.kicked), findings.coped, findings.lost)
+
+
+_LETTERS = {Side.CYAN: "A", Side.MAGENTA: "B"}
+
+
+def _main_reason(findings: Findings) -> str:
+    worst = max(findings.lost, key=lambda finding: finding.count, default=None)
+    return f"{worst.count} times {worst.what}" if worst is not None else "give a zip, or *.A.msl and *.B.msl"
+
+
+def _setup(files: LogFiles, teams: dict[Side, TeamLog], profile: str) -> Setup:
+    """The match as far as a log tells: its teams; pitch and bodies are the profile's."""
+    name = re.sub(r"\W+", "_", files.name.lower(), flags=re.ASCII).strip("_")[:30] or "log"
+    config = MatchConfig(
+        name=name if name[0].isalpha() else f"m{name}"[:32], pace="realtime", profile=profile, rules="msl"
+    )
+    setup = Setup.of(config, load_profile(profile), load_rule_book("msl"))
+    messages = {
+        side: TeamSetup(
+            name=log.team or side.value,
+            robots=[_name(side, number) for number in sorted(log.robots)],
+            goalkeeper=min(log.robots, default=0) == 1,
+        )
+        for side, log in teams.items()
+    }
+    return setup.model_copy(update={"teams": messages, "time": _STEPS})
+
+
+def _name(side: Side, number: int) -> str:
+    return f"{side.value}{number}"
+
+
+def _game_messages(game: GameReconstruction) -> Iterator[TimedMessage]:
+    for one in game.messages:
+        topic = STATE if isinstance(one, GameState) else EVENT
+        yield TimedMessage(round(one.time * 1e9), topic, topic.key, one)
+
+
+class _World:
+    """The world at each tick of the log."""
+
+    def __init__(
+        self, setup: Setup, teams: dict[Side, TeamLog], game: GameReconstruction, start_ms: float, end_ms: float
+    ) -> None:
+        count = int((end_ms - start_ms) / 1e3 / LOG_PERIOD + 1e-6) + 1
+        times = np.arange(count, dtype=np.float64) * LOG_PERIOD
+        grid_ms = start_ms + times * 1e3
+        attacks = game.attacks(times)
+        attack = {Side.CYAN: attacks, Side.MAGENTA: -attacks}
+        radius = setup.ball.radius
+        self._clock = game.clock(times)
+        self._height = setup.robot.height / 2
+        self._robots: dict[str, Track] = {
+            _name(side, number): track
+            for side, log in teams.items()
+            for number, track in robot_tracks(log, grid_ms, attack[side]).items()
+        }
+        balls = [ball_track(log, grid_ms, attack[side], radius) for side, log in teams.items()]
+        self._ball = fuse_balls(balls[0], balls[1], radius)
+        self.kicked = kicks(self._robots, self._ball, LOG_PERIOD)
+        """Index of a tick → who kicked."""
+
+    def messages(self) -> Iterator[TimedMessage]:
+        """A world for each tick at which anything is known."""
+        clock, ball = self._clock.tolist(), self._ball.values.T.tolist()
+        known = {name: track.known.tolist() for name, track in self._robots.items()}
+        values = {name: track.values.T.tolist() for name, track in self._robots.items()}
+        for tick in range(len(clock)):
+            robots = {name: self._robot(values[name][tick]) for name in known if known[name][tick]}
+            if not robots and not self._ball.known[tick]:
+                continue
+            x, y, z, vx, vy, vz, _ = ball[tick]
+            holders = [name for name, robot in robots.items() if robot.holding]
+            kicker = self.kicked.get(tick)
+            world = World(
+                tick=tick,
+                time=tick * LOG_PERIOD,
+                robots=robots,
+                ball=BallTruth(x=x, y=y, z=z, vx=vx, vy=vy, vz=vz),
+                possession=min(
+                    holders, key=lambda name: math.hypot(robots[name].x - x, robots[name].y - y), default=None
+                ),
+                touches=holders if kicker is None or kicker in holders else [*holders, kicker],
+                kicked=kicker,
+                clock=clock[tick],
+            )
+            yield TimedMessage(round(world.time * 1e9), WORLD, WORLD.key, world)
+
+    def _robot(self, values: list[float]) -> RobotTruth:
+        x, y, heading, vx, vy, omega, with_ball = values
+        return RobotTruth(x=x, y=y, z=self._height, heading=heading, vx=vx, vy=vy, omega=omega, holding=with_ball > 0.5)

@@ -1,0 +1,132 @@
+"""Both teams' records on one even grid of moments, in the field frame.
+
+Between two records of a team, numbers go evenly from one to the other, headings the shorter way; what a team does not
+say for longer than `GAP_S` is unknown.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from recordings.exchange.msl.team_log import GAP_S, TeamLog
+from schemas.league.axes import heading_across, vector_to_field
+
+Array = npt.NDArray[np.float64]
+Mask = npt.NDArray[np.bool_]
+
+_EXTRAPOLATE_S = 0.2
+"""At the edge of a gap the last word stands this long. Ours: two records at the league's slowest rate."""
+_AGREE_M = 1.0
+"""Two teams that see the ball closer together see the same ball. Ours: a good deal more than they err."""
+_KICK_S = 0.4
+_KICK_M = 0.8
+"""A ball that was in hand and is this far away this much later was kicked. Ours: 2 m/s; a lost one is slower."""
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """One body on the grid: `values` has a column for each moment; NaN where `known` is not."""
+
+    known: Mask
+    values: Array
+    """Robot: x, y, heading, vx, vy, omega, with the ball (1 or 0). Ball: x, y, z, vx, vy, vz, confidence."""
+
+
+def robot_tracks(log: TeamLog, grid_ms: Array, attack: Array) -> dict[int, Track]:
+    """Number → track of each robot of a team that attacks as `attack` says at each moment."""
+    tracks = {}
+    for number in sorted(log.robots):
+        rows = _filled(np.array(log.robots[number]), velocity=(4, 5))
+        rows[:, 3] = np.unwrap(_last_known(rows[:, 3]))
+        rows[:, 6] = np.nan_to_num(rows[:, 6])
+        known, at = _resampled(rows, grid_ms, kept=7)
+        x, y = vector_to_field(at[0], at[1], attack)
+        vx, vy = vector_to_field(at[3], at[4], attack)
+        tracks[number] = Track(known, np.array([x, y, heading_across(at[2], attack), vx, vy, at[5], at[6]]))
+    return tracks
+
+
+def ball_track(log: TeamLog, grid_ms: Array, attack: Array, radius: float) -> Track:
+    """The ball as one team sees it; on the ground where its height is not said."""
+    if not log.balls:
+        return Track(np.zeros(len(grid_ms), bool), np.full((7, len(grid_ms)), np.nan))
+    rows = _filled(np.array(log.balls), velocity=(4, 5))
+    rows[:, 3] = np.fmax(rows[:, 3], radius)
+    rows[:, 6] = np.nan_to_num(rows[:, 6])
+    known, at = _resampled(rows, grid_ms, kept=None)
+    x, y = vector_to_field(at[0], at[1], attack)
+    vx, vy = vector_to_field(at[3], at[4], attack)
+    return Track(known, np.array([x, y, at[2], vx, vy, at[5], at[6]]))
+
+
+def fuse_balls(first: Track, second: Track, radius: float) -> Track:
+    """Where both teams agree, the mean of what they see, by their confidence; else what the surer one sees.
+
+    Where neither sees it, it lies where it was last, and before that on the centre mark.
+    """
+    a, b = np.nan_to_num(first.values), np.nan_to_num(second.values)
+    sure_a, sure_b = a[6] * first.known, b[6] * second.known
+    both = first.known & second.known
+    agree = both & (np.hypot(a[0] - b[0], a[1] - b[1]) <= _AGREE_M)
+    total = sure_a + sure_b
+    share = np.divide(sure_a, total, out=np.full_like(total, 0.5), where=total > 0)
+    only_a = first.known & ~(second.known & (sure_b > sure_a))
+    seen = np.where(agree, share * a + (1 - share) * b, np.where(only_a, a, b))
+    known = first.known | second.known
+    newest = np.maximum.accumulate(np.where(known, np.arange(len(known)), -1))
+    start = np.array([0.0, 0.0, radius, 0.0, 0.0, 0.0, 0.0])[:, None]
+    last = np.where(newest >= 0, seen[:, np.maximum(newest, 0)], start)
+    last[3:6, ~known] = 0.0
+    last[2, ~known] = radius
+    return Track(known, last)
+
+
+def kicks(robots: dict[str, Track], ball: Track, period: float) -> dict[int, str]:
+    """Index of a moment → the robot that kicked then: it had the ball, has it no more, and the ball goes away fast.
+
+    A log does not tell of kicks; this is inferred from what it tells.
+    """
+    with_ball = {name: track.known & (np.nan_to_num(track.values[6]) > 0.5) for name, track in robots.items()}
+    count, later = len(ball.known), max(1, round(_KICK_S / period))
+    found: dict[int, str] = {}
+    for name, mask in with_ball.items():
+        for end in (np.flatnonzero(mask[:-1] & ~mask[1:]) + 1).tolist():
+            after = min(end + later, count - 1)
+            away = np.hypot(*(ball.values[:2, after] - robots[name].values[:2, end - 1]))
+            is_taken = any(other[end : after + 1].any() for other in with_ball.values())
+            if ball.known[after] and away >= _KICK_M and not is_taken:
+                found[end] = name
+    return found
+
+
+def _filled(rows: Array, velocity: tuple[int, int]) -> Array:
+    """Velocities that were not said, from the way between neighbouring records."""
+    for place, column in enumerate(velocity, 1):
+        missing = np.isnan(rows[:, column])
+        if missing.any():
+            ways = np.gradient(rows[:, place], (rows[:, 0] - rows[0, 0]) / 1e3) if len(rows) > 1 else np.zeros(1)
+            rows[missing, column] = ways[missing]
+    return rows
+
+
+def _last_known(values: Array) -> Array:
+    """Each value that is not known becomes the last that was, or 0."""
+    newest = np.maximum.accumulate(np.where(np.isnan(values), -1, np.arange(len(values))))
+    return np.where(newest >= 0, values[np.maximum(newest, 0)], 0.0)
+
+
+def _resampled(rows: Array, grid_ms: Array, kept: int | None) -> tuple[Mask, Array]:
+    """All columns but the time on the grid; column `kept` is that of the record before, not a mean."""
+    times = rows[:, 0]
+    before = np.searchsorted(times, grid_ms, side="right") - 1
+    first = np.maximum(before, 0)
+    second = np.minimum(first + 1, len(times) - 1)
+    gap_ms = times[second] - times[first]
+    near = (gap_ms > 0) & (gap_ms <= GAP_S * 1e3)
+    share = np.where(near, (grid_ms - times[first]) / np.where(near, gap_ms, 1.0), 0.0)
+    known = (before >= 0) & (near | (grid_ms - times[first] <= _EXTRAPOLATE_S * 1e3))
+    values = rows[first] + share[:, None] * (rows[second] - rows[first])
+    if kept is not None:
+        values[:, kept] = rows[first, kept]
+    return known, np.where(known[:, None], values, np.nan)[:, 1:].T

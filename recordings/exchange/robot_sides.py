@@ -1,0 +1,19 @@
+"""Which side each robot of a recording plays for."""
+
+from recordings.reading.recording import Recording
+from schemas.side import Side
+from schemas.topics import APPLIED
+
+_ROSTER = b'"robots":['
+"""In the few `host/applied` that tell who takes part."""
+
+
+def sides_of(recording: Recording) -> dict[str, Side]:
+    """Robot → its side, for every robot that was there at any time: as the setup and each change of the roster say."""
+    setup = recording.manifest.setup
+    sides = {name: side for side, team in setup.teams.items() for name in team.robots} if setup is not None else {}
+    for recorded in recording.messages(APPLIED.key):
+        if _ROSTER in recorded.payload:
+            roster = recorded.message().robots or []
+            sides |= {entry.name: entry.side for entry in roster}
+    return sides

@@ -1,0 +1,209 @@
+"""The facts of a recording: what was played, how it ended, what was recorded and what was lost."""
+
+import dataclasses
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from recordings.container.manifest import KeyCount
+from recordings.reading.recording import Recording
+from recordings.recorder.match_progress import MatchProgress
+from recordings.recorder.sequence_tracker import SequenceTracker
+from schemas.game import Phase, Score
+from schemas.topics import EVENT
+
+CUT_OFF = "cut_off"
+"""How a recording ended whose recorder did not finish it."""
+
+
+@dataclass(frozen=True, slots=True)
+class KeyFacts:
+    """One key."""
+
+    key: str
+    message: str
+    messages: int
+    rate: float
+    """Messages per simulated second."""
+    bytes: int
+    """Sum of the payloads."""
+    lost: int
+    missed_before_start: int
+
+
+@dataclass(frozen=True, slots=True)
+class RecordingFacts:
+    """A recording in figures."""
+
+    path: str
+    complete: bool
+    """Not cut off."""
+    match: str
+    pace: str | None
+    profile: str | None
+    rules: str | None
+    seed: int | None
+    teams: dict[str, str]
+    """Side → name of its team."""
+    started: str
+    """Wall time, ISO 8601, UTC."""
+    duration: float
+    """Simulated s."""
+    tick: int
+    """The last tick whose inputs were recorded."""
+    phase: str | None
+    score: dict[str, int] | None
+    ended: str
+    events: int
+    messages: int
+    lost: int
+    missed_before_start: int
+    left_out: int
+    """Messages that came while the recorder was paused."""
+    part: int
+    """Which file of a recording that was split, from 1."""
+    standing: int
+    """So many messages at the beginning of the file repeat what stood when it began."""
+    made: str
+    """`recorded`, or how it was made of other recordings."""
+    include: list[str]
+    """Key expressions that were recorded; all where there is none."""
+    exclude: list[str]
+    """Key expressions that were not."""
+    damaged: list[str]
+    """Attachments that are missing, or whose bytes have changed."""
+    drawn: dict[str, int]
+    """Topic → messages that are there for viewers alone; none of them is in the counts."""
+    size: int
+    """Bytes of the file."""
+    keys: list[KeyFacts]
+
+    def to_json(self) -> dict[str, Any]:
+        """The facts as plain lists, numbers and texts."""
+        return dataclasses.asdict(self)
+
+
+def facts_of(recording: Recording) -> RecordingFacts:
+    """The facts of a recording; those of a file that was cut off are gathered from its messages."""
+    manifest, setup, config = recording.manifest, recording.manifest.setup, recording.manifest.config
+    ending = _ending(recording)
+    described = setup or config
+    teams = {side.value: team.name for side, team in setup.teams.items()} if setup is not None else {}
+    return RecordingFacts(
+        path=str(recording.path),
+        complete=recording.complete,
+        match=manifest.match,
+        pace=described.pace if described is not None else None,
+        profile=described.profile if described is not None else None,
+        rules=described.rules if described is not None else None,
+        seed=config.seed if config is not None else None,
+        teams=teams,
+        started=manifest.started,
+        duration=ending.time,
+        tick=ending.tick,
+        phase=ending.phase.value if ending.phase is not None else None,
+        score=ending.score.model_dump() if ending.score is not None else None,
+        ended=ending.ended,
+        events=ending.keys.get(EVENT.key, KeyCount()).messages,
+        messages=sum(count.messages for count in ending.keys.values()),
+        lost=sum(count.lost for count in ending.keys.values()),
+        missed_before_start=sum(count.missed_before_start for count in ending.keys.values()),
+        left_out=sum(count.left_out for count in ending.keys.values()),
+        part=manifest.part,
+        standing=manifest.standing,
+        made=manifest.made,
+        include=manifest.include,
+        exclude=manifest.exclude,
+        damaged=recording.damaged,
+        drawn=recording.drawn,
+        size=recording.path.stat().st_size,
+        keys=list(_key_facts(recording, ending.keys)),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Ending:
+    ended: str
+    phase: Phase | None
+    score: Score | None
+    tick: int
+    time: float
+    keys: dict[str, KeyCount]
+
+
+def _ending(recording: Recording) -> _Ending:
+    result = recording.result
+    if result is not None:
+        return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, result.keys)
+    progress = MatchProgress()
+    trackers: dict[str, SequenceTracker] = {}
+    for number, recorded in enumerate(recording.messages()):
+        received = recorded.received()
+        progress.update([received])
+        if number >= recording.manifest.standing:
+            trackers.setdefault(recorded.key, SequenceTracker()).add(received.stamp, len(received.payload))
+    progress.catch_up()
+    state, applied = progress.state, progress.applied
+    return _Ending(
+        ended=CUT_OFF,
+        phase=state.phase if state is not None else None,
+        score=state.score if state is not None else None,
+        tick=applied.tick if applied is not None else -1,
+        time=applied.time if applied is not None else 0.0,
+        keys={key: tracker.count() for key, tracker in trackers.items()},
+    )
+
+
+def _key_facts(recording: Recording, counts: dict[str, KeyCount]) -> Iterator[KeyFacts]:
+    for channel in recording.channels:
+        count = counts.get(channel.key, KeyCount())
+        yield KeyFacts(
+            key=channel.key,
+            message=channel.message,
+            messages=channel.messages,
+            rate=channel.rate,
+            bytes=count.bytes,
+            lost=count.lost,
+            missed_before_start=count.missed_before_start,
+        )
+
+
+HEADINGS = ("key", "message", "messages", "per s", "bytes", "lost")
+"""Of the table that `key_rows` gives."""
+
+
+def key_rows(facts: RecordingFacts) -> list[tuple[str, ...]]:
+    """The table of keys as texts, below `HEADINGS`."""
+    return [
+        (key.key, key.message, str(key.messages), f"{key.rate:.1f}", str(key.bytes), str(key.lost))
+        for key in facts.keys
+    ]
+
+
+def summary_lines(facts: RecordingFacts) -> list[tuple[str, str]]:
+    """The facts themselves as texts: name and value, what is unknown left out."""
+    score = f"{facts.score['cyan']} : {facts.score['magenta']}" if facts.score is not None else None
+    values: dict[str, str | None] = {
+        "match": facts.match,
+        "teams": " – ".join(facts.teams.values()) or None,
+        "score": score,
+        "phase": facts.phase,
+        "ended": facts.ended,
+        "pace": facts.pace,
+        "profile": facts.profile,
+        "rules": facts.rules,
+        "seed": str(facts.seed) if facts.seed is not None else None,
+        "started": facts.started,
+        "duration": f"{facts.duration:.2f} s simulated, {facts.tick + 1} ticks",
+        "messages": f"{facts.messages}, {facts.lost} lost, {facts.missed_before_start} sent before it began",
+        "paused": f"{facts.left_out} messages left out meanwhile" if facts.left_out else None,
+        "lost on": ", ".join(f"{key.key} {key.lost}" for key in facts.keys if key.lost) or None,
+        "keys": " ".join([*facts.include, *(f"not {key}" for key in facts.exclude)]) or None,
+        "made": facts.made if facts.made != "recorded" else None,
+        "part": f"{facts.part}, begins with {facts.standing} messages that stood" if facts.standing else None,
+        "for viewers": " ".join(facts.drawn) or None,
+        "damaged": ", ".join(facts.damaged) or None,
+        "events": str(facts.events),
+        "size": f"{facts.size} bytes" + ("" if facts.complete else ", cut off"),
+    }
+    return [(name, value) for name, value in values.items() if value is not None]

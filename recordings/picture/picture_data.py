@@ -1,0 +1,119 @@
+"""What a picture tells, read from a recording: moments, goals, the time in play."""
+
+from bisect import bisect_right
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from recordings.reading.recording import RecordedMessage, open_recording
+from schemas.errors import TouchlineError
+from schemas.game import EventKind, GameEvent, GameState, Phase, Score
+from schemas.messages.host import Setup
+from schemas.messages.world import World
+from schemas.side import Side
+from schemas.topics import EVENT, STATE, WORLD
+
+TRAIL_S = 3.0
+"""Simulated time that the trails reach back, in s."""
+_HYPHENATED = {Phase.KICK_OFF: "kick-off", Phase.THROW_IN: "throw-in"}
+
+
+class Goal(NamedTuple):
+    """A goal: simulated time in s, whose it is, and where the ball was, in m of the field frame."""
+
+    time: float
+    side: Side | None
+    x: float
+    y: float
+
+
+@dataclass(frozen=True, slots=True)
+class PanelData:
+    """The field at one time, and how it came to that."""
+
+    worlds: list[World]
+    """From the beginning of the trails to the moment itself."""
+    state: GameState | None
+
+    @property
+    def now(self) -> World:
+        """The field at that time."""
+        return self.worlds[-1]
+
+    @property
+    def score(self) -> Score | None:
+        """The score at that time, if the referee told it."""
+        return self.state.score if self.state is not None else None
+
+    @property
+    def caption(self) -> str:
+        """Game clock and phase."""
+        minutes, seconds = divmod(int(self.now.clock), 60)
+        clock = f"{minutes}:{seconds:02d}"
+        if self.state is None:
+            return clock
+        phase = _HYPHENATED.get(self.state.phase, self.state.phase.value.replace("_", " "))
+        return f"{clock}   {phase}, {self.state.side.value}" if self.state.side is not None else f"{clock}   {phase}"
+
+
+class PictureData:
+    """A recording, as pictures need it."""
+
+    def __init__(self, path: Path) -> None:
+        """Read what the referee said.
+
+        Raises:
+            TouchlineError: not a recording, or one without the host's setup or without any picture of the field.
+        """
+        self._recording = recording = open_recording(path)
+        extent = next((channel for channel in recording.channels if channel.key == WORLD.key), None)
+        if recording.manifest.setup is None or extent is None:
+            raise TouchlineError(f"{path}: holds no picture of the field; record a match that is played")
+        self.setup: Setup = recording.manifest.setup
+        self.start, self.end = extent.start, extent.end
+        messages = [message for _, message in recording.decoded(STATE.key, EVENT.key)]
+        self._states: list[GameState] = [message for message in messages if isinstance(message, GameState)]
+        self._state_times = [state.time for state in self._states]
+        events = [message for message in messages if isinstance(message, GameEvent) and message.kind is EventKind.GOAL]
+        self.goals = [goal for event in events for goal in self._goal(event)]
+
+    def panel_data(self, time: float) -> PanelData:
+        """The field at a simulated time in s.
+
+        Raises:
+            TouchlineError: nothing was recorded there.
+        """
+        worlds = [world for _, world in self._worlds(time - TRAIL_S, time)]
+        if not worlds or time < self.start:
+            raise TouchlineError(
+                f"{self._recording.path}: nothing at {time:g} s; it holds {self.start:g} to {self.end:g} s"
+            )
+        return PanelData(worlds, self._state_at(time))
+
+    def score_at(self, time: float) -> Score | None:
+        """The score at a simulated time in s."""
+        state = self._state_at(time)
+        return state.score if state is not None else None
+
+    def last_play(self) -> float:
+        """The last simulated time at which the ball was known to be in play, or the last of all."""
+        return max((state.time for state in self._states if state.phase is Phase.PLAY), default=self.end)
+
+    def in_play(self) -> list[World]:
+        """The field at each tick at which the ball was in play; at every tick where the referee said nothing."""
+        worlds = [world for _, world in self._worlds(self.start, self.end)]
+        playing = [world for world in worlds if (state := self._state_at(world.time)) and state.phase is Phase.PLAY]
+        return playing or worlds
+
+    def _worlds(self, start: float, end: float) -> Iterator[tuple[RecordedMessage, World]]:
+        return self._recording.decoded(WORLD.key, start=start, end=end + self.setup.time.tick / 2)
+
+    def _state_at(self, time: float) -> GameState | None:
+        before = bisect_right(self._state_times, time + self.setup.time.tick / 2)
+        return self._states[before - 1] if before else None
+
+    def _goal(self, event: GameEvent) -> list[Goal]:
+        """The goal with the place of the ball, unless that tick was not recorded."""
+        balls = [world.ball for _, world in self._worlds(event.time, event.time)]
+        return [Goal(event.time, event.side, balls[0].x, balls[0].y)] if balls else []

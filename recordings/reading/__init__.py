@@ -1,0 +1,1 @@
+"""Reads recordings: whole, by a cursor while they grow, or tick by tick."""

@@ -1,0 +1,131 @@
+"""Whether the inputs that a host says it applied are the commands that are recorded of the robots' programs."""
+
+from collections.abc import Container, Iterable
+from typing import Any, NamedTuple
+
+from pydantic_core import from_json
+
+from recordings.reading.recording import RecordedMessage
+from schemas.message import BadMessageError
+from schemas.messages.command import Command
+from schemas.messages.host import Applied, AppliedInput
+
+_KEPT = 1000
+"""Commands of one robot that are kept: longer than any of them counts."""
+
+
+class CommandMismatch(NamedTuple):
+    """An input, and the command that it is said to be."""
+
+    tick: int
+    """At which it was applied."""
+    robot: str
+    field: str
+    """`drive.vx`; `command` where none was recorded."""
+    applied: object
+    sent: object
+
+
+class _SentCommand(NamedTuple):
+    payload: bytes
+    fields: dict[str, Any]
+    """As they stand in it, not validated."""
+
+
+class CommandCheck:
+    """Follows commands and inputs of a segment of a match."""
+
+    def __init__(self, checked: Container[str], complete: Container[str], first_tick: int) -> None:
+        """`checked`: robots that are moved by recorded commands; `complete`: those of them of whose none is missing.
+
+        The answers to sights of `first_tick` and later must have been recorded.
+        """
+        self._checked = checked
+        self._complete = complete
+        self._first_tick = first_tick
+        self._sent: dict[str, dict[int, list[_SentCommand]]] = {}
+        self._pending: dict[tuple[str, int], tuple[int, AppliedInput]] = {}
+        self._mismatches: list[CommandMismatch] = []
+
+    def add_command(self, recorded: RecordedMessage) -> None:
+        """A program sent a command."""
+        robot = recorded.key.split("/")[1]
+        try:
+            fields = from_json(recorded.payload)
+            answers = fields["answers_tick"]
+        except (ValueError, KeyError, TypeError):
+            return  # the host took no notice of it either
+        kept = self._sent.setdefault(robot, {})
+        kept.setdefault(answers, []).append(_SentCommand(recorded.payload, fields))
+        if len(kept) > _KEPT:
+            del kept[next(iter(kept))]
+
+    def add_applied(self, applied: Applied) -> None:
+        """A host applied these inputs."""
+        for robot, input_ in applied.inputs.items():
+            if input_.answers_tick is None or robot not in self._checked:
+                continue
+            sent = self._sent.get(robot, {}).get(input_.answers_tick)
+            if sent is not None:
+                self._mismatches += _compare(applied.tick, robot, input_, sent)
+            elif robot in self._complete and input_.answers_tick >= self._first_tick:
+                self._pending[robot, input_.answers_tick] = applied.tick, input_
+
+    def mismatches(self) -> list[CommandMismatch]:
+        """All that were found, in the order of their ticks, when nothing more comes."""
+        for (robot, answers), (tick, input_) in self._pending.items():
+            sent = self._sent.get(robot, {}).get(answers)
+            if sent is None:
+                self._mismatches.append(CommandMismatch(tick, robot, "command", f"answers tick {answers}", None))
+            else:
+                self._mismatches += _compare(tick, robot, input_, sent)
+        self._pending = {}
+        return sorted(self._mismatches, key=_tick_of)
+
+
+def _tick_of(candidate: CommandMismatch) -> int:
+    return candidate.tick
+
+
+def _compare(tick: int, robot: str, input_: AppliedInput, sent: Iterable[_SentCommand]) -> list[CommandMismatch]:
+    """Where an input is none of the commands that answer the same sight; nothing where it is one of them."""
+    if any(_is_verbatim(input_, candidate.fields) for candidate in sent):
+        return []
+    mismatches: list[CommandMismatch] = []
+    applied = _fields(input_)
+    for candidate in sent:
+        try:
+            claimed = _fields(Command.decode(candidate.payload))
+        except BadMessageError:
+            continue
+        if claimed == applied:
+            return []
+        mismatches = mismatches or [
+            CommandMismatch(tick, robot, name, applied[name], claimed[name])
+            for name in applied
+            if applied[name] != claimed[name]
+        ]
+    return mismatches or [CommandMismatch(tick, robot, "command", "applied", None)]
+
+
+def _is_verbatim(input_: AppliedInput, fields: dict[str, Any]) -> bool:
+    """Whether a command says just that in the words of this library; one that leaves out what is nothing may, too."""
+    drive, command_drive = input_.drive, fields.get("drive")
+    return (
+        input_.kick is None
+        and fields.get("kick", 0) is None
+        and fields.get("dribble") is input_.dribble
+        and command_drive == {"vx": drive.vx, "vy": drive.vy, "omega": drive.omega}
+    )
+
+
+def _fields(message: AppliedInput | Command) -> dict[str, Any]:
+    drive, kick = message.drive, message.kick
+    return {
+        "drive.vx": drive.vx,
+        "drive.vy": drive.vy,
+        "drive.omega": drive.omega,
+        "dribble": message.dribble,
+        "kick.mode": None if kick is None else kick.mode.value,
+        "kick.speed": None if kick is None else kick.speed,
+    }

@@ -1,0 +1,197 @@
+"""Reads a recording: its manifest and result, its channels, its messages as they came or as the schemas have them."""
+
+from collections import Counter
+from collections.abc import Iterator
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from recordings.container.manifest import (
+    MANIFEST,
+    RESULT,
+    Manifest,
+    Result,
+    digest,
+    from_metadata,
+    is_sealed,
+)
+from recordings.container.mcap_file import ChannelRecord, McapFile, is_derived, open_mcap_file
+from schemas.bus.contract import ReceivedMessage, Stamp
+from schemas.errors import TouchlineError
+from schemas.message import VERSION, BadMessageError
+from schemas.topic import Topic
+from schemas.topics import TOPICS
+
+
+class ChannelFacts(NamedTuple):
+    """One key of a recording; times in s of simulated time."""
+
+    key: str
+    topic: str
+    """Name of its row in the topic table."""
+    message: str
+    messages: int
+    start: float
+    end: float
+
+    @property
+    def rate(self) -> float:
+        """Messages per simulated second between the first and the last."""
+        return (self.messages - 1) / (self.end - self.start) if self.end > self.start else 0.0
+
+
+class RecordedMessage(NamedTuple):
+    """A message of a recording, read only when somebody asks for it."""
+
+    key: str
+    topic: Topic
+    payload: bytes
+    log_ns: int
+    """Simulated time in ns."""
+    sent_ns: int
+    """Wall time at which it was sent, ns since 1970."""
+    sequence: int
+    """Its sender's number on this key, modulo 2³²."""
+
+    @property
+    def time(self) -> float:
+        """Simulated time in s."""
+        return self.log_ns / 1e9
+
+    def received(self) -> ReceivedMessage:
+        """The message as it came over the bus."""
+        return ReceivedMessage(self.topic, self.key, self.payload, Stamp(self.sequence, self.sent_ns, self.log_ns))
+
+    def message(self) -> Any:
+        """The validated message.
+
+        Raises:
+            BadMessageError: the payload is not a message of its topic.
+        """
+        assert self.topic.message is not None
+        return self.topic.message.decode(self.payload)
+
+
+class Recording:
+    """A recording that was opened; holds no file open between two calls."""
+
+    def __init__(self, mcap_file: McapFile, manifest: Manifest, result: Result | None) -> None:
+        self.mcap_file = mcap_file
+        self.path = mcap_file.path
+        self.complete = mcap_file.complete
+        """Not cut off."""
+        self.library = mcap_file.library
+        """Who wrote the file."""
+        self.manifest = manifest
+        self.result = result
+        """How the match ended; nothing in a file that was cut off."""
+        self.attachments = {
+            name: content
+            for name, content in mcap_file.attachments.items()
+            if digest(content) == manifest.attached.get(name, digest(content))
+        }
+        """What is attached to the file and whole."""
+        self.damaged = sorted(({*manifest.attached, *mcap_file.attachments}) - {*self.attachments})
+        """Attachments that are missing, or whose bytes have changed."""
+        self.unreadable: Counter[str] = Counter()
+        """Payloads that `decoded` passed over because they are no valid message, by key."""
+        self._topics = {channel.key: _topic(channel) for channel in mcap_file.channels.values()}
+
+    @property
+    def channels(self) -> list[ChannelFacts]:
+        """The keys of this recording, sorted."""
+        facts = [
+            ChannelFacts(
+                key=channel.key,
+                topic=channel.metadata.get("topic", ""),
+                message=channel.metadata.get("message", ""),
+                messages=channel.messages,
+                start=channel.first_ns / 1e9,
+                end=channel.last_ns / 1e9,
+            )
+            for channel in self.mcap_file.channels.values()
+            if not is_derived(channel.metadata)
+        ]
+        return sorted(facts)
+
+    @property
+    def drawn(self) -> dict[str, int]:
+        """Topic → messages, of the channels that are there for viewers alone."""
+        channels = sorted(self.mcap_file.channels.values(), key=lambda channel: channel.key)
+        return {channel.key: channel.messages for channel in channels if is_derived(channel.metadata)}
+
+    def messages(self, *keys: str, start: float | None = None, end: float | None = None) -> Iterator[RecordedMessage]:
+        """Messages in the order they were recorded in, from `start` up to and without `end`, s of simulated time.
+
+        `keys` are keys or patterns as `Topic.fill()` gives them, `robot/*/command`; by default every key whose topic
+        this version knows.
+
+        Raises:
+            TouchlineError: the file is damaged inside.
+        """
+        wanted = {key for key, topic in self._topics.items() if topic is not None and _wanted(key, keys)}
+        for key, message in self.mcap_file.messages(wanted, _ns(start), _ns(end)):
+            topic = self._topics[key]
+            if topic is not None:
+                yield RecordedMessage(
+                    key, topic, message.data, message.log_time, message.publish_time, message.sequence
+                )
+
+    def decoded(
+        self, *keys: str, start: float | None = None, end: float | None = None
+    ) -> Iterator[tuple[RecordedMessage, Any]]:
+        """As `messages`, each with its validated message; what does not validate is counted and passed over."""
+        for recorded in self.messages(*keys, start=start, end=end):
+            try:
+                yield recorded, recorded.message()
+            except BadMessageError:
+                self.unreadable[recorded.key] += 1
+
+
+def open_recording(path: Path, *, whole: bool = False) -> Recording:
+    """Open a recording; one that was cut off can be read up to the cut, unless it has to be `whole`.
+
+    Raises:
+        TouchlineError: no such file, not a recording, cut off before its manifest, or of another major version.
+    """
+    mcap_file = open_mcap_file(path)
+    if whole and not mcap_file.complete:
+        raise TouchlineError(f"{path}: truncated file, its recorder did not finish it; recover it first")
+    if MANIFEST not in mcap_file.metadata:
+        if not mcap_file.complete:
+            raise TouchlineError(f"{path}: truncated file, cut off before its manifest; nothing in it can be read")
+        raise TouchlineError(f"{path}: an MCAP file without a manifest, not a recording of a match; record one")
+    if not mcap_file.complete and not is_sealed(mcap_file.metadata.get(RESULT, {})):
+        mcap_file.metadata.pop(RESULT, None)  # it was being written when the file was cut off
+    for name in (MANIFEST, RESULT):
+        if name in mcap_file.metadata and not is_sealed(mcap_file.metadata[name]):
+            raise TouchlineError(f"{path}: its {name} is damaged, bytes of it have changed; take another copy of it")
+    try:
+        manifest = from_metadata(Manifest, mcap_file.metadata[MANIFEST])
+        result = from_metadata(Result, mcap_file.metadata[RESULT]) if RESULT in mcap_file.metadata else None
+    except TouchlineError as error:
+        _check_version(path, mcap_file.metadata[MANIFEST].get("contract", ""))
+        raise TouchlineError(f"{path}: its manifest or result is damaged: {error}") from None
+    _check_version(path, manifest.contract)
+    return Recording(mcap_file, manifest, result)
+
+
+def _check_version(path: Path, theirs: str) -> None:
+    if theirs.split(".")[0] != VERSION.split(".")[0]:
+        raise TouchlineError(
+            f"{path}: recorded with messages of version {theirs}, this program speaks {VERSION}; "
+            "open it with the program that recorded it"
+        )
+
+
+def _topic(channel: ChannelRecord) -> Topic | None:
+    topic = TOPICS.get(channel.metadata.get("topic", ""))
+    return topic if topic is not None and topic.message is not None else None
+
+
+def _wanted(key: str, patterns: tuple[str, ...]) -> bool:
+    return not patterns or any(fnmatchcase(key, pattern) for pattern in patterns)
+
+
+def _ns(seconds: float | None) -> int | None:
+    return round(seconds * 1e9) if seconds is not None else None

@@ -1,0 +1,42 @@
+"""The loss counts of a recording: what came on every key, what was lost, and how much of it stands in this file."""
+
+from collections.abc import Iterable
+
+from recordings.container.manifest import KeyCount
+from recordings.recorder.latched_messages import LoggedMessage
+from recordings.recorder.sequence_tracker import SequenceTracker
+
+
+class LossCounts:
+    """The trackers of all keys, and where they stood when this file began."""
+
+    def __init__(self) -> None:
+        self._trackers: dict[str, SequenceTracker] = {}
+        self._before: dict[str, KeyCount] = {}
+
+    def add(self, batch: Iterable[LoggedMessage], *, left_out: bool = False) -> None:
+        """Messages are written, or, with `left_out`, passed over because the recorder is paused."""
+        trackers = self._trackers
+        for _, received in batch:
+            tracker = trackers.get(received.key)
+            if tracker is None:
+                tracker = trackers[received.key] = SequenceTracker()
+            tracker.add(received.stamp, len(received.payload), left_out)
+
+    def for_this_file(self) -> dict[str, KeyCount]:
+        """Key → its counts since this file began, sorted."""
+        counts = {}
+        for key, tracker in sorted(self._trackers.items()):
+            count = tracker.count().since(self._before.get(key, KeyCount()))
+            if count != KeyCount():
+                counts[key] = count
+        return counts
+
+    def start_file(self) -> None:
+        """Another file begins."""
+        self._before = {key: tracker.count() for key, tracker in self._trackers.items()}
+
+    @property
+    def losses(self) -> dict[str, int]:
+        """Key → messages lost in all files; the keys without loss are left out."""
+        return {key: tracker.lost for key, tracker in sorted(self._trackers.items()) if tracker.lost}

@@ -1,0 +1,105 @@
+"""What the recorder itself reads of what it records: how far the match is, its score, its phase."""
+
+from collections import Counter
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from schemas.bus.contract import ReceivedMessage
+from schemas.config.roster import RosterEntry
+from schemas.game import EventKind, GameEvent, GameState, Phase
+from schemas.message import BadMessageError
+from schemas.messages.host import Applied, Health
+from schemas.topics import APPLIED, EVENT, HEALTH, STATE
+
+_ROSTER_MARK = b'"robots":['
+"""In the inputs of a tick in which others take part than before."""
+
+
+class MatchProgress:
+    """Follows a match by a few of its messages; one that cannot be read is counted and passed over."""
+
+    def __init__(self) -> None:
+        self.applied: Applied | None = None
+        self.state: GameState | None = None
+        self.goals = 0
+        self.unreadable: Counter[str] = Counter()
+        """Payloads that could not be read, by key."""
+        self._newest_applied: ReceivedMessage | None = None
+        self._roster_changed: Callable[[list[RosterEntry]], None] = _ignore_roster
+        self._joined_at_tick = -1
+        self._handlers = {
+            APPLIED.key: self._on_applied,
+            STATE.key: self._on_state,
+            EVENT.key: self._on_event,
+            HEALTH.key: self._on_health,
+        }
+
+    @property
+    def tick(self) -> int:
+        """The newest tick whose inputs were taken in; −1 before the first.
+
+        A recorder that joins late starts from where the host is: it is not behind by all that was before it came.
+        """
+        return self.applied.tick if self.applied is not None else self._joined_at_tick
+
+    def tick_at(self, sim_ns: int) -> int:
+        """The newest tick whose inputs were taken in and which had begun at this simulated time, in ns."""
+        applied = self.applied
+        if applied is None or applied.tick <= 0 or applied.time <= 0.0:
+            return self.tick
+        behind_s = applied.time - sim_ns * 1e-9
+        return applied.tick - max(0, round(behind_s * applied.tick / applied.time))
+
+    @property
+    def finished(self) -> bool:
+        """The match was played to its end."""
+        return self.state is not None and self.state.phase is Phase.FULL_TIME
+
+    def on_roster_change(self, callback: Callable[[list[RosterEntry]], None]) -> None:
+        """Tell `callback` who takes part, whenever that has changed."""
+        self._roster_changed = callback
+
+    def update(self, messages: Iterable[ReceivedMessage]) -> None:
+        """Look at messages; most are none of ours."""
+        handlers = self._handlers
+        for received in messages:
+            handler = handlers.get(received.key)
+            if handler is not None:
+                handler(received)
+
+    def catch_up(self) -> None:
+        """Read the newest inputs that were taken: once for many ticks, for speed."""
+        if self._newest_applied is not None:
+            self.applied = self.read(self._newest_applied) or self.applied
+            self._newest_applied = None
+
+    def read(self, received: ReceivedMessage) -> Any:
+        """The message, or nothing."""
+        try:
+            return received.message()
+        except BadMessageError:
+            self.unreadable[received.key] += 1
+            return None
+
+    def _on_applied(self, received: ReceivedMessage) -> None:
+        self._newest_applied = received
+        if _ROSTER_MARK in received.payload:
+            applied: Applied | None = self.read(received)
+            self._roster_changed(applied.robots or [] if applied is not None else [])
+
+    def _on_state(self, received: ReceivedMessage) -> None:
+        self.state = self.read(received) or self.state
+
+    def _on_event(self, received: ReceivedMessage) -> None:
+        event: GameEvent | None = self.read(received)
+        if event is not None and event.kind is EventKind.GOAL:
+            self.goals += 1
+
+    def _on_health(self, received: ReceivedMessage) -> None:
+        if self.applied is None and self._newest_applied is None and self._joined_at_tick < 0:
+            health: Health | None = self.read(received)
+            self._joined_at_tick = health.tick if health is not None else -1
+
+
+def _ignore_roster(robots: list[RosterEntry]) -> None:
+    """Nobody wants to know."""

@@ -1,0 +1,220 @@
+"""Writes a recording: MCAP in zstd chunks, by a thread of its own, so that compressing and the disk hold nobody up.
+
+The file is `*.mcap.part` until it is finished, and readable up to the last flush at any moment.
+"""
+
+import os
+from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
+from pathlib import Path
+from queue import Empty, Queue
+from threading import Thread
+
+from pydantic_core import to_json
+
+from recordings.container.environment import library
+from recordings.container.header import MEDIA_TYPES
+from recordings.container.json_schema import flat_schema
+from recordings.container.lean_writer import CHUNK_BYTES, LeanWriter
+from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
+from recordings.container.partial_file import PartialFile
+from recordings.recorder.latched_messages import LoggedMessage
+from recordings.recorder.roster_metadata import RosterMetadata
+from recordings.viz.drawing import READS
+from recordings.viz.viz_channels import VizChannels
+from schemas.bus.contract import ReceivedMessage
+from schemas.errors import TouchlineError
+from schemas.message import VERSION
+from schemas.process.clock import Clock
+from schemas.process.idle_time import run_in_idle_time, start_thread
+from schemas.topics import TOPICS, key_prefix
+
+FLUSH_S = 0.5
+"""Wall time after which what was handed over is in the file."""
+_BACKLOG = 64
+"""Batches that may wait for the thread; whoever hands over the next one waits."""
+_SEQUENCES = 0xFFFF_FFFF
+"""MCAP counts in 32 bits."""
+
+Batch = list[LoggedMessage]
+
+
+class RecordingWriter:
+    """One file that is being written. Any method may raise `TouchlineError` when the disk refuses."""
+
+    def __init__(
+        self, path: Path, clock: Clock, match: str, roster: RosterMetadata | None = None, *, viz: bool = True
+    ) -> None:
+        """`roster` knows who the robots are that the keys name; with `viz`, what viewers draw is written, too.
+
+        Raises:
+            TouchlineError: another writes the file, or it cannot be written.
+        """
+        self.path = path
+        self._roster = roster or RosterMetadata()
+        self.size = 0
+        """Bytes in the file so far; what waits for the thread or for its chunk to be full is not among them."""
+        self._clock = clock
+        self._root = key_prefix(match)
+        self._viz = viz
+        self._viz_channels: VizChannels | None = None
+        self._channels: dict[str, int] = {}
+        self._schemas: dict[str, int] = {}
+        self._jobs: Queue[Callable[[], None] | None] = Queue(_BACKLOG)
+        self._error: Exception | None = None
+        self._partial_file = PartialFile(path)
+        self.partial_path = self._partial_file.path
+        self._file = self._partial_file.file
+        self._mcap = LeanWriter(self._file, CHUNK_BYTES)
+        self._thread = Thread(target=run_in_idle_time, args=[self._do_job], name="recording writer", daemon=True)
+        self._flush_at = 0.0
+        self.begun = False
+
+    def begin(self, manifest: Manifest, attachments: dict[str, bytes], latched: Batch | None = None) -> None:
+        """Write what stands before the first message; `attachments` are named with their suffix, `match.json`.
+
+        `latched` are messages that stood when this file began, and are in the files before it too.
+        """
+        self.begun = True
+        self._flush_at = self._clock.now() + FLUSH_S
+        start_thread(self._thread)
+        attached = {name: digest(content) for name, content in attachments.items()}
+        manifest = manifest.model_copy(update={"attached": attached, "standing": len(latched or ())})
+        if self._viz and manifest.setup is not None:
+            self._viz_channels = VizChannels(self._mcap, manifest.setup)
+        self._hand_over(partial(self._write_head, to_metadata(manifest), attachments))
+        if latched:
+            self.write(latched)
+
+    def write(self, batch: Batch) -> None:
+        """Hand over messages in the order they shall stand in; waits while the thread is far behind."""
+        self._hand_over(partial(self._write_batch, batch))
+
+    def sync(self) -> None:
+        """Have what was handed over on the disk soon, so that it survives a loss of power."""
+        self._hand_over(self._sync)
+
+    def finish(self, result: Result) -> int:
+        """Write the result, close the file, give it its name, and return its size in bytes."""
+        self._hand_over(partial(self._write_tail, to_metadata(result)))
+        self._end()
+        self._raise_error()
+        try:
+            self._partial_file.finish()
+            return self.path.stat().st_size
+        except OSError as error:
+            raise TouchlineError(f"{self.path}: {error.strerror}; {self.partial_path} has everything") from None
+
+    def set_roster(self, roster: RosterMetadata) -> None:
+        """Who the robots are, before anything is written."""
+        self._roster = roster
+
+    def discard(self) -> None:
+        """Leave no file; for one that was not begun, and not closed."""
+        self._partial_file.discard()
+
+    def abandon(self) -> None:
+        """Close the file as it is, `*.part`, with all that was handed over. Does nothing after `finish`."""
+        if self._thread.is_alive():
+            self._jobs.put(self._sync)
+            self._end()
+        with suppress(OSError):  # the disk has refused before, and that was raised
+            self._partial_file.close()
+
+    def _hand_over(self, job: Callable[[], None]) -> None:
+        self._jobs.put(job)
+        self._raise_error()
+
+    def _end(self) -> None:
+        self._jobs.put(None)
+        self._thread.join()
+
+    def _raise_error(self) -> None:
+        if isinstance(self._error, OSError):
+            raise TouchlineError(f"{self.partial_path}: {self._error.strerror}; what was written before is readable")
+        if self._error is not None:
+            raise self._error
+
+    def _do_job(self) -> bool:
+        """The thread's next job, or a flush when that is due; returns whether that was the last.
+
+        After an error jobs are taken and not done.
+        """
+        try:
+            job = self._jobs.get(timeout=max(0.01, self._flush_at - self._clock.now()))
+        except Empty:
+            job = _nothing
+        if job is None or self._error is not None:
+            return job is None
+        try:
+            job()
+            self.size = self._file.tell()
+            if self._clock.now() >= self._flush_at:
+                self._mcap.flush()  # type: ignore[no-untyped-call]
+                self._flush_at = self._clock.now() + FLUSH_S
+        except Exception as error:  # raised again in the thread that hands over
+            self._error = error
+        return False
+
+    def _write_head(self, manifest: dict[str, str], attachments: dict[str, bytes]) -> None:
+        self._mcap.start(profile="", library=library())
+        self._mcap.add_metadata(MANIFEST, manifest)
+        now = self._clock.unix_ns()
+        for name, data in attachments.items():
+            media = MEDIA_TYPES[Path(name).suffix]
+            self._mcap.add_attachment(now, 0, name, media, data)
+        self._mcap.flush()  # type: ignore[no-untyped-call]
+
+    def _write_batch(self, batch: Batch) -> None:
+        add, channels, viz_channels = self._mcap.add_message, self._channels, self._viz_channels
+        for log_ns, received in batch:
+            channel = channels.get(received.key) or self._open_channel(received)
+            stamp = received.stamp
+            if stamp is None:
+                add(channel, log_ns, received.payload, self._clock.unix_ns())
+            else:
+                add(channel, log_ns, received.payload, stamp.sent_ns, stamp.sequence & _SEQUENCES)
+            if viz_channels is not None and received.key in READS:
+                viz_channels.draw(received, log_ns)
+
+    def _open_channel(self, received: ReceivedMessage) -> int:
+        topic, key = received.topic, received.key
+        name = next(name for name, row in TOPICS.items() if row.key == topic.key)
+        assert topic.message is not None
+        metadata = {
+            "key": self._root + key,
+            "topic": name,
+            "row": topic.key,
+            "message": topic.message.__name__,
+            "version": VERSION,
+            **self._roster.metadata_of(received.chunks),
+        }
+        schema = self._schema(received)
+        channel = self._mcap.register_channel(key, "json", schema, metadata)
+        self._channels[key] = channel
+        return channel
+
+    def _schema(self, received: ReceivedMessage) -> int:
+        model = received.topic.message
+        assert model is not None
+        name = model.__name__
+        if name not in self._schemas:
+            data = to_json(flat_schema(model))
+            self._schemas[name] = self._mcap.register_schema(f"touchline.{name}", "jsonschema", data)
+        return self._schemas[name]
+
+    def _sync(self) -> None:
+        self._mcap.flush()  # type: ignore[no-untyped-call]
+        os.fsync(self._file.fileno())
+
+    def _write_tail(self, result: dict[str, str]) -> None:
+        self._mcap.flush()  # type: ignore[no-untyped-call]
+        self._mcap.add_metadata(RESULT, result)
+        self._mcap.finish()  # type: ignore[no-untyped-call]
+        self._file.flush()
+        os.fsync(self._file.fileno())
+
+
+def _nothing() -> None:
+    """No job came in time."""

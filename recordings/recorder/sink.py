@@ -1,0 +1,218 @@
+"""Where a recorder's messages go: what every sink does, and one file or several that follow each other."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from recordings.container.manifest import EndReason, Manifest, Result
+from recordings.container.numbering import check_free, drop_oldest, numbered
+from recordings.recorder.latched_messages import LatchedMessages, LoggedMessage
+from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.recording_writer import RecordingWriter
+from recordings.recorder.roster_metadata import RosterMetadata
+from schemas.errors import TouchlineError
+from schemas.process.clock import Clock
+
+MakeHeader = Callable[[], tuple[Manifest, dict[str, bytes]]]
+"""Makes the manifest and the attachments of a file that begins now."""
+MakeResult = Callable[[EndReason], Result]
+"""Makes the result of a file that ends now."""
+
+
+@dataclass(frozen=True, slots=True)
+class FileLimits:
+    """When a file is finished and the next one begun, and how much is kept."""
+
+    size: int | None = None
+    """Bytes of a file."""
+    duration: float | None = None
+    """Simulated s in a file."""
+    keep: int | None = None
+    """Finished files that are kept, the newest; all where nothing is said."""
+    snapshot: float | None = None
+    """Simulated s that are held in memory and written when there is a goal, or on request; nothing else is."""
+
+    def __post_init__(self) -> None:
+        """Check that the limits go together."""
+        if self.keep is not None and not self.is_split:
+            raise TouchlineError(
+                f"--keep {self.keep} is for many files; add --split-size, --split-duration or --snapshot"
+            )
+        if self.snapshot is not None and (self.size is not None or self.duration is not None):
+            raise TouchlineError("--snapshot writes files of its own; leave --split-size and --split-duration out")
+
+    @property
+    def is_split(self) -> bool:
+        """Several files may come of it."""
+        return any(limit is not None for limit in (self.size, self.duration, self.snapshot))
+
+
+ONE_FILE = FileLimits()
+
+
+class Sink(Protocol):
+    """Takes messages in their order. Any method may raise `TouchlineError` when the disk refuses."""
+
+    files: list[Path]
+    """Finished and kept, the oldest first."""
+
+    @property
+    def path(self) -> Path:
+        """Where it writes, or, with snapshots, wrote last."""
+
+    def begin(self, make_header: MakeHeader, make_result: MakeResult, roster: RosterMetadata) -> None:
+        """The match is known."""
+
+    def write(self, batch: list[LoggedMessage]) -> None:
+        """Messages in the order they shall stand in."""
+
+    def skip(self, batch: list[LoggedMessage]) -> None:
+        """Messages that came while the recorder was paused; what stands after them is written when it goes on."""
+
+    def sync(self) -> None:
+        """Have all of it on the disk soon."""
+
+    def split(self) -> str:
+        """Go on in another file; why not, or nothing."""
+
+    def snapshot(self, why: str) -> str:
+        """Write what is held in memory; why not, or nothing."""
+
+    def finish(self, ended: EndReason) -> int:
+        """Finish; returns the bytes in all files that are kept."""
+
+    def abandon(self) -> None:
+        """Leave a file that is not finished as it is."""
+
+
+class FileSink:
+    """One file, or several, each whole in itself."""
+
+    def __init__(
+        self,
+        path: Path,
+        clock: Clock,
+        match: str,
+        loss_counts: LossCounts,
+        limits: FileLimits = ONE_FILE,
+        *,
+        viz: bool = True,
+    ) -> None:
+        """Opens the first file; with `viz`, what viewers draw is written, too.
+
+        Raises:
+            TouchlineError: it cannot be written.
+        """
+        self._viz = viz
+        self._base, self._clock, self._match, self._loss_counts, self._limits = path, clock, match, loss_counts, limits
+        self._part = 1
+        self._is_split = limits.is_split
+        if self._is_split:
+            check_free(path)
+        self.files: list[Path] = []
+        self._roster = RosterMetadata()
+        self._writer = self._open()
+        self._latched = LatchedMessages()
+        self._first_ns: int | None = None
+        self._last_ns = -1
+        self._skipped_since_ns: int | None = None
+
+    @property
+    def path(self) -> Path:
+        """The file that is being written, by the name it will have."""
+        return self._writer.path
+
+    def begin(self, make_header: MakeHeader, make_result: MakeResult, roster: RosterMetadata) -> None:
+        """Write the header of the first file."""
+        self._make_header, self._make_result = make_header, make_result
+        self._writer.set_roster(roster)
+        self._roster = roster
+        self._begin_file([])
+
+    def write(self, batch: list[LoggedMessage]) -> None:
+        """Write, in as many files as the limits ask for."""
+        if self._skipped_since_ns is not None:
+            self._writer.write(self._latched.messages(since_ns=self._skipped_since_ns))
+            self._skipped_since_ns = None
+        begin = 0
+        if self._is_split:
+            for index, (log_ns, _) in enumerate(batch):
+                if self._is_full(log_ns):
+                    self._write_batch(batch[begin:index])
+                    begin = index
+                    self._next(EndReason.SPLIT)
+                if self._first_ns is None:
+                    self._first_ns = log_ns
+                self._last_ns = log_ns
+        self._write_batch(batch[begin:])
+
+    def skip(self, batch: list[LoggedMessage]) -> None:
+        """Follow what stands."""
+        if batch and self._skipped_since_ns is None:
+            self._skipped_since_ns = batch[0][0]
+        self._loss_counts.add(batch, left_out=True)
+        self._latched.update(batch)
+
+    def sync(self) -> None:
+        """Have all of it on the disk soon."""
+        self._writer.sync()
+
+    def split(self) -> str:
+        """Go on in another file."""
+        if not self._is_split:
+            return "it writes one file; start it with --split-size or --split-duration"
+        if self._first_ns is None:
+            return "its file is empty still"
+        self._next(EndReason.SPLIT)
+        return ""
+
+    def snapshot(self, why: str) -> str:
+        """Everything is written anyway."""
+        del why
+        return "it records all the time; start it with --snapshot SECONDS"
+
+    def finish(self, ended: EndReason) -> int:
+        """Finish the last file."""
+        self._finish_file(ended)
+        return sum(file.stat().st_size for file in self.files)
+
+    def abandon(self) -> None:
+        """Leave the last file as it is."""
+        self._writer.abandon()
+
+    def _open(self) -> RecordingWriter:
+        path = numbered(self._base, self._part) if self._is_split else self._base
+        return RecordingWriter(path, self._clock, self._match, self._roster, viz=self._viz)
+
+    def _begin_file(self, latched: list[LoggedMessage]) -> None:
+        manifest, attachments = self._make_header()
+        self._writer.begin(manifest.model_copy(update={"part": self._part}), attachments, latched)
+        self._first_ns = None
+
+    def _write_batch(self, batch: list[LoggedMessage]) -> None:
+        if batch:
+            self._loss_counts.add(batch)
+            self._latched.update(batch)
+            self._writer.write(batch)
+
+    def _is_full(self, log_ns: int) -> bool:
+        """Whether a message of this log time belongs into the next file; those of one tick stay together."""
+        if self._first_ns is None or log_ns == self._last_ns:
+            return False
+        limits = self._limits
+        if limits.duration is not None and log_ns - self._first_ns >= round(limits.duration * 1e9):
+            return True
+        return limits.size is not None and self._writer.size >= limits.size
+
+    def _next(self, ended: EndReason) -> None:
+        self._finish_file(ended)
+        self._part += 1
+        self._writer = self._open()
+        self._begin_file(self._latched.messages())
+
+    def _finish_file(self, ended: EndReason) -> None:
+        self._writer.finish(self._make_result(ended))
+        self.files.append(self._writer.path)
+        self._loss_counts.start_file()
+        drop_oldest(self.files, self._limits.keep)

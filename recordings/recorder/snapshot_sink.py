@@ -1,0 +1,141 @@
+"""Where a recorder's messages go when only the last seconds count: files of their own, each from a goal or a wish."""
+
+from collections import deque
+from pathlib import Path
+
+from recordings.container.manifest import EndReason, Result
+from recordings.container.numbering import check_free, drop_oldest, numbered
+from recordings.recorder.latched_messages import LatchedMessages, LoggedMessage
+from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.recording_writer import RecordingWriter
+from recordings.recorder.roster_metadata import RosterMetadata
+from recordings.recorder.sink import FileLimits, MakeHeader, MakeResult
+from schemas.game import EventKind, GameEvent
+from schemas.message import BadMessageError
+from schemas.process.clock import Clock
+from schemas.topics import EVENT
+
+
+class SnapshotSink:
+    """Holds the last seconds in memory, and writes them to a file of their own at a goal, or on request."""
+
+    def __init__(
+        self, path: Path, clock: Clock, match: str, loss_counts: LossCounts, limits: FileLimits, *, viz: bool = True
+    ) -> None:
+        """Holds the name of the first snapshot, so that no other recorder takes it.
+
+        With `viz`, what viewers draw is written, too.
+
+        Raises:
+            TouchlineError: another recorder has it, or a file cannot be written there.
+        """
+        self._viz = viz
+        assert limits.snapshot is not None
+        self._base, self._clock, self._match, self._loss_counts, self._keep = (
+            path,
+            clock,
+            match,
+            loss_counts,
+            limits.keep,
+        )
+        self._horizon_ns = round(limits.snapshot * 1e9)
+        self._held: deque[LoggedMessage] = deque()
+        self._latched_before = LatchedMessages()
+        """What stood when the oldest message that is held came."""
+        self._number = 0
+        self.files: list[Path] = []
+        check_free(path)
+        self._roster = RosterMetadata()
+        self._next = self._open()
+
+    @property
+    def path(self) -> Path:
+        """The newest snapshot, or where the first one will be."""
+        return self.files[-1] if self.files else numbered(self._base, 1)
+
+    def begin(self, make_header: MakeHeader, make_result: MakeResult, roster: RosterMetadata) -> None:
+        """Remember how to make a file."""
+        self._make_header, self._make_result, self._roster = make_header, make_result, roster
+        self._next.set_roster(roster)
+
+    def write(self, batch: list[LoggedMessage]) -> None:
+        """Hold messages, forget those that are too old, and write all when there was a goal."""
+        self._loss_counts.add(batch)
+        self._held.extend(batch)
+        if batch:
+            self._drop_older(batch[-1][0] - self._horizon_ns)
+        if any(_is_goal(logged) for logged in batch):
+            self.snapshot("goal")
+
+    def skip(self, batch: list[LoggedMessage]) -> None:
+        """Follow what stands: a pause is a hole in what is held, and what was before it is forgotten."""
+        self._loss_counts.add(batch, left_out=True)
+        self._drop_older(None)
+        self._latched_before.update(batch)
+
+    def sync(self) -> None:
+        """Snapshots are on the disk when they are written."""
+
+    def split(self) -> str:
+        """There is no file to go on with."""
+        return "it writes snapshots; ask it for one"
+
+    def snapshot(self, why: str) -> str:
+        """Write what is held."""
+        if not self._held:
+            return "it holds nothing yet"
+        writer = self._next
+        self._number += 1
+        manifest, attachments = self._make_header()
+        made = {"part": self._number, "made": f"snapshot: {why}"}
+        try:
+            writer.begin(manifest.model_copy(update=made), attachments, self._latched_before.messages())
+            writer.write(list(self._held))
+            writer.finish(self._result())
+        finally:
+            writer.abandon()
+        self.files.append(writer.path)
+        self._next = self._open()
+        drop_oldest(self.files, self._keep)
+        return ""
+
+    def finish(self, ended: EndReason) -> int:
+        """What is held and nobody wanted is forgotten."""
+        del ended
+        self._next.discard()
+        return sum(file.stat().st_size for file in self.files)
+
+    def abandon(self) -> None:
+        """Let go of the name of the next snapshot."""
+        if not self._next.begun:
+            self._next.discard()
+
+    def _open(self) -> RecordingWriter:
+        return RecordingWriter(
+            numbered(self._base, self._number + 1), self._clock, self._match, self._roster, viz=self._viz
+        )
+
+    def _drop_older(self, before_ns: int | None) -> None:
+        while self._held and (before_ns is None or self._held[0][0] < before_ns):
+            self._latched_before.update([self._held.popleft()])
+
+    def _result(self) -> Result:
+        """The result of these seconds alone."""
+        loss_counts = LossCounts()
+        loss_counts.add(self._held)
+        counts = {
+            key: count.model_copy(update={"missed_before_start": 0})
+            for key, count in loss_counts.for_this_file().items()
+        }
+        return self._make_result(EndReason.SNAPSHOT).counted(counts)
+
+
+def _is_goal(logged: LoggedMessage) -> bool:
+    received = logged[1]
+    if received.key != EVENT.key:
+        return False
+    try:
+        event: GameEvent = received.message()
+    except BadMessageError:
+        return False
+    return event.kind is EventKind.GOAL

@@ -1,0 +1,162 @@
+"""All figures of a recording in one reading."""
+
+from collections.abc import Iterator
+from typing import Any, Protocol
+
+from recordings.reading.recording import Recording
+from recordings.stats.ball_control import BallControl
+from recordings.stats.dribbles import DribbleTracker
+from recordings.stats.figures import Coverage, MatchFigures, figures_of
+from recordings.stats.kicks import KickTracker
+from recordings.stats.match_tick import GAP, KEYS, MatchTick, match_ticks
+from recordings.stats.momentum import Momentum
+from recordings.stats.motion import MotionTracker
+from recordings.stats.referee_calls import RefereeCalls
+from schemas.errors import TouchlineError
+from schemas.messages.host import Setup
+from schemas.messages.world import World
+from schemas.topics import WORLD
+
+
+def setup_of(recording: Recording) -> Setup:
+    """How the match was set up.
+
+    Raises:
+        TouchlineError: the recording does not say.
+    """
+    setup = recording.manifest.setup
+    if setup is None:
+        raise TouchlineError(
+            f"{recording.path}: its manifest has no setup, so pitch and teams are unknown; "
+            "record with the host running from the start"
+        )
+    return setup
+
+
+def extent(recording: Recording) -> tuple[float, float]:
+    """Simulated times of the first and the last world, s.
+
+    Raises:
+        TouchlineError: there is none.
+    """
+    for channel in recording.channels:
+        if channel.key == WORLD.key and channel.messages:
+            return channel.start, channel.end
+    raise TouchlineError(f"{recording.path}: no world in it, so there is nothing to measure; record the key world")
+
+
+MAX_TIME_DIFFERENCE_S = 1.0
+"""s; ours: a world whose own time is farther from that of its record is not what the host wrote."""
+
+
+def match_ticks_of(recording: Recording) -> Iterator[MatchTick]:
+    """The ticks of a recording, in order; worlds of an impossible time are counted as unreadable.
+
+    Raises:
+        TouchlineError: the file is damaged inside, or does not say how the match was set up.
+    """
+    return match_ticks(setup_of(recording), _messages(recording))
+
+
+def _messages(recording: Recording) -> Iterator[tuple[int, Any]]:
+    for recorded, message in recording.decoded(*KEYS):
+        if isinstance(message, World) and abs(message.time - recorded.time) > MAX_TIME_DIFFERENCE_S:
+            recording.unreadable[recorded.key] += 1
+        else:
+            yield recorded.log_ns, message
+
+
+class TickObserver(Protocol):
+    """Takes in ticks, one after the other."""
+
+    def update(self, match_tick: MatchTick) -> None:
+        """One more tick."""
+
+
+class MatchStatistics:
+    """Takes in tick after tick, and gives the figures of all."""
+
+    def __init__(self, setup: Setup, start: float, end: float) -> None:
+        """Of a match with this setup, from `start` to `end`, s of simulated time."""
+        self._setup = setup
+        self._control = BallControl()
+        self._motions = MotionTracker()
+        self._dribbles = DribbleTracker()
+        self._kicks = KickTracker(setup)
+        self._calls = RefereeCalls()
+        self._observers: tuple[TickObserver, ...] = (
+            self._control,
+            self._motions,
+            self._dribbles,
+            self._kicks,
+            self._calls,
+        )
+        self._momentum = Momentum(start, end, setup.pitch.goal_line)
+        self._worlds = self._touched = self._held = self._states = 0
+        self._missing = 0.0
+        self._first: MatchTick | None = None
+        self._last: MatchTick | None = None
+
+    def update(self, match_tick: MatchTick) -> None:
+        """One more tick."""
+        self._momentum.update(match_tick, self._control.side)
+        for figure in self._observers:
+            figure.update(match_tick)
+        world = match_tick.world
+        self._worlds += 1
+        self._touched += bool(world.touches)
+        self._held += world.possession is not None
+        self._states += match_tick.state is not match_tick.state_before
+        step = world.time - self._last.world.time if self._last is not None else 0.0
+        self._missing += step if step > GAP else 0.0
+        self._first = self._first or match_tick
+        self._last = match_tick
+
+    def figures(self, unreadable: int = 0) -> MatchFigures:
+        """What it comes to; `unreadable` messages could not be taken in.
+
+        Raises:
+            TouchlineError: there was no tick at all.
+        """
+        if self._first is None or self._last is None:
+            raise TouchlineError("no world could be read, so there is nothing to measure")
+        self._dribbles.end()
+        self._kicks.end(self._last)
+        coverage = Coverage(
+            worlds=self._worlds,
+            touched=self._touched,
+            held=self._held,
+            kicks=len(self._kicks.kicks),
+            states=self._states,
+            events=len(self._calls.events),
+            missing=self._missing,
+            unreadable=unreadable,
+        )
+        return figures_of(
+            setup=self._setup,
+            lineup=self._last.lineup,
+            first=self._first.world.time,
+            last=self._last.world.time,
+            coverage=coverage,
+            control=self._control,
+            motions=self._motions,
+            dribbles=self._dribbles,
+            kicks=self._kicks.kicks,
+            calls=self._calls,
+            momentum=self._momentum,
+        )
+
+
+def figures_of_recording(recording: Recording, *observers: TickObserver) -> MatchFigures:
+    """The figures of a recording; whatever `observers` is given takes in the same ticks, in the same reading.
+
+    Raises:
+        TouchlineError: it is damaged inside, has no setup, or no world.
+    """
+    setup, (start, end) = setup_of(recording), extent(recording)
+    statistics, before = MatchStatistics(setup, start, end), recording.unreadable.total()
+    for match_tick in match_ticks_of(recording):
+        statistics.update(match_tick)
+        for other in observers:
+            other.update(match_tick)
+    return statistics.figures(recording.unreadable.total() - before)

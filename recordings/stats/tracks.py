@@ -1,0 +1,100 @@
+"""Where everybody was, sampled and rounded: what a page needs to show a match again, in as few bytes as will do."""
+
+import math
+from array import array
+
+from recordings.stats.match_tick import MatchTick
+from schemas.messages.host import Setup
+from schemas.messages.world import World
+
+MAX_RATE = 25.0
+"""Samples per s; ours: more than that the eye does not see between two points that are joined."""
+MIN_RATE = 0.1
+MAX_BYTES = 3_300_000
+"""Bytes; ours: as text, in base64, it is a third more, and a page of half an hour stays below 6 MB."""
+ABSENT = -32768
+"""For x of a body that is not there."""
+NO_HOLDER = 255
+_CM = 100.0
+_TURN = 256 / math.tau
+_PER_ROBOT, _PER_SAMPLE = 5, 7
+"""Bytes: x and y in two each, heading in one; ball x, y and z in two each, holder in one."""
+
+
+def sample_rate(duration: float, robots: int) -> float:
+    """Samples per s for a recording of so many s and robots."""
+    per_sample = _PER_SAMPLE + _PER_ROBOT * robots
+    return max(MIN_RATE, min(MAX_RATE, MAX_BYTES / per_sample / max(duration, 1.0)))
+
+
+class RobotTrack:
+    """One robot: x and y in cm, heading in 256ths of a turn; one value of each for every sample."""
+
+    def __init__(self, samples: int) -> None:
+        """Away for so many samples."""
+        self.x = array("h", [ABSENT] * samples)
+        self.y = array("h", [0] * samples)
+        self.heading = array("B", [0] * samples)
+
+    def add(self, x: int, y: int, heading: int) -> None:
+        """One more sample."""
+        self.x.append(x)
+        self.y.append(y)
+        self.heading.append(heading)
+
+
+class Tracks:
+    """All bodies at equal distances in time: sample i is the world at `start + i / rate`, or the newest before it."""
+
+    def __init__(self, setup: Setup, start: float, end: float) -> None:
+        """From `start` to `end`, s of simulated time."""
+        self.start = start
+        self.rate = sample_rate(end - start, sum(len(team.robots) for team in setup.teams.values()))
+        self.robots: dict[str, RobotTrack] = {}
+        self.ball_x, self.ball_y, self.ball_z = array("h"), array("h"), array("h")
+        self.holder = array("B")
+        """Place of the robot among `robots`, or `NO_HOLDER`."""
+        self.sides: dict[str, str] = {}
+        self._tick = setup.time.tick
+        self._newest: World | None = None
+
+    @property
+    def samples(self) -> int:
+        """So far."""
+        return len(self.holder)
+
+    def update(self, match_tick: MatchTick) -> None:
+        """One more tick."""
+        for name, side in match_tick.lineup.sides.items():
+            self.sides[name] = side.value
+        world = match_tick.world
+        while self._time() < world.time - self._tick / 2:
+            self._sample(self._newest or world)
+        if self._time() <= world.time + self._tick / 2:
+            self._sample(world)
+        self._newest = world
+
+    def _time(self) -> float:
+        """Of the next sample, s of simulated time."""
+        return self.start + self.samples / self.rate
+
+    def _sample(self, world: World) -> None:
+        for name in world.robots:
+            if name not in self.robots:
+                self.robots[name] = RobotTrack(self.samples)
+        for name, track in self.robots.items():
+            robot = world.robots.get(name)
+            if robot is None:
+                track.add(ABSENT, 0, 0)
+            else:
+                track.add(_cm(robot.x), _cm(robot.y), round(robot.heading * _TURN) & 255)
+        ball, names = world.ball, list(self.robots)
+        self.ball_x.append(_cm(ball.x))
+        self.ball_y.append(_cm(ball.y))
+        self.ball_z.append(_cm(ball.z))
+        holder = names.index(world.possession) if world.possession in self.robots else NO_HOLDER
+        self.holder.append(min(NO_HOLDER, holder))
+
+
+def _cm(metres: float) -> int:
+    return max(-32767, min(32767, round(metres * _CM)))

@@ -1,0 +1,39 @@
+"""Writes what viewers draw into a recording, beside the messages that it comes from: in channels of their own.
+
+It is derived: nothing that reads recordings here needs it, and whatever is made of a recording draws it anew.
+"""
+
+from mcap.writer import Writer
+
+from recordings.container.mcap_file import DERIVED
+from recordings.viz.drawing import SCHEMAS, Drawing
+from recordings.viz.foxglove import descriptors
+from schemas.bus.contract import ReceivedMessage
+from schemas.messages.host import Setup
+
+
+class VizChannels:
+    """Follows the messages that go into a file, and draws them there."""
+
+    def __init__(self, mcap: Writer, setup: Setup) -> None:
+        self._mcap, self._drawing = mcap, Drawing(setup)
+        self._schemas: dict[str, int] = {}
+        self._channels: dict[str, int] = {}
+        self._numbers: dict[str, int] = {}
+
+    def draw(self, received: ReceivedMessage, log_ns: int) -> None:
+        """This message was written; what it brings for viewers follows it, with its times."""
+        for topic, payload in self._drawing.draw(received, log_ns):
+            channel = self._channels.get(topic) or self._open(topic)
+            number = self._numbers[topic] = self._numbers.get(topic, -1) + 1
+            sent_ns = received.stamp.sent_ns if received.stamp is not None else log_ns
+            self._mcap.add_message(channel, log_ns, payload, sent_ns, number)
+
+    def _open(self, topic: str) -> int:
+        message = SCHEMAS[topic]
+        if message not in self._schemas:
+            self._schemas[message] = self._mcap.register_schema(message, "protobuf", descriptors(message))
+        metadata = {DERIVED: "from world, game/state, game/event and host/applied"}
+        channel = self._mcap.register_channel(topic, "protobuf", self._schemas[message], metadata)
+        self._channels[topic] = channel
+        return channel

@@ -1,0 +1,281 @@
+"""Test mode: what a robot does when the coach has it show one thing; every shipped team does it alike.
+
+Pure: (moment, progress) → (action, progress). A robot that the order does not name stands still. As in play, the rules
+of the match bind whoever acts: where they do not let a robot carry the ball as far, it lets go of it on the way.
+"""
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from robot_agent.bodies import Ball, DriveLimits
+from robot_agent.contract import Briefing
+from robot_agent.skills.avoid import Circle, circles, go_around
+from robot_agent.skills.circle import circle
+from robot_agent.skills.dribble_to import SPEED, TURN_RATE
+from robot_agent.skills.intercept import meet, way_of
+from robot_agent.skills.kick_at import kick_at
+from robot_agent.skills.pass_to import pass_speed
+from robot_agent.skills.receive import comes, receive
+from robot_agent.skills.search import search_place
+from robot_agent.skills.take_ball import HAS_IT, take_ball
+from robot_agent.teams.action import Action
+from robot_agent.world_model import WorldBelief
+from schemas.frames import wrap
+from schemas.game import Point
+from schemas.messages.coach import CoachOrder, CoachTest
+from schemas.messages.command import Drive, KickMode
+from schemas.messages.host import Setup
+
+ROLE = "test"
+ARRIVED = 0.1
+"""m; closer than this to a point is at it."""
+FACING = 0.1
+"""rad; likewise of an angle."""
+RESTS = 1.0
+"""s at each end of a way that is driven over and over."""
+TURNS = 1.0
+"""m before a point where a robot with the ball begins to turn to the angle there; before, it faces ahead."""
+ARRIVING = 2.0
+"""m/s of a pass when it arrives: slower than in play, where somebody is in the way."""
+PASS_ERROR, SHOT_ERROR = 0.1, 0.15
+"""m beside the target."""
+LEAVES = 0.5
+"""s after a kick; a ball that is still held then was not kicked: the kick was refused, and is tried again."""
+HAS_LEFT = 1.0
+"""m; a ball farther than this from who had it has left: word of where that is comes late, and the ball may swing."""
+_RADIUS = 1.0
+"""m; of a circle that no radius was said for."""
+_AIR = 0.1
+"""m between two bodies that pass each other."""
+
+
+Place = tuple[float, float]
+
+
+class Situation(NamedTuple):
+    """All that a robot knows when it shows something."""
+
+    briefing: Briefing
+    belief: WorldBelief
+    order: CoachOrder
+    limits: DriveLimits
+    """Those of the robot, and of the order."""
+
+    @property
+    def setup(self) -> Setup:
+        """The match, with this robot's own numbers."""
+        return self.briefing.setup
+
+    @property
+    def me(self) -> str:
+        """The robot's name."""
+        return self.briefing.robot
+
+
+class Progress(NamedTuple):
+    """How far a robot is with an order."""
+
+    order: int = 0
+    """Its number."""
+    leg: int = 0
+    """Which end of a way is driven to; for whom a pass is meant, whether the other robot has had the ball."""
+    rested: float = 0.0
+    """s at that end."""
+    place: Place = (0.0, 0.0)
+    """m; where the robot was when the order came."""
+    kicked: float | None = None
+    """s since the kick; nothing before it."""
+    passed: bool = False
+    """The ball that is waited for has come, and is this robot's to get."""
+
+
+NOTHING_DONE = Progress()
+
+StepResult = tuple[Action, Progress]
+TestStep = Callable[[Situation, Progress], StepResult]
+
+
+def step(now: Situation, progress: Progress) -> StepResult:
+    """What the order's test asks of this robot; a new order begins anew."""
+    if progress.order != now.order.sequence:
+        progress = Progress(now.order.sequence, place=now.belief.me[:2])
+    if progress.kicked is not None:
+        progress = progress._replace(kicked=progress.kicked + now.belief.dt)
+    test = now.order.test
+    if now.me == now.order.robot_a and test in STEPS:
+        return STEPS[test](now, progress)
+    if now.me == now.order.robot_b and test is CoachTest.PASS:
+        return _receive(now, progress)
+    return _stand(now, progress)
+
+
+def _stand(now: Situation, progress: Progress) -> StepResult:
+    return Action(ROLE, "stand", Drive(), dribble=now.belief.holding), progress
+
+
+def _move(now: Situation, progress: Progress) -> StepResult:
+    order = now.order
+    return _bring(now, "move", _at(order.point_a, progress), order.angle_a, with_ball=order.with_ball), progress
+
+
+def _location(now: Situation, progress: Progress) -> StepResult:
+    """To one end, a rest there, to the other end."""
+    order, me = now.order, now.belief.me
+    ends = ((_at(order.point_a, progress), order.angle_a), (_at(order.point_b, progress), order.angle_b))
+    point, angle = ends[progress.leg]
+    is_there = math.dist(point, me[:2]) < ARRIVED and (angle is None or abs(wrap(angle - me.heading)) < FACING)
+    rested = progress.rested + now.belief.dt if is_there else 0.0
+    progress = (
+        progress._replace(rested=rested) if rested < RESTS else progress._replace(leg=1 - progress.leg, rested=0.0)
+    )
+    point, angle = ends[progress.leg]
+    return _bring(now, f"move to {'ab'[progress.leg]}", point, angle, with_ball=order.with_ball), progress
+
+
+def _circle(now: Situation, progress: Progress) -> StepResult:
+    order = now.order
+    if order.with_ball and not now.belief.holding:
+        return _fetch(now), progress
+    limits = now.limits.capped(SPEED, TURN_RATE) if order.with_ball else now.limits
+    motion = circle(now.belief.me, _at(order.point_a, progress), order.radius or _RADIUS, limits)
+    return Action(ROLE, "circle", motion, dribble=order.with_ball), progress
+
+
+def _pass(now: Situation, progress: Progress) -> StepResult:
+    """Get the ball, bring it to its point, and pass; once."""
+    order, receiver = now.order, now.order.robot_b or ""
+    mate = now.belief.mates.get(receiver)
+    target = _point(order.point_b) or (mate.body[:2] if mate is not None else None)
+    ready = _ready_to_kick(now, progress)
+    if ready is not None:
+        return ready, progress
+    if target is None:
+        return Action(ROLE, f"wait for {receiver}", Drive(), dribble=True), progress
+    speed = order.kick_speed or pass_speed(math.dist(target, now.belief.me[:2]), now.setup, ARRIVING)
+    action, progress = _kick(now, progress, target, speed, PASS_ERROR, KickMode.GROUND)
+    return action._replace(intention=f"pass to {receiver}", pass_to=receiver if action.kick else None), progress
+
+
+def _shoot(now: Situation, progress: Progress) -> StepResult:
+    """Get the ball, bring it to its point, and shoot; once."""
+    ready = _ready_to_kick(now, progress)
+    if ready is not None:
+        return ready, progress
+    order, kicker = now.order, now.setup.kicker
+    target = _point(order.point_b) or (now.setup.pitch.goal_line, 0.0)
+    most = kicker.max_ground_speed if order.kick_mode is KickMode.GROUND else kicker.max_lob_speed
+    return _kick(now, progress, target, order.kick_speed or most, SHOT_ERROR, order.kick_mode)
+
+
+def _catch(now: Situation, progress: Progress) -> StepResult:
+    return _await_ball(now, progress, _at(now.order.point_a, progress), now.order.angle_a)
+
+
+def _receive(now: Situation, progress: Progress) -> StepResult:
+    """Wait for the pass; while the other robot has the ball, there is none to go for."""
+    passer, ball = now.belief.mates.get(now.order.robot_a or ""), now.belief.ball
+    away = math.dist(passer.body[:2], ball.now[:2]) if passer is not None and ball is not None else None
+    if away is not None and away < HAS_IT:
+        progress = progress._replace(leg=1)
+    has_left = progress.leg == 1 and away is not None and away > HAS_LEFT
+    return _await_ball(now, progress, _at(now.order.point_b, progress), now.order.angle_b, may_come=has_left)
+
+
+def _await_ball(
+    now: Situation, progress: Progress, point: Place, angle: float | None, *, may_come: bool = True
+) -> StepResult:
+    """Stand at the point and face the ball, or the angle; meet a ball that comes, get it if it stops short, keep it."""
+    belief, me = now.belief, now.belief.me
+    if belief.holding:
+        return Action(ROLE, "caught", Drive(), dribble=True), progress
+    ball = belief.ball.now if belief.ball is not None else None
+    if ball is not None and may_come and comes(me, ball):
+        return Action(ROLE, "catch", receive(me, ball, now.limits), dribble=True), progress._replace(passed=True)
+    if progress.passed:
+        return _fetch(now), progress
+    if angle is None and ball is not None:
+        angle = math.atan2(ball.y - me.y, ball.x - me.x)
+    return Action(ROLE, "wait for the ball", _drive_to(now, point, angle, now.limits), dribble=True), progress
+
+
+def _ready_to_kick(now: Situation, progress: Progress) -> Action | None:
+    """What is to be done before the kick, or after it; nothing where the ball is in hand and at its point."""
+    belief, point = now.belief, _point(now.order.point_a)
+    if progress.kicked is not None and (progress.kicked < LEAVES or not belief.holding):
+        return Action(ROLE, "kicked", Drive())
+    if not belief.holding:
+        return _fetch(now)
+    if point is not None and math.dist(point, belief.me[:2]) > ARRIVED:
+        return _bring(now, "bring the ball", point, now.order.angle_a, with_ball=True)
+    return None
+
+
+def _kick(now: Situation, progress: Progress, target: Place, speed: float, error: float, mode: KickMode) -> StepResult:
+    motion, kick = kick_at(now.belief.me, target, speed, error, now.limits, mode)
+    kick = kick if now.belief.kicker_ready else None
+    return Action(ROLE, "shoot", motion, dribble=True, kick=kick), progress._replace(kicked=0.0 if kick else None)
+
+
+def _bring(now: Situation, intention: str, point: Place, angle: float | None, *, with_ball: bool) -> Action:
+    """Drive to a point, with the ball if that is asked for."""
+    if with_ball and not now.belief.holding:
+        return _fetch(now)
+    me = now.belief.me
+    limits = now.limits.capped(SPEED, TURN_RATE) if with_ball else now.limits
+    if with_ball and math.dist(point, me[:2]) > TURNS:
+        angle = math.atan2(point[1] - me.y, point[0] - me.x)
+    return Action(ROLE, intention, _drive_to(now, point, angle, limits), dribble=with_ball)
+
+
+def _fetch(now: Situation) -> Action:
+    """Get the ball, or look for it."""
+    belief = now.belief
+    if belief.ball is None:
+        place = search_place(now.briefing.number, belief.game.clock, now.setup.pitch)
+        return Action(ROLE, "look for the ball", _drive_to(now, place, None, now.limits))
+    return Action(ROLE, "get the ball", _take(now, belief.ball.now), dribble=True)
+
+
+def _take(now: Situation, ball: Ball) -> Drive:
+    me, gap = now.belief.me, now.setup.dribble.gap
+    meeting = meet(me, way_of(ball, now.setup.ball.rolling_deceleration), gap, now.limits)
+    clearance = 2.0 * now.setup.robot.reach + _AIR / 2.0
+    opponents = now.belief.opponents if now.order.avoid else ()
+    return take_ball(me, ball, meeting, gap, opponents, clearance, now.limits)
+
+
+def _drive_to(now: Situation, point: Place, angle: float | None, limits: DriveLimits) -> Drive:
+    """Straight on or around what is in the way; with no angle the heading is kept."""
+    me = now.belief.me
+    heading = me.heading if angle is None else angle
+    return go_around(me, *point, heading, _in_the_way(now) if now.order.avoid else (), limits)
+
+
+def _point(point: Point | None) -> Place | None:
+    return (point.x, point.y) if point is not None else None
+
+
+def _at(point: Point | None, progress: Progress) -> Place:
+    """A point of the order, or where the robot was when the order came."""
+    return _point(point) or progress.place
+
+
+def _in_the_way(now: Situation) -> list[Circle]:
+    """Everybody else, and the ball while this robot has not got it."""
+    reach, ball = now.setup.robot.reach, now.belief.ball
+    bodies = circles(now.belief.others, 2.0 * reach + _AIR)
+    if ball is None or now.belief.holding:
+        return bodies
+    return [*bodies, Circle(*ball.now[:2], reach + now.setup.ball.radius + _AIR)]
+
+
+STEPS: dict[CoachTest, TestStep] = {
+    CoachTest.MOVE: _move,
+    CoachTest.LOCATION: _location,
+    CoachTest.CIRCLE: _circle,
+    CoachTest.PASS: _pass,
+    CoachTest.CATCH: _catch,
+    CoachTest.SHOOT: _shoot,
+}
+"""Test → what the robot does that acts in it; in a test that is not here nobody moves."""

@@ -1,0 +1,268 @@
+"""The bus within one process: the same behaviour without a network, for tests and for learning."""
+
+import threading
+from collections import deque
+from dataclasses import dataclass, field
+from typing import Any
+
+from schemas.bus.contract import (
+    Bus,
+    BusError,
+    NoReplyError,
+    PendingReply,
+    Presence,
+    PresenceWatch,
+    Publisher,
+    Query,
+    ReceivedMessage,
+    Server,
+    Stamp,
+    Subscription,
+    check_publishable,
+    full_key,
+)
+from schemas.bus.mailbox import EveryMailbox, Mailbox, NewestMailbox
+from schemas.message import Message
+from schemas.process.clock import Clock
+from schemas.topic import Delivery, Topic
+
+
+@dataclass(eq=False)
+class Medium:
+    """What the buses of one process share in place of a network."""
+
+    lock: threading.Lock = field(default_factory=threading.Lock)
+    subscriptions: dict[str, list["_Subscription"]] = field(default_factory=dict)
+    servers: dict[str, "_Server"] = field(default_factory=dict)
+    alive: dict[tuple[str, str], int] = field(default_factory=dict)
+    watches: list["_Watch"] = field(default_factory=list)
+    caches: dict[str, dict[str, deque[ReceivedMessage]]] = field(default_factory=dict)
+    """Topic with its match before it → key → what its writer has sent, where that can be recovered."""
+
+    def open_bus(self, match: str, clock: Clock) -> "InProcessBus":
+        """A new bus for a match."""
+        return InProcessBus(match, clock, self)
+
+    def count_token(self, match: str, who: tuple[str, str], by: int) -> None:
+        """Count a token, and tell the watchers when the first came or the last went."""
+        with self.lock:
+            before = self.alive.get(who, 0)
+            self.alive[who] = before + by
+            if (before == 0) != (before + by == 0):
+                for watch in self.watches:
+                    if watch.match == match:
+                        watch.mailbox.put("", Presence(who[0].removeprefix(match + "/"), who[1], by > 0))
+
+
+class _Publisher(Publisher):
+    def __init__(self, topic: Topic, key: str, bus: "InProcessBus") -> None:
+        super().__init__(topic, key)
+        self._bus = bus
+        self._sequence = 0
+        self._kept: deque[ReceivedMessage] | None = None
+        if topic.delivery is Delivery.RECOVERED:
+            self._kept = bus.keep(topic, key)
+
+    def put_payload(self, payload: bytes) -> Stamp:
+        bus = self._bus
+        bus.check_open()
+        stamp = Stamp(self._sequence, bus.clock.unix_ns(), bus.clock.sim_ns)
+        self._sequence += 1
+        received = ReceivedMessage(self.topic, self.key, payload, stamp, stamp.sent_ns)
+        with bus.medium.lock:
+            if self._kept is not None:
+                self._kept.append(received)
+            for subscription in bus.medium.subscriptions.get(bus.prefix + self.topic.key, ()):
+                subscription.deliver(self.key, received)
+        return stamp
+
+    def has_subscribers(self) -> bool:
+        if self.topic.delivery is Delivery.RECOVERED:
+            return True
+        readers = self._bus.medium.subscriptions.get(self._bus.prefix + self.topic.key, ())
+        return any(reader.wants(self.key) for reader in readers)
+
+
+class _Subscription(Subscription):
+    def __init__(self, topic: Topic, chunks: dict[str, str], bus: "InProcessBus", newest: bool) -> None:
+        self._wanted = chunks
+        self._topic = topic
+        self._bus = bus
+        one = newest or topic.delivery is Delivery.NEWEST
+        self._mailbox: Mailbox[ReceivedMessage] = NewestMailbox() if one else EveryMailbox()
+
+    def wants(self, key: str) -> bool:
+        chunks = self._topic.match(key) or {}
+        return all(chunks[name] == value for name, value in self._wanted.items())
+
+    def deliver(self, key: str, received: ReceivedMessage) -> None:
+        if self.wants(key):
+            self._mailbox.put(key, received)
+
+    def receive(self, timeout: float | None = 0.0) -> ReceivedMessage | None:
+        return self._mailbox.get(timeout)
+
+    def skip_missing(self) -> None:
+        """Nothing is ever missing here."""
+
+    def close(self) -> None:
+        with self._bus.medium.lock:
+            readers = self._bus.medium.subscriptions.get(self._bus.prefix + self._topic.key, [])
+            if self in readers:
+                readers.remove(self)
+        self._mailbox.close()
+
+
+class _Query(Query):
+    def __init__(self, topic: Topic, payload: bytes, answer: "_PendingReply") -> None:
+        super().__init__(topic, topic.key, payload)
+        self._answer = answer
+
+    def reply(self, reply: Message) -> None:
+        self._answer.mailbox.put("", reply.encode())
+
+    def fail(self, reason: str) -> None:
+        self._answer.mailbox.put("", reason)
+
+
+class _Server(Server):
+    def __init__(self) -> None:
+        self.mailbox: EveryMailbox[Query] = EveryMailbox()
+
+    def receive(self, timeout: float | None = 0.0) -> Query | None:
+        return self.mailbox.get(timeout)
+
+
+class _PendingReply(PendingReply):
+    def __init__(self, topic: Topic) -> None:
+        self._topic = topic
+        self.mailbox: EveryMailbox[bytes | str] = EveryMailbox()
+
+    def result(self, timeout: float) -> Any:
+        reply = self.mailbox.get(timeout)
+        if reply is None:
+            raise NoReplyError(f"nobody answers {self._topic.key}")
+        if isinstance(reply, str):
+            raise NoReplyError(reply)
+        assert self._topic.reply is not None
+        return self._topic.reply.decode(reply)
+
+
+class _Watch(PresenceWatch):
+    def __init__(self, match: str) -> None:
+        self.match = match
+        self.mailbox: EveryMailbox[Presence] = EveryMailbox()
+        self.is_empty = self.mailbox.is_empty
+
+    def receive(self, timeout: float | None = 0.0) -> Presence | None:
+        return self.mailbox.get(timeout)
+
+
+class InProcessBus(Bus):
+    """A bus on a `Medium`; payloads are encoded and validated as over a network."""
+
+    def __init__(self, match: str, clock: Clock, medium: Medium) -> None:
+        super().__init__(match, clock)
+        self.medium = medium
+        self.prefix = f"{match}/"
+        self._tokens: list[tuple[str, str]] = []
+        self._served: list[str] = []
+        self._subscriptions: list[_Subscription] = []
+        self._mailboxes: list[EveryMailbox[Any]] = []
+        self._kept: list[tuple[str, str]] = []
+
+    def keep(self, topic: Topic, key: str) -> deque[ReceivedMessage]:
+        """Where a writer of this key keeps what it sends, for as long as its bus is open."""
+        kept: deque[ReceivedMessage] = deque(maxlen=topic.cache_size)
+        with self.medium.lock:
+            self.medium.caches.setdefault(self.prefix + topic.key, {})[key] = kept
+        self._kept.append((self.prefix + topic.key, key))
+        return kept
+
+    def check_open(self) -> None:
+        """Raise `BusError` when this bus is closed."""
+        if self._closed:
+            raise BusError("this bus is closed")
+
+    def publisher(self, topic: Topic, **chunks: str) -> Publisher:
+        self.check_open()
+        check_publishable(topic)
+        return _Publisher(topic, full_key(topic, chunks), self)
+
+    def subscribe(self, topic: Topic, *, newest: bool = False, history: bool = False, **chunks: str) -> Subscription:
+        self.check_open()
+        check_publishable(topic)
+        topic.fill(**chunks)
+        subscription = _Subscription(topic, chunks, self, newest)
+        with self.medium.lock:
+            for kept in self.medium.caches.get(self.prefix + topic.key, {}).values() if history else ():
+                for received in kept:
+                    subscription.deliver(received.key, received)
+            self.medium.subscriptions.setdefault(self.prefix + topic.key, []).append(subscription)
+        self._subscriptions.append(subscription)
+        return subscription
+
+    def serve(self, topic: Topic, **chunks: str) -> Server:
+        self.check_open()
+        server = _Server()
+        key = self.prefix + full_key(topic, chunks)
+        with self.medium.lock:
+            self.medium.servers[key] = server
+        self._served.append(key)
+        self._mailboxes.append(server.mailbox)
+        return server
+
+    def query(self, topic: Topic, request: Message, timeout: float = 2.0, **chunks: str) -> PendingReply:
+        self.check_open()
+        del timeout  # nothing is on its way here: a question waits with its server or was refused at once
+        answer = _PendingReply(topic)
+        key = full_key(topic, chunks)
+        server = self.medium.servers.get(self.prefix + key)
+        if server is None:
+            answer.mailbox.put("", f"nobody answers {key}")
+        else:
+            server.mailbox.put("", _Query(topic, request.encode(), answer))
+        return answer
+
+    def declare_alive(self, kind: str, name: str) -> None:
+        self.check_open()
+        who = (self.prefix + kind, name)
+        self._tokens.append(who)
+        self.medium.count_token(self.match, who, +1)
+
+    def withdraw_alive(self, kind: str, name: str) -> None:
+        self.check_open()
+        who = (self.prefix + kind, name)
+        if who in self._tokens:
+            self._tokens.remove(who)
+            self.medium.count_token(self.match, who, -1)
+
+    def watch_alive(self) -> PresenceWatch:
+        self.check_open()
+        watch = _Watch(self.match)
+        with self.medium.lock:
+            self.medium.watches.append(watch)
+            for (kind, name), count in self.medium.alive.items():
+                if count and kind.startswith(self.prefix):
+                    watch.mailbox.put("", Presence(kind.removeprefix(self.prefix), name, True))
+        self._mailboxes.append(watch.mailbox)
+        return watch
+
+    def connected(self) -> bool:
+        return not self._closed
+
+    def close(self) -> None:
+        if self._closed:
+            return
+        for who in self._tokens:
+            self.medium.count_token(self.match, who, -1)
+        self._closed = True
+        for subscription in self._subscriptions:
+            subscription.close()
+        for key in self._served:
+            self.medium.servers.pop(key, None)
+        for mailbox in self._mailboxes:
+            mailbox.close()
+        with self.medium.lock:
+            for topic, key in self._kept:
+                self.medium.caches.get(topic, {}).pop(key, None)

@@ -1,0 +1,141 @@
+"""The bus over Zenoh: the host is the router, everyone else a client with one explicit endpoint.
+
+Only the modules of this folder import Zenoh.
+"""
+
+import threading
+import weakref
+from typing import Any
+
+import zenoh
+
+from schemas.bus.contract import (
+    Bus,
+    BusError,
+    PendingReply,
+    PresenceWatch,
+    Publisher,
+    Server,
+    Subscription,
+    check_publishable,
+    full_key,
+)
+from schemas.bus.endpoint import DEFAULT_ENDPOINT
+from schemas.bus.mailbox import EveryMailbox
+from schemas.bus.zenoh.newest import ZenohNewest
+from schemas.bus.zenoh.queries import ZenohPendingReply, ZenohServer, ZenohWatch
+from schemas.bus.zenoh.reader import ZenohReader
+from schemas.bus.zenoh.session import SessionContext, open_connection, open_router
+from schemas.bus.zenoh.stream import ZenohPublisher, ZenohSubscription
+from schemas.bus.zenoh.wait_timer import WaitTimer
+from schemas.message import Message
+from schemas.process.clock import Clock
+from schemas.topic import Delivery, Topic
+from schemas.topics import TOPICS, key_prefix
+
+
+def open_host(match: str, clock: Clock, listen: str = DEFAULT_ENDPOINT) -> "ZenohBus":
+    """Open the host's bus: a router that listens on one endpoint.
+
+    Raises:
+        BusError: the endpoint cannot be listened on.
+    """
+    return ZenohBus(match, clock, open_router(listen), is_client=False)
+
+
+def open_client(match: str, clock: Clock, connect: str = DEFAULT_ENDPOINT, patience: float = 10.0) -> "ZenohBus":
+    """Open a client's bus, trying for `patience` s of wall time.
+
+    Raises:
+        BusError: no host answers at that endpoint.
+    """
+    return ZenohBus(match, clock, open_connection(connect, clock, patience), is_client=True)
+
+
+class ZenohBus(Bus):
+    """A bus on a Zenoh network."""
+
+    def __init__(self, match: str, clock: Clock, session: zenoh.Session, *, is_client: bool) -> None:
+        super().__init__(match, clock)
+        self.session = session
+        self._context = SessionContext(session, key_prefix(match), clock, is_client, WaitTimer(clock), self)
+        self._mailboxes: list[EveryMailbox[Any]] = []
+        self._subscriptions: list[ZenohReader] = []
+        self._tokens: dict[str, zenoh.LivelinessToken] = {}
+        _close_at_exit(self)
+
+    def publisher(self, topic: Topic, **chunks: str) -> Publisher:
+        check_publishable(topic)
+        return ZenohPublisher(topic, full_key(topic, chunks), self._open())
+
+    def subscribe(self, topic: Topic, *, newest: bool = False, history: bool = False, **chunks: str) -> Subscription:
+        check_publishable(topic)
+        context, key = self._open(), topic.fill(**chunks)
+        newest = newest or topic.delivery is Delivery.NEWEST
+        subscription: ZenohReader
+        if newest and "*" not in key:
+            subscription = ZenohNewest(topic, key, context)
+        else:
+            subscription = ZenohSubscription(topic, key, context, newest, history)
+        self._subscriptions.append(subscription)
+        context.timer.add(subscription)
+        return subscription
+
+    def serve(self, topic: Topic, **chunks: str) -> Server:
+        server = ZenohServer(topic, full_key(topic, chunks), self._open())
+        self._mailboxes.append(server.mailbox)
+        return server
+
+    def query(self, topic: Topic, request: Message, timeout: float = 2.0, **chunks: str) -> PendingReply:
+        return ZenohPendingReply(topic, full_key(topic, chunks), request, timeout, self._open())
+
+    def declare_alive(self, kind: str, name: str) -> None:
+        key = self._context.prefix + TOPICS["alive"].fill(kind=kind, name=name)
+        self._tokens[key] = self._open().session.liveliness().declare_token(key)
+
+    def withdraw_alive(self, kind: str, name: str) -> None:
+        self._open()
+        token = self._tokens.pop(self._context.prefix + TOPICS["alive"].fill(kind=kind, name=name), None)
+        if token is not None:
+            token.undeclare()  # type: ignore[no-untyped-call]
+
+    def watch_alive(self) -> PresenceWatch:
+        watch = ZenohWatch(self._open())
+        self._mailboxes.append(watch.mailbox)
+        return watch
+
+    def connected(self) -> bool:
+        if self._closed:
+            return False
+        return not self._context.is_client or bool(self.session.info.routers_zid())
+
+    def close(self) -> None:
+        if self._closed:
+            return
+        self._closed = True
+        self._context.timer.stop()
+        for subscription in self._subscriptions:
+            subscription.end()
+        for mailbox in self._mailboxes:
+            mailbox.close()
+        try:
+            self.session.close()  # type: ignore[no-untyped-call]
+        except zenoh.ZError:
+            return  # the peer was gone first; nothing is left to close
+
+    def _open(self) -> SessionContext:
+        if self._closed:
+            raise BusError("this bus is closed")
+        return self._context
+
+
+def _close_at_exit(bus: ZenohBus) -> None:
+    """Close before Zenoh's threads are joined: an interpreter that exits with an open session hangs."""
+    reference = weakref.ref(bus)
+
+    def close() -> None:
+        left = reference()
+        if left is not None:
+            left.close()
+
+    threading._register_atexit(close)  # type: ignore[attr-defined]

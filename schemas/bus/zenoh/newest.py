@@ -1,0 +1,55 @@
+"""The newest message of one key over Zenoh: what a robot reads its sights with.
+
+A robot is woken for each of them when nine others have used the caches since, so this way is kept short: it looks at no
+key, and at no stamp unless it is asked for that.
+"""
+
+import zenoh
+
+from schemas.bus.contract import ReceivedMessage
+from schemas.bus.zenoh.reader import NO_WAIT, ZenohReader
+from schemas.bus.zenoh.sample import is_wake_up, message_in
+from schemas.bus.zenoh.session import SessionContext
+from schemas.topic import Topic
+
+_PLACES = 2
+"""One beside the newest, so that a wake-up never pushes it out."""
+
+
+class ZenohNewest(ZenohReader):
+    """Forgets a message for the next."""
+
+    def __init__(self, topic: Topic, key: str, context: SessionContext) -> None:
+        super().__init__(topic, key, context)
+        self._key = key
+        self._reader = context.session.declare_subscriber(self._full_key, zenoh.handlers.RingChannel(_PLACES))
+
+    def receive(self, timeout: float | None = 0.0) -> ReceivedMessage | None:
+        newest = self._newest(timeout)
+        if newest is None:
+            return None
+        sample, payload = newest
+        return message_in(sample, self._topic, self._key, payload, self._timed)
+
+    def receive_payload(self, timeout: float | None = 0.0) -> bytes | None:
+        newest = self._newest(timeout)
+        return newest[1] if newest is not None else None
+
+    def skip_missing(self) -> None:
+        """Nothing older than the newest is ever waited for."""
+
+    def _newest(self, timeout: float | None) -> tuple[zenoh.Sample, bytes] | None:
+        """The sample that came last, and its payload."""
+        until = NO_WAIT if self._ended else self._deadline_of(timeout)
+        newest, reader = None, self._reader
+        try:
+            sample = self._wait(until) if until > NO_WAIT else reader.try_recv()
+            while sample is not None:
+                payload = sample.payload.to_bytes()
+                if payload or not is_wake_up(sample):
+                    newest = sample, payload
+                is_early = newest is None and not self._ended and self._clock.now() < until
+                sample = self._wait(until) if is_early else reader.try_recv()
+        except zenoh.ZError:
+            return newest  # the session was closed meanwhile
+        return newest

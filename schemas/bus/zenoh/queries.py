@@ -1,0 +1,94 @@
+"""What is rare on a bus, over Zenoh: queries and their replies, and who is alive. All of it waits in mailboxes."""
+
+from typing import Any
+
+import zenoh
+
+from schemas.bus.contract import NoReplyError, PendingReply, Presence, PresenceWatch, Query, Server
+from schemas.bus.mailbox import EveryMailbox
+from schemas.bus.zenoh.session import SessionContext
+from schemas.message import Message
+from schemas.topic import Topic
+from schemas.topics import TOPICS
+
+
+class ZenohQuery(Query):
+    def __init__(self, topic: Topic, query: zenoh.Query) -> None:
+        super().__init__(topic, topic.key, query.payload.to_bytes() if query.payload is not None else b"")
+        self._query = query
+
+    def reply(self, reply: Message) -> None:
+        with self._query as query:
+            query.reply(query.key_expr, reply.encode(), encoding=zenoh.Encoding.APPLICATION_JSON)
+
+    def fail(self, reason: str) -> None:
+        with self._query as query:
+            query.reply_err(reason)
+
+
+class ZenohServer(Server):
+    def __init__(self, topic: Topic, key: str, context: SessionContext) -> None:
+        self.mailbox: EveryMailbox[Query] = EveryMailbox()
+
+        def receive(query: zenoh.Query) -> None:
+            self.mailbox.put("", ZenohQuery(topic, query))
+
+        self._queryable = context.session.declare_queryable(
+            context.prefix + key, zenoh.handlers.Callback(receive, indirect=False)
+        )
+
+    def receive(self, timeout: float | None = 0.0) -> Query | None:
+        return self.mailbox.get(timeout)
+
+
+class ZenohPendingReply(PendingReply):
+    def __init__(self, topic: Topic, key: str, request: Message, timeout: float, context: SessionContext) -> None:
+        self._topic, self._key = topic, key
+        mailbox: EveryMailbox[bytes | str] = EveryMailbox()
+        self._mailbox = mailbox
+
+        def receive(reply: zenoh.Reply) -> None:
+            if reply.ok is not None:
+                mailbox.put("", reply.ok.payload.to_bytes())
+            elif reply.err is not None:
+                mailbox.put("", reply.err.payload.to_string())
+
+        def nobody() -> None:
+            mailbox.put("", f"nobody answers {key}")
+
+        context.session.get(
+            context.prefix + key,
+            zenoh.handlers.Callback(receive, nobody, indirect=False),
+            payload=request.encode(),
+            timeout=timeout,
+        )
+
+    def result(self, timeout: float) -> Any:
+        reply = self._mailbox.get(timeout)
+        if reply is None:
+            raise NoReplyError(f"nobody answers {self._key} within {timeout:g} s")
+        if isinstance(reply, str):
+            raise NoReplyError(reply)
+        assert self._topic.reply is not None
+        return self._topic.reply.decode(reply)
+
+
+class ZenohWatch(PresenceWatch):
+    def __init__(self, context: SessionContext) -> None:
+        self.mailbox: EveryMailbox[Presence] = EveryMailbox()
+        self.is_empty = self.mailbox.is_empty
+        start = len(context.prefix)
+        row = TOPICS["alive"]
+
+        def receive(sample: zenoh.Sample) -> None:
+            chunks = row.match(str(sample.key_expr)[start:])
+            if chunks:
+                alive = sample.kind == zenoh.SampleKind.PUT
+                self.mailbox.put("", Presence(chunks["kind"], chunks["name"], alive))
+
+        self._watch = context.session.liveliness().declare_subscriber(
+            context.prefix + row.fill(), zenoh.handlers.Callback(receive, indirect=False), history=True
+        )
+
+    def receive(self, timeout: float | None = 0.0) -> Presence | None:
+        return self.mailbox.get(timeout)

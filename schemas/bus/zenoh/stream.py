@@ -1,0 +1,130 @@
+"""Messages over Zenoh: who writes a key, and who reads a topic."""
+
+from typing import Any
+
+import zenoh
+from zenoh import ext
+
+from schemas.bus.contract import BusError, Publisher, ReceivedMessage, Stamp
+from schemas.bus.gap_recovery import GapRecovery
+from schemas.bus.zenoh.cache_queries import CacheQueries
+from schemas.bus.zenoh.reader import ZenohReader
+from schemas.bus.zenoh.sample import STAMP, is_wake_up, message_in
+from schemas.bus.zenoh.session import SessionContext, first_line
+from schemas.topic import Delivery, Topic
+from schemas.topics import TOPICS
+
+_BACKLOG = 500_000
+"""Samples that may wait for a reader who takes every one."""
+_LITERAL_KEYS = frozenset(topic.key for topic in TOPICS.values() if not topic.chunks)
+
+
+class ZenohPublisher(Publisher):
+    def __init__(self, topic: Topic, key: str, context: SessionContext) -> None:
+        super().__init__(topic, key)
+        self._clock = context.clock
+        self._sequence = 0
+        full = context.prefix + key
+        quiet: dict[str, Any] = {
+            "encoding": zenoh.Encoding.APPLICATION_JSON,
+            "congestion_control": zenoh.CongestionControl.DROP,
+        }
+        self._writer: Any
+        if topic.delivery is Delivery.RECOVERED:
+            self._writer = ext.declare_advanced_publisher(
+                context.session,
+                full,
+                cache=ext.CacheConfig(max_samples=topic.cache_size),
+                sample_miss_detection=ext.MissDetectionConfig(heartbeat=0.5, sporadic_heartbeat=None),
+                publisher_detection=True,
+                **quiet,
+            )
+        else:
+            self._writer = context.session.declare_publisher(full, **quiet)
+
+    def put_payload(self, payload: bytes) -> Stamp:
+        clock = self._clock
+        stamp = Stamp(self._sequence, clock.unix_ns(), clock.sim_ns)
+        try:
+            self._writer.put(payload, attachment=STAMP.pack(*stamp))
+        except zenoh.ZError as error:
+            raise BusError(f"this bus is closed ({first_line(error)})") from None
+        self._sequence += 1
+        return stamp
+
+    def has_subscribers(self) -> bool:
+        if self.topic.delivery is Delivery.RECOVERED:
+            return True  # Zenoh does not tell for writers with a cache, and the cache wants all samples anyway
+        return bool(self._writer.matching_status.matching)
+
+
+class ZenohSubscription(ZenohReader):
+    """The messages of a topic, of one key or of several: every one, or the newest of each."""
+
+    def __init__(self, topic: Topic, key: str, context: SessionContext, newest: bool, history: bool) -> None:
+        super().__init__(topic, key, context)
+        self._start = len(context.prefix)
+        self._newest = newest
+        self._kept: dict[str, ReceivedMessage] = {}
+        self._gaps: CacheQueries | None = None
+        born_ns = context.clock.unix_ns()
+        every: Any = zenoh.handlers.FifoChannel(_BACKLOG)
+        if topic.delivery is Delivery.RECOVERED and not newest:
+            settings = ext.RecoveryConfig(heartbeat=True, periodic_queries=None)
+            past = ext.HistoryConfig(detect_late_publishers=True, max_samples=topic.cache_size) if history else None
+            self._reader = ext.declare_advanced_subscriber(
+                context.session, self._full_key, every, history=past, recovery=settings
+            )
+            recovery = GapRecovery(since_ns=0, lookback=topic.cache_size) if history else GapRecovery(since_ns=born_ns)
+            self._gaps = CacheQueries(context, recovery, self._read, self.wake)
+        else:
+            self._reader = context.session.declare_subscriber(self._full_key, every)
+
+    def receive(self, timeout: float | None = 0.0) -> ReceivedMessage | None:
+        if self._newest:
+            return self._receive_newest(timeout)
+        return self._next(timeout)
+
+    def _receive_newest(self, timeout: float | None) -> ReceivedMessage | None:
+        """The newest of a key, with all that wait taken in first."""
+        kept = self._kept
+        received = self._next(0.0 if kept else timeout)
+        while received is not None:
+            kept.pop(received.key, None)
+            kept[received.key] = received
+            received = self._next(0.0)
+        return kept.pop(next(iter(kept))) if kept else None
+
+    def skip_missing(self) -> None:
+        if self._gaps is not None:
+            self._gaps.skip_missing()
+
+    def _next(self, timeout: float | None) -> ReceivedMessage | None:
+        """The next message of this topic; a wake-up ends the wait at its deadline, or when a missing one came."""
+        reader, gaps, until = self._reader, self._gaps, self._deadline_of(timeout)
+        try:
+            while True:
+                received = gaps.next() if gaps is not None else None
+                if received is not None:
+                    return received
+                sample = reader.try_recv()
+                if sample is None:
+                    if self._ended or self._clock.now() >= until:
+                        return None
+                    sample = self._wait(until if gaps is None else min(until, gaps.due_at()))
+                received = self._read(sample)
+                if received is None or gaps is None or gaps.accept_if_next(received):
+                    if received is not None:
+                        return received
+                else:
+                    gaps.insert(received, sample)
+        except zenoh.ZError:
+            return None  # the session was closed meanwhile
+
+    def _read(self, sample: zenoh.Sample) -> ReceivedMessage | None:
+        """The message in a sample; nothing in a wake-up, and in one of another topic."""
+        payload = sample.payload.to_bytes()
+        key = str(sample.key_expr)[self._start :]
+        if (not payload and is_wake_up(sample)) or (key in _LITERAL_KEYS and key != self._topic.key):
+            return None
+        return message_in(sample, self._topic, key, payload, self._timed)

@@ -1,0 +1,77 @@
+"""Ends waits that have an end: one thread for all readers of a session, started with the first such wait."""
+
+import math
+import threading
+from typing import Protocol
+
+from schemas.process.clock import Clock
+
+_AGAIN_S = 0.05
+"""Until a reader that was woken and still waits is woken again."""
+
+
+class Waiter(Protocol):
+    """A reader who may wait."""
+
+    deadline: float
+    """When its wait has to be ended, by the clock in s; infinite when there is none, or none that ends."""
+
+    def wake(self) -> None:
+        """End its wait."""
+
+
+class WaitTimer:
+    """Sleeps until the first wait ends that somebody has begun.
+
+    Whoever begins a wait says first when it ends, then reads `next_check_at`; who ends sooner calls `check_now`. Most
+    waits are short and end later than the next check: they cost that comparison, and no lock.
+    """
+
+    def __init__(self, clock: Clock) -> None:
+        self.next_check_at = math.inf
+        """When all readers are looked at again, by the clock in s; infinite, too, while they are being looked at."""
+        self._clock = clock
+        self._waiting: list[Waiter] = []
+        self._thread: threading.Thread | None = None
+        self._check_requested = threading.Event()
+        self._stopping = False
+
+    def add(self, reader: Waiter) -> None:
+        """Look after this reader, too."""
+        self._waiting.append(reader)
+
+    def check_now(self) -> None:
+        """Look at all readers now: a wait has begun that ends sooner than they would be looked at."""
+        self._check_requested.set()
+        if self._thread is None:
+            thread = threading.Thread(target=self._run, name="bus wait timer", daemon=True)
+            thread.start()
+            self._thread = thread  # only now: a signal within `start` must not leave a thread that cannot be joined
+
+    def stop(self) -> None:
+        """End the thread; waits are not ended any more."""
+        self._stopping = True
+        self._check_requested.set()
+        if self._thread is not None and self._thread is not threading.current_thread():
+            self._thread.join()
+
+    def _run(self) -> None:
+        while True:
+            self._check_requested.clear()
+            if self._stopping:
+                return
+            self.next_check_at = math.inf  # a wait that begins from here on calls `check_now`
+            now = self._clock.now()
+            self.next_check_at = next_check_at = min(
+                (_ended(reader, now) for reader in tuple(self._waiting)), default=math.inf
+            )
+            self._check_requested.wait(min(next_check_at - now, threading.TIMEOUT_MAX))
+
+
+def _ended(reader: Waiter, now: float) -> float:
+    """End a reader's wait whose time has come; when it has to be looked at again."""
+    deadline = reader.deadline
+    if deadline > now:
+        return deadline
+    reader.wake()
+    return now + _AGAIN_S

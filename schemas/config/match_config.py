@@ -1,0 +1,308 @@
+"""The match file: one frozen `MatchConfig` from TOML, with errors that name file, key, value and remedy.
+
+`load_match` reads every file that a match file names, scene and profile, and embeds what is in it: a config is
+self-contained.
+"""
+
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import Field, field_validator, model_validator
+
+from schemas.config.noise import PRESETS
+from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.config.profile import SHIPPED, Profile, load_profile, profile_of, profile_tables
+from schemas.config.roster import MAX_ROBOTS, RESERVED
+from schemas.config.scene import REMEDIES as SCENE_REMEDIES
+from schemas.config.scene import Scene, load_scene
+from schemas.config.toml_file import validate_tables
+from schemas.errors import TouchlineError, did_you_mean
+from schemas.game import OfficiatingMode
+from schemas.message import Name, Part
+from schemas.side import Side
+
+LOCKSTEP = "lockstep"
+"""The pace in which the host waits for the answers of all robots."""
+
+REMEDIES = {
+    "name": "a match name is a key chunk: small letters, digits and _",
+    "seed": "a whole number from 0 to 2^63 - 1",
+    "pace": 'write "lockstep", "realtime", or "x4" for four times real time',
+    "duration": "playing time of all halves in s, above 0 and at most 86400",
+    "scene": "the name of a scene, or a path that ends in .toml",
+    **{f"scene.{key}": remedy for key, remedy in SCENE_REMEDIES.items()},
+    "teams": "write [teams.cyan] and [teams.magenta]",
+    "teams.cyan": "write [teams.cyan], and below it what the team is",
+    "teams.magenta": "write [teams.magenta], and below it what the team is",
+    "teams.cyan.size": f"a side has 1 to {MAX_ROBOTS} robots",
+    "teams.magenta.size": f"a side has 1 to {MAX_ROBOTS} robots",
+    "teams.cyan.robots": f"1 to {MAX_ROBOTS} different names of small letters, digits and _",
+    "teams.magenta.robots": f"1 to {MAX_ROBOTS} different names of small letters, digits and _",
+    "teams.cyan.brain": 'write "module:Class"',
+    "teams.magenta.brain": 'write "module:Class"',
+    "teams.cyan.types": 'write robot = "type", as in { cyan1 = "keeper" }',
+    "teams.magenta.types": 'write robot = "type", as in { magenta1 = "keeper" }',
+    "obstacles": "write [[obstacles]] above each of them",
+    "obstacles.shape": f"one of {', '.join(Shape)}",
+    "obstacles.place": "x and y of the centre in m",
+    "obstacles.size": "x, y and z of a box in m",
+    "referee.mode": f"one of {', '.join(OfficiatingMode)}",
+    "noise.preset": f"one of {', '.join(PRESETS)}",
+}
+"""What to do about a wrong value, by key; a message of the validator's stands where there is none."""
+
+
+class TeamConfig(Part):
+    """One team of the match file: who plays and what moves them."""
+
+    name: str = ""
+    brain: Annotated[str, Field(pattern=r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")] | None = None
+    """`module:Class` of a brain in Python; it is built once in each robot's process."""
+    command: list[str] | None = None
+    """Any program that speaks the topics, in place of a brain; the environment tells it who it is."""
+    size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = MAX_ROBOTS
+    robots: Annotated[list[Name], Field(max_length=MAX_ROBOTS)] = Field(default_factory=list)
+    """Names of the robots, the goalkeeper first; when none are given, colour and number."""
+    types: dict[Name, Name] = Field(default_factory=dict)
+    """Robot → its type, of the profile or of `[types.NAME]`; a robot that is not named here is a standard one."""
+
+    @model_validator(mode="after")
+    def _check_brain_or_command(self) -> "TeamConfig":
+        if self.brain is not None and self.command is not None:
+            raise ValueError("brain and command are both given; a team has one or the other")
+        return self
+
+
+def _default_cyan() -> TeamConfig:
+    return TeamConfig(name="Simple", brain="robot_agent.teams.simple:Simple")
+
+
+def _default_magenta() -> TeamConfig:
+    return TeamConfig(name="NuBot", brain="robot_agent.teams.nubot:NuBot")
+
+
+class TeamConfigs(Part):
+    """Both teams."""
+
+    cyan: TeamConfig = Field(default_factory=_default_cyan)
+    magenta: TeamConfig = Field(default_factory=_default_magenta)
+
+
+class NoiseConfig(Part):
+    """How well robots perceive."""
+
+    preset: str = "profile"
+
+    @field_validator("preset")
+    @classmethod
+    def _check_preset(cls, preset: str) -> str:
+        if preset not in PRESETS:
+            raise ValueError(did_you_mean(preset, PRESETS))
+        return preset
+
+
+class RadioOverride(Part):
+    """Numbers in place of the profile's."""
+
+    delay: Annotated[float, Field(ge=0, le=5)] | None = None
+    jitter: Annotated[float, Field(ge=0, le=5)] | None = None
+    loss: Annotated[float, Field(ge=0, le=1)] | None = None
+    budget: Annotated[float, Field(ge=0)] | None = None
+
+
+class OfficiatingConfig(Part):
+    """How the match is refereed."""
+
+    kick_off: Side = Side.CYAN
+    """Who kicks off the first half."""
+    automatic: bool = True
+    """The match starts by itself when all robots are there; otherwise it waits for `touchline coach start`."""
+    mode: OfficiatingMode = OfficiatingMode.AUTOMATIC
+    """The referee decides, or people alone, or it proposes and people may overrule it."""
+    proposal: Annotated[float, Field(ge=0, le=60)] = 3.0
+    """Mixed officiating: s of simulated time after which what was proposed is decided."""
+    winner: bool | None = None
+    """A level match goes on with extra time and penalties; by default as the rule book says."""
+
+
+class RecordingConfig(Part):
+    """What is recorded."""
+
+    sights: bool = False
+    wait: bool = False
+    """The first tick waits for a recorder to be there, so that nothing is missed."""
+    include: list[str] = Field(default_factory=list)
+    """Key expressions that are recorded, `robot/*/command`; all where there is none."""
+    exclude: list[str] = Field(default_factory=list)
+    """Key expressions that are not."""
+    split_size: Annotated[float, Field(gt=0)] | None = None
+    """MB after which the recording goes on in a next file."""
+    split_duration: Annotated[float, Field(gt=0)] | None = None
+    """Simulated s after which it does."""
+    keep: Annotated[int, Field(ge=1)] | None = None
+    """So many of its files are kept, the newest."""
+    snapshot: Annotated[float, Field(gt=0)] | None = None
+    """Simulated s before a goal that are written, each to a file of its own; nothing else is."""
+    viz: bool = True
+    """What viewers draw is in the file: `/tf` and `/viz/*`, for Foxglove, Lichtblick and Rerun."""
+
+
+class Patience(Part):
+    """How long the host waits, in s of wall time."""
+
+    attendance: Annotated[float, Field(ge=0, le=600)] = 30.0
+    """For all robots to be there before the first tick."""
+    answer: Annotated[float, Field(gt=0, le=60)] = 1.0
+    """Lockstep: for a robot's answer to one tick."""
+    recorder: Annotated[float, Field(gt=0, le=600)] = 5.0
+    """Lockstep: for a recorder that stands still or has lost its link."""
+
+
+class MatchConfig(Part):
+    """Everything that makes one match, and with equal brains the same match again."""
+
+    name: Name = "friendly"
+    seed: Annotated[int, Field(ge=0, lt=2**63)] = 1
+    pace: Annotated[str, Field(pattern=r"^(lockstep|realtime|x\d{1,6}(\.\d{1,6})?)$")] = LOCKSTEP
+    duration: Annotated[float, Field(gt=0, le=86_400)] | None = None
+    """Playing time of all halves in s; by default the rule book's."""
+    scene: Scene | None = None
+    """The scene that the match starts in, with its robots; None for the kick-off.
+
+    A match file has the name or the path of a scene here, or the scene itself.
+    """
+    profile: str = "msl"
+    """A shipped profile by name, or the path of the file that `profile_tables` was read from."""
+    profile_tables: dict[str, Any] | None = None
+    """All tables of the profile, with those of the profiles that it extends; None for the shipped profile."""
+    rules: str = "friendly"
+    teams: TeamConfigs = Field(default_factory=TeamConfigs)
+    types: dict[Name, dict[str, Any]] = Field(default_factory=dict)
+    """Types of robots that are added to the profile's, or change them: sections of numbers, as in a profile."""
+    obstacles: list[StaticObstacle] = Field(default_factory=list)
+    """What else stands on the pitch when the match begins."""
+    noise: NoiseConfig = NoiseConfig()
+    radio: RadioOverride = RadioOverride()
+    referee: OfficiatingConfig = OfficiatingConfig()
+    record: RecordingConfig = RecordingConfig()
+    patience: Patience = Patience()
+
+    @field_validator("pace")
+    @classmethod
+    def _check_pace(cls, pace: str) -> str:
+        if pace.startswith("x") and not float(pace[1:]):
+            raise ValueError("time would stand still")
+        return pace
+
+    @model_validator(mode="after")
+    def _check_names(self) -> "MatchConfig":
+        names = [robot for side in Side for robot in self.robots(side)]
+        for name in names:
+            if name in RESERVED:
+                raise ValueError(f'a robot is named "{name}", which means something else in a key; rename it')
+            if names.count(name) > 1:
+                raise ValueError(f'two robots are named "{name}"; every robot of a match has its own name')
+        bodies = [*names, *RESERVED]
+        for obstacle in self.obstacles:
+            if obstacle.name in bodies:
+                raise ValueError(f'two bodies are named "{obstacle.name}"; every obstacle has a name of its own')
+            bodies.append(obstacle.name)
+        return self
+
+    @model_validator(mode="after")
+    def _check_types(self) -> "MatchConfig":
+        for side in Side:
+            names = self.robots(side)
+            for robot in self.team(side).types:
+                if robot not in names:
+                    at = f"teams.{side.value}.types.{robot}"
+                    raise ValueError(f"{at}: no robot of the side has that name; {did_you_mean(robot, names)}")
+        return self
+
+    def team(self, side: Side) -> TeamConfig:
+        """The team of a side."""
+        return self.teams.cyan if side is Side.CYAN else self.teams.magenta
+
+    def robots(self, side: Side) -> list[str]:
+        """The names of the robots that agents move, the goalkeeper first; of a scene, where the match starts in one."""
+        if self.scene is not None:
+            return [robot.name for robot in self.scene.of(side) if robot.agent]
+        team = self.team(side)
+        return team.robots or [f"{side.value}{number}" for number in range(1, team.size + 1)]
+
+    def load_profile(self) -> Profile:
+        """The profile that the match is played with.
+
+        Raises:
+            TouchlineError: no such shipped profile, or a wrong number in it.
+        """
+        if self.profile_tables is None:
+            return load_profile(self.profile)
+        return profile_of(self.profile, self.profile_tables)
+
+    @property
+    def speed(self) -> float | None:
+        """Simulated seconds per wall second that the pace asks for; nothing in lockstep."""
+        if self.pace == LOCKSTEP:
+            return None
+        return 1.0 if self.pace == "realtime" else float(self.pace[1:])
+
+
+def load_match(path: Path | None, overrides: dict[str, Any] | None = None) -> MatchConfig:
+    """The match of a file, or the default one; `overrides` are laid over it, as the command line's flags are.
+
+    Raises:
+        TouchlineError: one line that names file, key, value and remedy.
+    """
+    where = str(path) if path is not None else "match"
+    content: dict[str, Any] = {}
+    if path is not None:
+        try:
+            content = tomllib.loads(path.read_text("utf-8"))
+        except OSError as error:
+            raise TouchlineError(f"{path}: {error.strerror}; give the path of a match file") from None
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise TouchlineError(f"{path}: not TOML: {error}") from None
+    for key, value in (overrides or {}).items():
+        _set_at_path(content, key.split("."), value)
+    return _validate(_with_profile(_with_scene(content), where), where)
+
+
+def _with_scene(content: dict[str, Any]) -> dict[str, Any]:
+    """The match file with the scene in place of its name, and with the scene's profile and rules as defaults."""
+    if isinstance(content.get("scene"), str):
+        content = content | {"scene": load_scene(content["scene"]).model_dump(mode="json")}
+    scene = content.get("scene")
+    if not isinstance(scene, dict):
+        return content  # the validator names a wrong type
+    return {key: scene[key] for key in ("profile", "rules") if scene.get(key) is not None} | content
+
+
+def _with_profile(content: dict[str, Any], where: str) -> dict[str, Any]:
+    """The match file with the tables of a profile that is not shipped."""
+    if "profile_tables" in content:
+        raise TouchlineError(f'{where}: profile_tables is not for match files; write profile = "FILE.toml"')
+    profile = content.get("profile")
+    if not isinstance(profile, str) or profile in SHIPPED:
+        return content
+    return content | {"profile_tables": profile_tables(profile)}
+
+
+def _set_at_path(content: dict[str, Any], path: list[str], value: Any) -> None:
+    for step in path[:-1]:
+        below = content.setdefault(step, {})
+        if not isinstance(below, dict):
+            return  # the validator names the wrong type
+        content = below
+    content[path[-1]] = value
+
+
+def _validate(content: dict[str, Any], where: str) -> MatchConfig:
+    for side, default in (("cyan", _default_cyan()), ("magenta", _default_magenta())):
+        teams = content.get("teams")
+        team = teams.get(side) if isinstance(teams, dict) else None
+        if isinstance(team, dict) and not {"brain", "command"} & set(team):
+            team["brain"] = default.brain
+            team.setdefault("name", default.name)
+    return validate_tables(MatchConfig, content, where, REMEDIES)

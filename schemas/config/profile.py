@@ -1,0 +1,201 @@
+"""A profile: its sections and its types of robots, read from TOML.
+
+Those of `SHIPPED` come along; any TOML file may `extends = "msl"` and change what it likes. Every number has a unit
+(declared in `schemas.config.sections`) and an origin (written in the file, kept in `Profile.origins`).
+"""
+
+import dataclasses
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from schemas.config.quantity import merge_tables, read_changes, read_section
+from schemas.config.sections import (
+    SECTIONS,
+    TYPE_SECTIONS,
+    Ball,
+    Dribble,
+    DriveLimits,
+    Kicker,
+    Pitch,
+    RadioChannel,
+    RobotBody,
+    Safety,
+    Sensing,
+    TimeSteps,
+    Wheels,
+)
+from schemas.errors import TouchlineError, did_you_mean
+
+SHIPPED = ("msl", "omni", "omni3", "paper")
+"""The profiles that come with the package."""
+
+
+STANDARD = "standard"
+"""The type whose numbers stand in the profile's own sections."""
+
+Changes = Mapping[str, Mapping[str, Any]]
+"""Section → key → value: what makes a type of robot different from the standard one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """Everything physical about a match."""
+
+    name: str
+    time: TimeSteps
+    field: Pitch
+    robot: RobotBody
+    ball: Ball
+    drive: DriveLimits
+    wheels: Wheels
+    dribble: Dribble
+    kicker: Kicker
+    sensing: Sensing
+    radio: RadioChannel
+    safety: Safety
+    types: Mapping[str, Changes]
+    """Type of robot → what is different about it; `schemas.config.robot_model` makes models of them."""
+    origins: Mapping[str, str] = dataclasses.field(repr=False, compare=False)
+
+    def robot_of_type(self, name: str) -> dict[str, Any]:
+        """Section → its numbers for a type of robot, for each of `TYPE_SECTIONS`."""
+        changes = self.types[name] if name != STANDARD else {}
+        return {
+            section: dataclasses.replace(getattr(self, section), **changes.get(section, {}))
+            for section in TYPE_SECTIONS
+        }
+
+    def with_types(self, tables: Mapping[str, Any], where: str) -> "Profile":
+        """The same with more types of robots, or other numbers for those it has, as a match file gives them.
+
+        Raises:
+            TouchlineError: a number is wrong, or does not fit the others.
+        """
+        origins: dict[str, str] = {}
+        types = merge_tables(dict(self.types), read_types(tables, where, origins))
+        origins = {key.removeprefix(f"{where}: "): origin for key, origin in origins.items()}
+        profile = dataclasses.replace(self, types=types, origins={**self.origins, **origins})
+        check_consistent(profile)
+        return profile
+
+
+def load_profile(name: str) -> Profile:
+    """A shipped profile by name, or one from a path that ends in `.toml`.
+
+    Raises:
+        TouchlineError: no such profile, or something in it is wrong.
+    """
+    return profile_of(name, profile_tables(name))
+
+
+def profile_of(name: str, tables: Mapping[str, Any]) -> Profile:
+    """The profile of these tables, as `profile_tables` gives them.
+
+    Raises:
+        TouchlineError: something in it is wrong.
+    """
+    origins: dict[str, str] = {}
+    sections: dict[str, Any] = {
+        key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins) for key, cls in SECTIONS.items()
+    }
+    types = read_types(tables.get("types", {}), name, origins)
+    known = (*SECTIONS, "types")
+    for section in sorted(set(tables) - set(known)):
+        raise TouchlineError(f"{name}: section [{section}] is not known; {did_you_mean(section, known)}")
+    origins = {key.removeprefix(f"{name}: "): origin for key, origin in origins.items()}
+    profile = Profile(name=name, types=types, origins=origins, **sections)
+    check_consistent(profile)
+    return profile
+
+
+def read_types(tables: Any, where: str, origins: dict[str, str]) -> dict[str, Changes]:
+    """The types of robots in the tables `[types.NAME.<section>]` of a profile or a match file.
+
+    Raises:
+        TouchlineError: an unknown section or key, a wrong number, or a type named as the standard one.
+    """
+    types: dict[str, Changes] = {}
+    for name, sections in _table(tables, f"{where}: types").items():
+        at = f"{where}: types.{name}"
+        if name == STANDARD:
+            raise TouchlineError(f"{at} is the profile's own robot; change the profile's sections, or rename the type")
+        changes = {}
+        for section, table in _table(sections, at).items():
+            if section not in TYPE_SECTIONS:
+                raise TouchlineError(f"{at}.{section} is not known; {did_you_mean(section, TYPE_SECTIONS)}")
+            changes[section] = read_changes(TYPE_SECTIONS[section], table, f"{at}.{section}", origins)
+        types[name] = changes
+    return types
+
+
+def _table(content: Any, at: str) -> dict[str, Any]:
+    if not isinstance(content, dict):
+        raise TouchlineError(f"{at} is {content!r}; write tables, as [types.NAME.drive]")
+    return content
+
+
+def profile_tables(name: str, below: tuple[str, ...] = ()) -> dict[str, Any]:
+    """The tables of a profile laid over those of what it extends; `below` are the profiles that extend it.
+
+    Raises:
+        TouchlineError: no such profile, no TOML, or one that extends itself.
+    """
+    if name in below:
+        raise TouchlineError(f"{name}: extends itself over {' → '.join(below)}; break the circle")
+    try:
+        tables = tomllib.loads(profile_text(name))
+    except tomllib.TOMLDecodeError as error:
+        raise TouchlineError(f"{name}: not TOML: {error}") from None
+    parent = tables.pop("extends", None)
+    return merge_tables(profile_tables(str(parent), (*below, name)), tables) if parent is not None else tables
+
+
+def profile_text(name: str) -> str:
+    """The TOML of a profile as it stands in its file."""
+    if name in SHIPPED:
+        return (resources.files("schemas") / "profiles" / f"{name}.toml").read_text("utf-8")
+    if not name.endswith(".toml"):
+        raise TouchlineError(f'profile is "{name}"; {did_you_mean(name, SHIPPED)} Or give a path that ends in .toml')
+    try:
+        return Path(name).read_text("utf-8")
+    except OSError as error:
+        raise TouchlineError(f'profile is "{name}": {error.strerror}; give one of {", ".join(SHIPPED)}') from None
+
+
+def check_consistent(profile: Profile) -> None:
+    """Make sure of the numbers that only make sense together, of every type of robot.
+
+    Raises:
+        TouchlineError: two that do not.
+    """
+    for name in (STANDARD, *profile.types):
+        where = profile.name if name == STANDARD else f"{profile.name}: types.{name}"
+        _check_robot(where, profile.robot_of_type(name), profile.ball)
+
+
+def _check_robot(where: str, numbers: Mapping[str, Any], ball: Ball) -> None:
+    robot, wheels, dribble = numbers["robot"], numbers["wheels"], numbers["dribble"]
+    touching = robot.radius + ball.radius
+    if dribble.gap > dribble.distance:
+        raise TouchlineError(
+            f"{where}: dribble.gap is {dribble.gap} m; a held ball must stay within dribble.distance, "
+            f"{dribble.distance} m"
+        )
+    if dribble.gap < touching - 0.05:
+        raise TouchlineError(
+            f"{where}: dribble.gap is {dribble.gap} m; robot and ball touch at {touching:.3f} m already"
+        )
+    if (robot.frame_width > 0) != (robot.frame_depth > 0):
+        raise TouchlineError(
+            f"{where}: robot.frame_width is {robot.frame_width} m, robot.frame_depth {robot.frame_depth} m; "
+            "a frame has both, a robot without one neither"
+        )
+    if wheels.max_speed > wheels.no_load_rim_speed:
+        raise TouchlineError(
+            f"{where}: wheels.max_speed is {wheels.max_speed} m/s; no_load_speed, radius and gear let a rim "
+            f"reach {wheels.no_load_rim_speed:.2f} m/s at most"
+        )

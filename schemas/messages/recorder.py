@@ -1,0 +1,43 @@
+"""Controls a recorder while it records: asked of it by name, answered at once."""
+
+from enum import StrEnum
+
+from schemas.message import Message, Name, Source
+
+
+class RecorderOperation(StrEnum):
+    """What a recorder is asked to do."""
+
+    STATUS = "status"
+    PAUSE = "pause"
+    """Leave out what comes from now on."""
+    RESUME = "resume"
+    SPLIT = "split"
+    """Finish this file and go on in the next one."""
+    SNAPSHOT = "snapshot"
+    """Write what it holds in memory to a file."""
+
+
+class RecorderRequest(Message):
+    """Asks a recorder to do something, or how it is doing."""
+
+    operation: RecorderOperation = RecorderOperation.STATUS
+    source: Source = "operator"
+    """Who asks."""
+
+
+class RecorderReply(Message):
+    """A recorder's answer: how it is doing after what it was asked."""
+
+    accepted: bool
+    reason: str = ""
+    """Why it was refused; then nothing has changed."""
+    recorder: Name
+    paused: bool
+    file: str
+    """Where it writes, on its own machine; with snapshots, the newest of them."""
+    messages: int
+    """Taken in so far."""
+    lost: int
+    tick: int
+    """The newest that it has taken in; −1 before the first."""

@@ -1,0 +1,48 @@
+"""From commands to inputs: the newest command of each robot counts, until it is too old."""
+
+from collections.abc import Container, Mapping
+
+from schemas.messages.command import Command, Drive
+from schemas.messages.host import AppliedInput
+from schemas.messages.light import light_form
+
+_Input = light_form(AppliedInput)
+_AT_REST = _Input(Drive(), dribble=False)
+
+
+class LatestCommands:
+    """What each robot was last told, with the watchdog: a command older than its limit brakes the robot to rest.
+
+    A command is as old as the sight it answers, so that a burst of stale ones after a broken link moves nobody.
+    """
+
+    def __init__(self, names: tuple[str, ...], watchdog_ticks: float, still: tuple[str, ...] = ()) -> None:
+        """Robots that stand `still` rest, whatever they are told."""
+        self._names = names
+        self._still = still
+        self._watchdog = watchdog_ticks
+        self._newest: dict[str, Command] = {}
+
+    def with_roster(self, names: tuple[str, ...], watchdog_ticks: float, still: tuple[str, ...]) -> "LatestCommands":
+        """For other robots or another limit: who stays has been told what it was told."""
+        successor = LatestCommands(names, watchdog_ticks, still)
+        successor._newest = {name: command for name, command in self._newest.items() if name in names}
+        return successor
+
+    def inputs(
+        self, tick: int, fresh: Mapping[str, Command], off_field: Container[str] = ()
+    ) -> dict[str, AppliedInput]:
+        """The inputs of this tick; a kick is part of the tick its command arrives in, and of no other.
+
+        Robots off the field rest, whatever they are told.
+        """
+        self._newest.update(fresh)
+        return {name: _AT_REST if name in off_field else self._input(name, tick, name in fresh) for name in self._names}
+
+    def _input(self, name: str, tick: int, is_fresh: bool) -> AppliedInput:
+        command = self._newest.get(name)
+        if command is None or name in self._still or tick - command.answers_tick > self._watchdog:
+            return _AT_REST
+        if is_fresh:
+            return _Input(command.drive, command.dribble, command.kick, command.answers_tick)
+        return _Input(command.drive, command.dribble)

@@ -1,1 +1,0 @@
-"""Who answers at the desk: one clerk for each kind of question."""

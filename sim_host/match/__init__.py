@@ -1,0 +1,1 @@
+"""One match without a network: the simulation of a tick, and the subsystems that it is made of."""

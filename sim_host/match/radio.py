@@ -1,0 +1,163 @@
+"""The air between teammates: what a robot says reaches each teammate late, or not at all, within the byte budget."""
+
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from schemas.config.sections import RadioChannel
+from schemas.messages.command import Radio
+from schemas.messages.light import beyond_defaults, light_encode_exactly
+from schemas.side import Side
+from sim_host.sensing.random_streams import BatchedDraws, RandomStreams, StreamId
+from sim_host.snapshot import Roster
+
+_WINDOW_S = 1.0
+"""The budget counts what a team said in the last second."""
+
+_EMPTY = b"{}"
+
+Delays = NDArray[np.int64]
+"""Ticks from each member of a team to each, shape (members, members)."""
+_LOST = -1
+"""In place of a delay in ticks: the word never arrives."""
+_ROUNDING = 1e-6
+"""Ticks; a delay that exceeds whole ticks by no more is these ticks, for all that floats round."""
+
+
+@dataclass(slots=True, eq=False)
+class _RadioMessage:
+    sent_at: int
+    """Tick."""
+    opened: bytes
+    """The speaker's name and its word as JSON, left open for the age: written once, heard by all in every tick."""
+
+
+class _Ages(dict[int, bytes]):
+    """Tick → how long ago that is in one tick, as the end of a word: many words are of the same age."""
+
+    def __init__(self, tick: int, tick_s: float) -> None:
+        self._tick = tick
+        self._tick_s = tick_s
+
+    def __missing__(self, encoded: int) -> bytes:
+        self[encoded] = text = b'"age":%.4f}' % ((self._tick - encoded) * self._tick_s)
+        return text
+
+
+@dataclass(slots=True)
+class _TeamAir:
+    sent: deque[tuple[int, int]] = field(default_factory=deque)
+    """(tick, bits) of each word of the last second."""
+    bits: int = 0
+
+
+class RadioAir:
+    """The radio of both teams.
+
+    A word takes `delay` and a share of `jitter`, uniform and different for each listener, and is heard at the first
+    tick after that. So a word can overtake another; a listener keeps the one that was said last.
+    """
+
+    def __init__(self, air: RadioChannel, roster: Roster, tick: float, streams: RandomStreams) -> None:
+        self._air = air
+        self._roster = roster
+        self._tick_s = tick
+        self._streams = streams
+        self._teams = {side: _TeamAir() for side in Side}
+        self._under_way: dict[int, list[tuple[int, int, _RadioMessage]]] = {}
+        """Tick of arrival → speaker, listener and word, in the order in which they were said."""
+        self._received: list[dict[int, _RadioMessage]] = [{} for _ in roster.names]
+        """Listener → speaker → word, in the order of the roster."""
+        self._members = {side: [index for index, its in enumerate(roster.sides) if its is side] for side in Side}
+        self._delays = self._new_delays()
+
+    def change(self, air: RadioChannel) -> None:
+        """Another air for all words from now on; those under way arrive as they would have."""
+        self._air = air
+        self._delays = self._new_delays()
+
+    def with_roster(self, roster: Roster) -> "RadioAir":
+        """For other robots: what was said, is under way and was heard stays with those who stay on their side."""
+        successor, before = RadioAir(self._air, roster, self._tick_s, self._streams), self._roster
+        index = {
+            old: roster.names.index(name)
+            for old, name in enumerate(before.names)
+            if name in roster.names and roster.side_of(name) is before.side_of(name)
+        }
+        successor._teams = self._teams
+        successor._under_way = {
+            arrives: [
+                (index[speaker], index[mate], message)
+                for speaker, mate, message in messages
+                if speaker in index and mate in index
+            ]
+            for arrives, messages in self._under_way.items()
+        }
+        for old, new in index.items():
+            successor._received[new] = {
+                index[speaker]: message for speaker, message in self._received[old].items() if speaker in index
+            }
+        return successor
+
+    def send(self, tick: int, speaker: str, content: Radio) -> str | None:
+        """Send a word, light or not, to all teammates; returns why it was refused, or nothing.
+
+        What stands at its default is not sent, and takes nothing of the budget.
+        """
+        index = self._roster.names.index(speaker)
+        encoded = light_encode_exactly(beyond_defaults(content))
+        bits = 8 * len(encoded)
+        team = self._teams[self._roster.sides[index]]
+        self._drop_old(team, tick)
+        if team.bits + bits > self._air.budget * _WINDOW_S:
+            return f"radio: the team's budget of {self._air.budget / 1e6:g} Mbit/s is used up"
+        team.sent.append((tick, bits))
+        team.bits += bits
+        opened = encoded[:-1] + (b"," if len(encoded) > len(_EMPTY) else b"")
+        self._deliver(index, _RadioMessage(tick, b'"%s":%s' % (speaker.encode(), opened)))
+        return None
+
+    def _deliver(self, speaker: int, message: _RadioMessage) -> None:
+        """On its way to everyone who will hear it."""
+        side = self._roster.sides[speaker]
+        members = self._members[side]
+        delays = self._delays[side].at(message.sent_at)[members.index(speaker)].tolist()
+        for mate, delay in zip(members, delays, strict=True):
+            if mate != speaker and delay != _LOST:
+                self._under_way.setdefault(message.sent_at + delay, []).append((speaker, mate, message))
+
+    def _new_delays(self) -> dict[Side, BatchedDraws[Delays]]:
+        """Per side and tick: for how many ticks a word of each member is under way to each member."""
+        names = self._roster.names
+        return {
+            side: BatchedDraws(partial(self._draw, [names[index] for index in members]))
+            for side, members in self._members.items()
+        }
+
+    def _draw(self, names: Sequence[str], ticks: range) -> list[Delays]:
+        air = self._air
+        lost, late, *_ = np.moveaxis(self._streams.pairwise_uniforms(StreamId.AIR, names, names, ticks), -1, 0)
+        whole = np.ceil((air.delay + late * air.jitter) / self._tick_s - _ROUNDING).astype(np.int64)
+        return list(np.where(lost < air.loss, _LOST, whole))
+
+    def receive(self, tick: int) -> list[bytes]:
+        """What each robot has heard by this tick, as JSON: mate → its newest `schemas.messages.sight.ReceivedRadio`."""
+        for arrives in sorted([one for one in self._under_way if one <= tick]):
+            for speaker, mate, message in self._under_way.pop(arrives):
+                before = self._received[mate].get(speaker)
+                if before is None or message.sent_at > before.sent_at:
+                    self._received[mate][speaker] = message
+        ages = _Ages(tick, self._tick_s)
+        return [
+            b"{%b}" % b",".join([message.opened + ages[message.sent_at] for message in heard.values()])
+            for heard in self._received
+        ]
+
+    def _drop_old(self, team: _TeamAir, tick: int) -> None:
+        oldest = tick - _WINDOW_S / self._tick_s
+        while team.sent and team.sent[0][0] <= oldest:
+            team.bits -= team.sent.popleft()[1]

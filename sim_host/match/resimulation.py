@@ -1,0 +1,259 @@
+"""The world of a match simulated again, from what was noted of each tick; pure: no brains, no referee, no sensors.
+
+What moved the world stands in every `schemas.messages.host.Applied`: the robots' inputs, what was placed, and what was
+changed of numbers, robots and obstacles. It begins at tick 0, or at any checkpoint, from poses and velocities alone:
+there nobody holds the ball, the ball rolls, every kicker is charged, and wheels turn as their robot moves.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from schemas.config.obstacle import StaticObstacle
+from schemas.config.profile import STANDARD, load_profile
+from schemas.config.robot_model import RobotModel
+from schemas.config.roster import RosterEntry
+from schemas.config.sections import TYPE_SECTIONS
+from schemas.errors import TouchlineError
+from schemas.messages.host import Applied, Setup
+from schemas.messages.world import World as WorldMessage
+from sim_host.match.live_parameters import LiveParameters
+from sim_host.match.world import World
+from sim_host.match.world_fields import Fields, bodies_fields
+from sim_host.snapshot import BallState, RobotState, Roster
+from sim_host.staging.layout import BALL
+
+
+class ImpossibleTickError(TouchlineError):
+    """What was noted of a tick cannot be: no host has applied this."""
+
+
+@dataclass(frozen=True, slots=True)
+class Conditions:
+    """What a match is played with, and by whom, at one tick."""
+
+    live_parameters: LiveParameters
+    robots: tuple[RosterEntry, ...] = ()
+    """In the order of the roster."""
+    obstacles: tuple[StaticObstacle, ...] = ()
+
+    def after(self, applied: Applied) -> "Conditions":
+        """What is in force when the changes of a tick are made.
+
+        Raises:
+            ImpossibleTickError: it changes what is not there.
+        """
+        if not applied.parameters and applied.robots is None and applied.obstacles is None:
+            return self
+        try:
+            live_parameters = (
+                self.live_parameters.with_settings(applied.parameters) if applied.parameters else self.live_parameters
+            )
+        except (KeyError, TypeError, TouchlineError) as error:
+            raise ImpossibleTickError(f"tick {applied.tick}: parameters that cannot be set ({error})") from None
+        return Conditions(
+            live_parameters,
+            self.robots if applied.robots is None else tuple(applied.robots),
+            self.obstacles if applied.obstacles is None else tuple(applied.obstacles),
+        )
+
+    def roster(self) -> Roster:
+        """The robots with the models of their types.
+
+        Raises:
+            ImpossibleTickError: a type that nobody knows, or nobody.
+        """
+        if not self.robots:
+            raise ImpossibleTickError("nobody takes part")
+        try:
+            return Roster.of_entries(self.robots, self.live_parameters.types)
+        except KeyError as error:
+            raise ImpossibleTickError(f"a robot has the type {error}, which neither profile nor match has") from None
+
+
+class CheckpointState(NamedTuple):
+    """All that has to be known of the tick before a checkpoint."""
+
+    world: WorldMessage
+    chain: str
+    """Hex."""
+
+
+class ResimulatedTick(NamedTuple):
+    """One tick as it was simulated again."""
+
+    bodies: Fields
+    """What `sim_host.match.world_fields.bodies_fields` tells of the world."""
+    chain: str
+
+
+def parameters_of(setup: Setup) -> LiveParameters:
+    """The numbers that a host says it runs with; those of sensors and radio, which move nothing, are any.
+
+    A number of a type that is the standard robot's is taken to follow it when that is changed.
+    """
+    shipped = load_profile("msl")
+    standard = setup.models.get(STANDARD)
+    profile = replace(
+        shipped,
+        name=setup.profile,
+        time=setup.time,
+        field=setup.pitch,
+        robot=setup.robot,
+        ball=setup.ball,
+        drive=setup.drive,
+        wheels=standard.wheels if standard is not None else shipped.wheels,
+        dribble=setup.dribble,
+        kicker=setup.kicker,
+        types={},
+    )
+    own = RobotModel.standard(profile)
+    types = {name: _differences(model, own) for name, model in setup.models.items() if name != STANDARD}
+    profile = replace(profile, types=types)
+    return LiveParameters(profile, "profile", profile, "profile")
+
+
+def _differences(model: RobotModel, standard: RobotModel) -> dict[str, dict[str, object]]:
+    """Section → key → value, where a type is not as the standard robot."""
+    found: dict[str, dict[str, object]] = {}
+    for section in TYPE_SECTIONS:
+        attribute = "body" if section == "robot" else section
+        mine, other = getattr(model, attribute), getattr(standard, attribute)
+        changed = {key: getattr(mine, key) for key in mine.__slots__ if getattr(mine, key) != getattr(other, key)}
+        if changed:
+            found[section] = changed
+    return found
+
+
+class Resimulation:
+    """A match that is simulated again, tick by tick."""
+
+    def __init__(self, initial: Conditions, checkpoint: CheckpointState | None = None) -> None:
+        """`initial` is in force at the tick before, and `checkpoint` what the world was then; nothing at tick 0."""
+        self._conditions = initial
+        self._checkpoint = checkpoint
+        self._names: set[str] = set()
+        self._world: World | None = None
+
+    def close(self) -> None:
+        """Free the engine."""
+        if self._world is not None:
+            self._world.close()
+
+    def step(self, applied: Applied, unchained: bytes) -> ResimulatedTick:
+        """The next tick; `unchained` is the message up to its chain, from `schemas.messages.host.without_chain`.
+
+        Raises:
+            ImpossibleTickError: what it says cannot have been.
+        """
+        try:
+            return self._step(applied, unchained)
+        except ImpossibleTickError:
+            raise
+        except (ArithmeticError, LookupError, ValueError) as error:  # what no host has written may be out of any range
+            raise ImpossibleTickError(f"tick {applied.tick}: {type(error).__name__} ({error})") from None
+
+    def _step(self, applied: Applied, unchained: bytes) -> ResimulatedTick:
+        before, after = self._conditions, self._conditions.after(applied)
+        world = self._world
+        if world is None:
+            world = self._world = self._new_world(before if self._checkpoint is not None else after)
+        self._conditions = after
+        if applied.remade or (after.robots != before.robots and applied.tick > 0):
+            world.rebuild_with(after.live_parameters.profile, self._roster_of(after), after.obstacles)
+        self._check(applied)
+        world.place(applied.placements)
+        if applied.tick == 0:
+            snapshot = world.snapshot()
+            stuck = [False] * len(snapshot.robots)
+        else:
+            if applied.checkpoint:
+                world.make_checkpoint()
+            advance = world.advance(applied.inputs)
+            snapshot, stuck = advance.snapshot, advance.stuck
+        return ResimulatedTick(bodies_fields(snapshot, stuck), world.chain(unchained))
+
+    def _new_world(self, conditions: Conditions) -> World:
+        """The world before its first tick here."""
+        roster = self._roster_of(conditions)
+        world = World(conditions.live_parameters.profile, roster)
+        for obstacle in conditions.obstacles:
+            world.put_obstacle(obstacle)
+        if self._checkpoint is not None:
+            before, chain = self._checkpoint
+            robots, ball = _states(before, roster)
+            world.begin_at(before.tick, robots, ball, bytes.fromhex(chain))
+        return world
+
+    def _roster_of(self, conditions: Conditions) -> Roster:
+        """The robots with the models of their types."""
+        roster = conditions.roster()
+        self._names = set(roster.names)
+        return roster
+
+    def _check(self, applied: Applied) -> None:
+        names = self._names
+        if applied.tick > 0 and applied.inputs.keys() != names:
+            odd = ", ".join(sorted(applied.inputs.keys() ^ names))
+            raise ImpossibleTickError(f"tick {applied.tick}: inputs and robots that take part differ: {odd}")
+        for placement in applied.placements:
+            if placement.body not in names and placement.body != BALL:
+                raise ImpossibleTickError(f"tick {applied.tick}: {placement.body} is placed and does not take part")
+
+
+def _states(world: WorldMessage, roster: Roster) -> tuple[list[RobotState], BallState]:
+    if world.robots.keys() != set(roster.names):
+        odd = ", ".join(sorted(world.robots.keys() ^ set(roster.names)))
+        raise ImpossibleTickError(f"tick {world.tick}: the world and those that take part differ: {odd}")
+    robots = []
+    for name in roster.names:
+        one = world.robots[name]
+        robots.append(RobotState(one.x, one.y, one.z, one.heading, one.vx, one.vy, one.omega, holding=False))
+    ball = world.ball
+    return robots, BallState(ball.x, ball.y, ball.z, ball.vx, ball.vy, ball.vz)
+
+
+class Difference(NamedTuple):
+    """One field of one body that is not as it was recorded; positions in m, headings in rad, speeds in m/s, rad/s."""
+
+    body: str
+    """A robot, `ball`, an obstacle, or `world` for what belongs to no body."""
+    field: str
+    recorded: object
+    simulated: object
+
+    @property
+    def by(self) -> float | None:
+        """How much, where both are numbers."""
+        pair = self.recorded, self.simulated
+        if any(isinstance(one, bool) or not isinstance(one, int | float) for one in pair):
+            return None
+        return abs(float(self.simulated) - float(self.recorded))  # type: ignore[arg-type]
+
+
+def differences(recorded: Mapping[str, object], simulated: Fields) -> list[Difference]:
+    """Every field in which a recorded world is not as it was simulated again; robots first, then ball and the rest."""
+    found: list[Difference] = []
+    for group in ("robots", "obstacles"):
+        theirs, ours = _table(recorded.get(group)), simulated.get(group, {})
+        for name in dict.fromkeys([*ours, *theirs]):
+            found += _body_differences(name, _table(theirs.get(name)), ours.get(name, {}))
+    found += _body_differences(BALL, _table(recorded.get("ball")), simulated["ball"])
+    found += _body_differences("world", recorded, {key: simulated.get(key, _ABSENT.get(key)) for key in _OWN})
+    return found
+
+
+_OWN = ("tick", "time", "possession", "touches", "kicked")
+_ABSENT: dict[str, object] = {"touches": []}
+"""What a field of the world is where it is left out; others are nothing."""
+
+
+def _table(value: object) -> Mapping[str, object]:
+    return value if isinstance(value, Mapping) else {}
+
+
+def _body_differences(name: str, recorded: Mapping[str, object], simulated: Mapping[str, object]) -> list[Difference]:
+    if simulated.items() <= recorded.items():
+        return []
+    pairs = ((key, recorded.get(key, _ABSENT.get(key)), ours) for key, ours in simulated.items())
+    return [Difference(name, key, theirs, ours) for key, theirs, ours in pairs if theirs != ours]

@@ -1,0 +1,98 @@
+"""Those who serve the robots of a match: referee, watchdog, radio and sensors, for the robots and numbers in force."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from schemas.config.match_config import MatchConfig
+from schemas.config.roster import RosterEntry
+from schemas.config.rule_book import RuleBook
+from sim_host.actuation.latest_commands import LatestCommands
+from sim_host.match.live_parameters import LiveParameters
+from sim_host.match.radio import RadioAir
+from sim_host.match.sights import Sights
+from sim_host.match.start_scene import start_poses
+from sim_host.referee.core import Referee
+from sim_host.sensing.perception import Perception
+from sim_host.sensing.random_streams import RandomStreams
+from sim_host.snapshot import Roster
+
+
+class Subsystems:
+    """They follow an operator who changes numbers or robots; what they know of those who stay, they keep."""
+
+    def __init__(
+        self, config: MatchConfig, book: RuleBook, live_parameters: LiveParameters, robots: Sequence[RosterEntry]
+    ) -> None:
+        self._config = config
+        self._book = book
+        self._streams = RandomStreams(config.seed)
+        self._live_parameters = live_parameters
+        self._robots = robots
+        self.roster = Roster.of_entries(robots, live_parameters.types)
+        """Who takes part from the next tick on."""
+        self.referee = self._new_referee()
+        self.commands = LatestCommands(self.roster.names, self._watchdog, self.roster.still)
+        self.radio, self._perception = self._new_radio(), self._new_perception()
+        self.sights = Sights(self.roster, self._perception, self.radio)
+
+    def set_live_parameters(self, live_parameters: LiveParameters) -> bool:
+        """Work with these numbers from now on; whether the world has to be rebuilt for them."""
+        before, self._live_parameters = self._live_parameters, live_parameters
+        old, new = before.profile, live_parameters.profile
+        if new.radio != old.radio:
+            self.radio.change(new.radio)
+        if live_parameters.sensing != before.sensing:
+            self._perception.change(live_parameters.sensing)
+        concerns_world = replace(new, radio=old.radio, safety=old.safety, sensing=old.sensing) != old
+        if concerns_world:
+            self.roster = Roster.of_entries(self._robots, live_parameters.types)
+        self.commands = self.commands.with_roster(self.roster.names, self._watchdog, self.roster.still)
+        return concerns_world
+
+    def set_roster(self, robots: Sequence[RosterEntry], *, new_episode: bool) -> None:
+        """Serve these robots from now on; in a `new_episode` nothing that was told, said or seen before counts."""
+        before, self._robots = self._robots, robots
+        self.roster = Roster.of_entries(robots, self._live_parameters.types)
+        self.referee = self._new_referee()
+        if new_episode:
+            self.commands = LatestCommands((), self._watchdog)
+            self.radio, self._perception = self._new_radio(), self._new_perception()
+        elif robots != before:
+            self.radio = self.radio.with_roster(self.roster)
+            self._perception = self._perception.with_roster(self._live_parameters.sensing, self.roster)
+        self.sights = Sights(self.roster, self._perception, self.radio)
+        self.commands = self.commands.with_roster(self.roster.names, self._watchdog, self.roster.still)
+
+    @property
+    def _watchdog(self) -> float:
+        """Ticks."""
+        profile = self._live_parameters.profile
+        return profile.safety.watchdog / profile.time.tick
+
+    def _new_radio(self) -> RadioAir:
+        """A radio on which nothing was said yet."""
+        profile = self._live_parameters.profile
+        return RadioAir(profile.radio, self.roster, profile.time.tick, self._streams)
+
+    def _new_perception(self) -> Perception:
+        """Sensors that have seen nothing yet."""
+        return Perception(
+            self._live_parameters.sensing, self.roster, self._streams, self._live_parameters.profile.time.tick
+        )
+
+    def _new_referee(self) -> Referee:
+        """A referee has no memory of its own: what happened so far is in the state that it is given."""
+        profile, config = self._live_parameters.profile, self._config
+        return Referee(
+            self._book,
+            profile.field,
+            profile.ball,
+            self.roster,
+            duration=config.duration,
+            kick_off=config.referee.kick_off,
+            automatic=config.referee.automatic,
+            starts=start_poses(self.roster, profile.field, self._book.restarts),
+            mode=config.referee.mode,
+            proposal=config.referee.proposal,
+            winner=config.referee.winner,
+        )

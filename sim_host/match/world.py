@@ -1,0 +1,193 @@
+"""The world over one control tick: inputs become motion, step by step, and a snapshot of what came of it."""
+
+from collections.abc import Container, Mapping, Sequence
+from dataclasses import dataclass
+from hashlib import blake2b
+
+from schemas.config.obstacle import StaticObstacle
+from schemas.config.profile import Profile
+from schemas.config.roster import Placement
+from schemas.messages.host import AppliedInput
+from sim_host.actuation.ball_handling import BallHandling, BallReport
+from sim_host.actuation.chassis import Chassis
+from sim_host.physics.collision_candidates import CollisionCandidates
+from sim_host.physics.continuous_collision import ContinuousCollision
+from sim_host.physics.engine import Engine
+from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster, Snapshot
+
+_NOTHING = BallReport()
+
+
+@dataclass(frozen=True, slots=True)
+class WorldTick:
+    """What one tick brought."""
+
+    snapshot: Snapshot
+    refused: dict[str, str]
+    """Robot → why its kick could not be done."""
+    stuck: list[bool]
+    """Per robot, in the order of the roster."""
+
+
+class World:
+    """All bodies of a match, and what moves them."""
+
+    def __init__(self, profile: Profile, roster: Roster) -> None:
+        self._roster = roster
+        self._tick_s = profile.time.tick
+        self._engine = Engine(profile, roster)
+        self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
+        self._ball = BallHandling(profile, roster.models, self._engine)
+        self._candidates = CollisionCandidates(profile.time, roster.models, profile.field)
+        self._collision = ContinuousCollision(profile, self._engine)
+        self.tick = 0
+        self._obstacles: tuple[ObstacleState, ...] = ()
+        self._chain = b""
+        self._read_states()
+
+    def close(self) -> None:
+        """Free the engine."""
+        self._engine.close()
+
+    def place(self, placements: Sequence[Placement]) -> None:
+        """Set bodies down at rest, between two ticks."""
+        if not placements:
+            return
+        self._ball.set_holder(None)
+        for placement in placements:
+            self._engine.place(placement)
+        self._read_placed({placement.body for placement in placements})
+        if any(placement.body != "ball" for placement in placements):
+            self._chassis.reset()
+
+    def put_obstacle(self, obstacle: StaticObstacle) -> None:
+        """Put an obstacle down, between two ticks; one of the same name goes."""
+        self._engine.put_obstacle(ObstacleState.of(obstacle))
+        self._update_obstacles()
+
+    def remove_obstacle(self, name: str) -> None:
+        """Take an obstacle away, between two ticks.
+
+        Raises:
+            KeyError: none is named so.
+        """
+        self._engine.remove_obstacle(name)
+        self._update_obstacles()
+
+    def _update_obstacles(self) -> None:
+        self._obstacles = self._engine.obstacles
+        self._candidates.set_obstacles(self._obstacles)
+
+    def make_checkpoint(self) -> None:
+        """Make a checkpoint: equal poses and velocities in a world that remembers nothing else."""
+        self._engine.rebuild(self._robots, self._ball_state)
+        self._ball.reset(self._ball_state)
+        self._engine.read()
+        self._chassis.reset()
+        self._read_states()
+
+    def rebuild_with(self, profile: Profile, roster: Roster, obstacles: Sequence[StaticObstacle]) -> None:
+        """Build the world anew with other numbers, robots or obstacles; makes a checkpoint.
+
+        Who stays keeps its pose and velocity, and who is new stands aside until it is placed.
+        """
+        kept, ball = dict(zip(self._roster.names, self._robots, strict=True)), self._ball_state
+        self._engine.close()
+        self._engine = Engine(profile, roster)
+        for obstacle in obstacles:
+            self._engine.put_obstacle(ObstacleState.of(obstacle))
+        self._candidates = CollisionCandidates(profile.time, roster.models, profile.field)
+        self._collision = ContinuousCollision(profile, self._engine)
+        self._update_obstacles()
+        new_states = self._engine.robot_states(None)
+        self._roster = roster
+        self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
+        self._ball = BallHandling(profile, roster.models, self._engine)
+        robots = [kept.get(name, state) for name, state in zip(roster.names, new_states, strict=True)]
+        self._engine.rebuild(robots, ball)
+        self._ball.reset(ball)
+        self._engine.read()
+        self._chassis.reset()
+        self._read_states()
+
+    def begin_at(self, tick: int, robots: Sequence[RobotState], ball: BallState, chain: bytes) -> None:
+        """Take up a history at a tick: robots in the order of the roster, and the chain so far.
+
+        A checkpoint has to be made before the next tick; what it is made of is given here, bit for bit.
+        """
+        self.tick, self._robots, self._ball_state, self._chain = tick, RobotStates(robots), ball, chain
+
+    def advance(self, inputs: Mapping[str, AppliedInput]) -> WorldTick:
+        """One control tick."""
+        engine, ball = self._engine, self._ball
+        ordered = [inputs[name] for name in self._roster.names]
+        report = ball.begin(self.tick, self._robots, self._ball_state, ordered)
+        pairs, fixed = self._candidates.find(self._robots)
+        for drives in self._chassis.plan(self._robots, ordered):
+            free_ball = ball.before_step(drives)
+            if pairs or fixed:
+                self._collision.advance_robots(pairs, fixed, drives)
+            engine.set_velocities(drives)
+            if free_ball is not None:
+                self._collision.advance_ball(free_ball)
+            engine.step()
+            ball.after_step(report)
+        engine.read()
+        self._read_states()
+        if ball.release_lost_ball(self._robots, self._ball_state):
+            self._read_states()
+        self.tick += 1
+        names = self._roster.names
+        return WorldTick(
+            snapshot=self.snapshot(report),
+            refused={names[place]: reason for place, reason in report.refused.items()},
+            stuck=self._chassis.stuck(),
+        )
+
+    def snapshot(self, report: BallReport = _NOTHING) -> Snapshot:
+        """Everything there is now; `touches` and `kicked` as the report of the tick tells them."""
+        names, holding = self._roster.names, self._ball.holder
+        last_touches = dict.fromkeys(reversed(report.touches))  # each robot once, where it touched last
+        return Snapshot(
+            tick=self.tick,
+            time=self.tick * self._tick_s,
+            roster=self._roster,
+            robots=self._robots,
+            ball=self._ball_state,
+            possession=None if holding is None else names[holding],
+            touches=tuple([names[place] for place in reversed(last_touches)]),
+            kicked=None if report.kicked is None else names[report.kicked],
+            contacts=self._engine.robot_contacts,
+            ball_spin=self._engine.ball_spin(),
+            obstacles=self._obstacles,
+            kickers_ready=self._ball.kickers_ready(self.tick),
+        )
+
+    def _read_states(self) -> None:
+        """Take the states that the engine has read."""
+        self._robots = self._engine.robot_states(self._ball.holder)
+        self._ball_state = self._engine.ball_state()
+
+    def _read_placed(self, placed: Container[str]) -> None:
+        """Take the states of the bodies that were placed; the others are where they were, and nobody holds the ball.
+
+        They are not read again: what a checkpoint is made of is then the same whether they got there by themselves or
+        `begin_at` says so.
+        """
+        states = self._engine.robot_states(None)
+        self._robots = RobotStates(
+            [
+                state if name in placed else before._replace(holding=False)
+                for name, state, before in zip(self._roster.names, states, self._robots, strict=True)
+            ]
+        )
+        if "ball" in placed:
+            self._ball_state = self._engine.ball_state()
+
+    def chain(self, unchained: bytes = b"") -> str:
+        """Lengthen the hash chain by this tick and return it, hex: equal chains, equal histories.
+
+        It takes in the state of all bodies, and what is noted of the inputs that led to it.
+        """
+        self._chain = blake2b(self._engine.packed() + unchained, key=self._chain, digest_size=32).digest()
+        return self._chain.hex()

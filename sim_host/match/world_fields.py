@@ -1,0 +1,54 @@
+"""The truth of one tick as the plain fields of `schemas.messages.world.World`."""
+
+from typing import Any
+
+from sim_host.referee.game.referee_state import RefereeState
+from sim_host.snapshot import ObstacleState, Snapshot
+
+Fields = dict[str, Any]
+"""A message as plain fields, laid out as its model has them."""
+
+
+def world_fields(snapshot: Snapshot, stuck: list[bool], state: RefereeState, episode: int) -> Fields:
+    """The whole message: the bodies, and what the referee and the operator made of them."""
+    fields, away = bodies_fields(snapshot, stuck), state.participation.absences
+    for name, robot in fields["robots"].items():
+        robot["off_field"] = away[name].why if name in away else None
+    return {**fields, "clock": state.clock, "episode": episode}
+
+
+def bodies_fields(snapshot: Snapshot, stuck: list[bool]) -> Fields:
+    """What the world alone tells: everything but `clock`, `episode`, and each robot's `off_field`."""
+    fields = {
+        "tick": snapshot.tick,
+        "time": snapshot.time,
+        "robots": {
+            name: {
+                "x": robot.x,
+                "y": robot.y,
+                "z": robot.z,
+                "heading": robot.heading,
+                "vx": robot.vx,
+                "vy": robot.vy,
+                "omega": robot.omega,
+                "holding": robot.holding,
+                "stuck": is_stuck,
+            }
+            for name, robot, is_stuck in zip(snapshot.roster.names, snapshot.robots, stuck, strict=True)
+        },
+        "ball": snapshot.ball._asdict(),
+        "possession": snapshot.possession,
+    }
+    if snapshot.touches:
+        fields["touches"] = list(snapshot.touches)
+    if snapshot.kicked is not None:
+        fields["kicked"] = snapshot.kicked
+    if snapshot.obstacles:
+        fields["obstacles"] = {obstacle.name: _obstacle_fields(obstacle) for obstacle in snapshot.obstacles}
+    return fields
+
+
+def _obstacle_fields(obstacle: ObstacleState) -> Fields:
+    fields = obstacle._asdict()
+    del fields["name"]
+    return fields

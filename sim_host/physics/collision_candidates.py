@@ -1,0 +1,80 @@
+"""Which robots could run so deep into another body in one physics step that they have to be brought to it first."""
+
+import math
+from collections.abc import Iterable, Sequence
+
+from schemas.config.robot_model import RobotModel
+from schemas.config.sections import Pitch, TimeSteps
+from sim_host.physics.pitch import fixed_boxes
+from sim_host.snapshot import ObstacleState, RobotState
+
+MAX_DEPTH = 0.01
+"""m that a body may sink into another in one step: what the engine's contacts take away again in a few."""
+
+IndexPairs = list[tuple[int, int]]
+_Moving = tuple[float, float, float, float, float, float, int]
+"""x, y, vx, vy of a robot; what the tick may add to its speed, m/s; how far it may get, m; its place in the roster."""
+
+
+class CollisionCandidates:
+    """Looks for robots that close in fast, once a tick; costs less the fewer there are."""
+
+    def __init__(self, time: TimeSteps, models: Sequence[RobotModel], pitch: Pitch) -> None:
+        self._tick = time.tick
+        self._fast = MAX_DEPTH / time.physics_step
+        self._reaches = [model.body.reach for model in models]
+        self._strikes = [model.body.reach if model.body.frame_width else 0.0 for model in models]
+        """m from the axis at which a turning hull strikes; a round one slides past."""
+        self._gains = [max(model.drive.acceleration, model.drive.deceleration) * time.tick for model in models]
+        self._boxes = [(box.x, box.y, box.half_x, box.half_y) for box in fixed_boxes(pitch)]
+        self._free_x, self._free_y = pitch.goal_line, pitch.touch_line + pitch.border
+        """m; inside these there is no box of the pitch."""
+        self._obstacles: list[tuple[float, float, float]] = []
+
+    def set_obstacles(self, obstacles: Iterable[ObstacleState]) -> None:
+        """The obstacles on the pitch."""
+        self._obstacles = [(obstacle.x, obstacle.y, obstacle.radius) for obstacle in obstacles]
+
+    def find(self, robots: Sequence[RobotState]) -> tuple[IndexPairs, IndexPairs]:
+        """Pairs of robots, and pairs of a robot and a fixed body, that may meet too fast within the tick.
+
+        Fixed bodies are counted through: the boxes of the pitch, then the obstacles.
+        """
+        fast, tick = self._fast, self._tick
+        moving, fixed = [], []
+        for place, (x, y, _, _, vx, vy, omega, _) in enumerate(robots):
+            extra = self._gains[place] + abs(omega) * self._strikes[place]
+            speed = math.hypot(vx, vy) + extra
+            travel = self._reaches[place] + speed * tick
+            moving.append((x, y, vx, vy, extra, travel, place))
+            if speed > fast:
+                fixed += self._fixed(place, x, y, travel)
+        return self._robots(moving), fixed
+
+    def _robots(self, moving: list[_Moving]) -> IndexPairs:
+        widest, pairs = max([travel for *_, travel, _ in moving]), []
+        moving.sort()
+        for number, (x, y, vx, vy, extra, travel, one) in enumerate(moving, 1):
+            for other_x, other_y, other_vx, other_vy, other_extra, other_way, other in moving[number:]:
+                dx = other_x - x
+                if dx > travel + widest:
+                    break
+                dy = other_y - y
+                apart = math.hypot(dx, dy)
+                if apart > travel + other_way:
+                    continue
+                approach = ((vx - other_vx) * dx + (vy - other_vy) * dy) / max(apart, 1e-9)
+                if approach + extra + other_extra > self._fast:
+                    pairs.append((min(one, other), max(one, other)))
+        return sorted(pairs)
+
+    def _fixed(self, place: int, x: float, y: float, travel: float) -> IndexPairs:
+        found = []
+        if abs(x) + travel > self._free_x or abs(y) + travel > self._free_y:
+            for number, (at_x, at_y, half_x, half_y) in enumerate(self._boxes):
+                if math.hypot(max(abs(x - at_x) - half_x, 0.0), max(abs(y - at_y) - half_y, 0.0)) < travel:
+                    found.append((place, number))
+        for number, (at_x, at_y, radius) in enumerate(self._obstacles, len(self._boxes)):
+            if math.hypot(x - at_x, y - at_y) - radius < travel:
+                found.append((place, number))
+        return found

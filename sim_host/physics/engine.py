@@ -1,0 +1,320 @@
+"""The physics engine behind one door: poses, velocities, steps and contacts.
+
+With `bodies`, which makes what this moves, the only module that knows PyBullet.
+"""
+
+import importlib.metadata
+import math
+import struct
+from collections.abc import Sequence
+from itertools import chain
+from typing import Any, NamedTuple
+
+import pybullet
+
+from schemas.config.profile import Profile
+from schemas.config.roster import Placement
+from schemas.frames import wrap
+from sim_host.physics.bodies import NO_TURN, BodyMaker, upright
+from sim_host.physics.bounce import MIN_BOUNCE_SPEED
+from sim_host.physics.gravity import GRAVITY
+from sim_host.physics.vectors import FieldTwist, Quaternion, Vector
+from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster
+
+_ITERATIONS = 200
+"""At most; with Bullet's 50 two robots press a ball, a hundredth of their weight, deep into each other."""
+_UPRIGHT = 1e-3
+"""Half the sine of the tilt, and the m of lift, from which a robot is put upright again."""
+_TOUCHING = 0.001
+"""m of air between two robots that count as touching: the solver leaves less than that."""
+_STATE_SIZE = 13
+"""In the state of a body."""
+_OBSTACLE = struct.Struct("<7d")
+
+_ZERO: Vector = (0.0, 0.0, 0.0)
+
+
+class BodyState(NamedTuple):
+    """What determines a body's future: position m, orientation quaternion xyzw, velocity m/s, spin rad/s."""
+
+    position: Vector
+    orientation: Quaternion
+    velocity: Vector
+    spin: Vector
+
+
+class Engine:
+    """One physical world; bodies are addressed by their index in the roster."""
+
+    def __init__(self, profile: Profile, roster: Roster) -> None:
+        self._profile = profile
+        self.names = roster.names
+        self._models = roster.models
+        self._heights = [model.body.height / 2 for model in roster.models]
+        self.client = pybullet.connect(pybullet.DIRECT)
+        self._make = BodyMaker(self.client, profile)
+        self._lift = GRAVITY * profile.time.physics_step
+        self._ball_now: BodyState | None = None
+        """The ball, as far as it was read since something moved it."""
+        self._obstacles: dict[str, tuple[ObstacleState, int]] = {}
+        """Name → the obstacle and its body, in the order in which they were put down."""
+        self._build()
+
+    def close(self) -> None:
+        """Free the engine's memory."""
+        pybullet.disconnect(self.client)
+
+    def _build(self) -> None:
+        client, profile = self.client, self._profile
+        pybullet.resetSimulation(physicsClientId=client)
+        pybullet.setGravity(0, 0, -GRAVITY, physicsClientId=client)
+        pybullet.setPhysicsEngineParameter(
+            fixedTimeStep=profile.time.physics_step,
+            deterministicOverlappingPairs=1,
+            restitutionVelocityThreshold=MIN_BOUNCE_SPEED,
+            useSplitImpulse=1,  # a body pushed out of another gains no speed by it
+            numSolverIterations=_ITERATIONS,
+            physicsClientId=client,
+        )
+        make = self._make
+        self._ground = make.ground()
+        self._boxes = list(make.pitch())
+        self.robots = [make.robot(place, model, self._ground) for place, model in enumerate(self._models)]
+        self._robot_of = {body: place for place, body in enumerate(self.robots)}
+        self.ball = make.ball()
+        kept = [obstacle for obstacle, _ in self._obstacles.values()]
+        self._obstacles = {obstacle.name: (obstacle, make.obstacle(obstacle)) for obstacle in kept}
+        self._ball_ignores: int | None = None
+        self.read()
+
+    @property
+    def obstacles(self) -> tuple[ObstacleState, ...]:
+        """All obstacles, in the order in which they were put down."""
+        return tuple([obstacle for obstacle, _ in self._obstacles.values()])
+
+    def put_obstacle(self, obstacle: ObstacleState) -> None:
+        """Put an obstacle down, in place of one of the same name."""
+        if obstacle.name in self._obstacles:
+            self.remove_obstacle(obstacle.name)
+        self._obstacles[obstacle.name] = obstacle, self._make.obstacle(obstacle)
+
+    def remove_obstacle(self, name: str) -> None:
+        """Take an obstacle away.
+
+        Raises:
+            KeyError: none is named so.
+        """
+        _, body = self._obstacles.pop(name)
+        pybullet.removeBody(body, physicsClientId=self.client)
+
+    def rebuild(self, robots: Sequence[RobotState], ball: BallState) -> None:
+        """Build the world anew with these poses and velocities: robots upright, the ball without spin, held by nobody.
+
+        Its future then depends on these numbers alone: contact caches and warm starts are gone.
+        """
+        self._build()
+        for body, height, robot in zip(self.robots, self._heights, robots, strict=True):
+            velocity, spin = (robot.vx, robot.vy, 0.0), (0.0, 0.0, robot.omega)
+            self.set_state(body, BodyState((robot.x, robot.y, height), upright(robot.heading), velocity, spin))
+        position, velocity = (ball.x, ball.y, ball.z), (ball.vx, ball.vy, ball.vz)
+        self.set_state(self.ball, BodyState(position, NO_TURN, velocity, _ZERO))
+        self.read()
+
+    def state(self, body: int) -> BodyState:
+        """A body between two steps."""
+        position, orientation = pybullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
+        velocity, spin = pybullet.getBaseVelocity(body, physicsClientId=self.client)
+        return BodyState(position, orientation, velocity, spin)
+
+    def set_state(self, body: int, state: BodyState) -> None:
+        """Set a body's state; what was read of it stays as it is."""
+        self._ball_now = None
+        pybullet.resetBasePositionAndOrientation(body, state.position, state.orientation, physicsClientId=self.client)
+        pybullet.resetBaseVelocity(body, state.velocity, state.spin, physicsClientId=self.client)
+
+    def place(self, placement: Placement) -> None:
+        """Set a robot or the ball down, at rest or with a velocity, and take in its state."""
+        if placement.body == "ball":
+            height = self._profile.ball.radius if placement.z is None else placement.z
+            velocity = (placement.vx, placement.vy, placement.vz)
+            self.set_state(self.ball, BodyState((placement.x, placement.y, height), NO_TURN, velocity, _ZERO))
+            self._states[-1] = self.state(self.ball)
+            return
+        place = self.names.index(placement.body)
+        position = (placement.x, placement.y, self._heights[place])
+        velocity, spin = (placement.vx, placement.vy, 0.0), (0.0, 0.0, placement.omega)
+        self.set_state(self.robots[place], BodyState(position, upright(placement.heading), velocity, spin))
+        self._states[place] = self.state(self.robots[place])
+
+    def read(self) -> None:
+        """Take in the state of all bodies; a robot that was lifted or tipped is put upright first."""
+        self._states = [self.state(body) for body in (*self.robots, self.ball)]
+        self._ball_now = self._states[-1]
+        self.robot_contacts = self._robot_contacts()
+        for place, (body, height) in enumerate(zip(self.robots, self._heights, strict=True)):
+            position, (qx, qy, qz, qw), velocity, spin = self._states[place]
+            if abs(qx) > _UPRIGHT or abs(qy) > _UPRIGHT or abs(position[2] - height) > _UPRIGHT:
+                at, moving = self._upright_centre(place), (velocity[0], velocity[1], 0.0)
+                self.set_state(body, BodyState(at, upright(2.0 * math.atan2(qz, qw)), moving, (0.0, 0.0, spin[2])))
+                self._states[place] = self.state(body)
+
+    def _upright_centre(self, place: int) -> Vector:
+        """The centre of a tipped robot once it is upright: where it is, or as the ball sees it if it can be its doing.
+
+        A pressed ball is light and touches a hull at its foot, or in the air near its top, so the solver tips the
+        robot rather than stops it. Put upright about its centre, the robot would come down into the ball.
+        """
+        (x, y, _), (qx, qy, qz, qw), *_ = self._states[place]
+        (ball_x, ball_y, ball_z), height = self._states[-1].position, self._heights[place]
+        if math.hypot(ball_x - x, ball_y - y) < self._models[place].body.reach + 2.0 * self._profile.ball.radius:
+            below = height - min(ball_z, 2.0 * height)
+            x, y = x - below * 2.0 * (qx * qz + qw * qy), y - below * 2.0 * (qy * qz - qw * qx)
+        return x, y, height
+
+    def robot_states(self, holding: int | None) -> RobotStates:
+        """All robots, as they were read."""
+        return RobotStates([_robot_state(state, place == holding) for place, state in enumerate(self._states[:-1])])
+
+    def ball_state(self) -> BallState:
+        """The ball, as it was read."""
+        position, _, velocity, _ = self._states[-1]
+        return BallState(*position, *velocity)
+
+    def ball_spin(self) -> tuple[float, float]:
+        """The ball's spin about x and y in rad/s, as it was read."""
+        return self._states[-1].spin[:2]
+
+    def packed(self) -> bytes:
+        """What was read, robots, ball and obstacles, as little-endian doubles: equal bytes, equal worlds."""
+        numbers = chain.from_iterable(chain.from_iterable(self._states))
+        bodies = struct.pack(f"<{_STATE_SIZE * len(self._states)}d", *numbers)
+        return b"".join([bodies, *[_pack(obstacle) for obstacle, _ in self._obstacles.values()]])
+
+    def robot_now(self, place: int) -> RobotState:
+        """One robot between two steps."""
+        return _robot_state(self.state(self.robots[place]), True)
+
+    def ball_now(self) -> BodyState:
+        """The ball between two steps."""
+        if self._ball_now is None:
+            self._ball_now = self.state(self.ball)
+        return self._ball_now
+
+    def set_velocities(self, velocities: Sequence[FieldTwist]) -> None:
+        """Set every robot's velocity in the field frame, (vx, vy, omega), for the next step."""
+        lift, client, reset = self._lift, self.client, pybullet.resetBaseVelocity
+        for body, (vx, vy, omega) in zip(self.robots, velocities, strict=True):
+            reset(body, (vx, vy, lift), (0.0, 0.0, omega), physicsClientId=client)
+
+    def fixed_bodies(self) -> list[int]:
+        """Bodies that nothing moves beside the ground: the boxes of the pitch, then the obstacles."""
+        return self._boxes + [body for _, body in self._obstacles.values()]
+
+    def gap(self, one: int, other: int, within: float) -> "Gap | None":
+        """What lies between two bodies that are at most `within` m apart, where they are nearest to each other."""
+        near = pybullet.getClosestPoints(one, other, within, physicsClientId=self.client)
+        if not near:
+            return None
+        point = min(near, key=_distance_of)
+        return Gap(point[5], point[6], point[7], point[8])
+
+    def bodies_near_ball(self, low: Sequence[float], high: Sequence[float]) -> list[int]:
+        """Bodies that may reach into a box between two corners and collide with the ball, beside the ground."""
+        found = pybullet.getOverlappingObjects(low, high, physicsClientId=self.client) or ()
+        passes = {self.ball, self._ground, None if self._ball_ignores is None else self.robots[self._ball_ignores]}
+        return sorted({body for body, _ in found} - passes)
+
+    def set_ball_motion(self, velocity: Vector, spin: Vector) -> None:
+        """Set the ball's velocity and spin."""
+        self._ball_now = None
+        pybullet.resetBaseVelocity(self.ball, velocity, spin, physicsClientId=self.client)
+
+    def set_ball_state(self, position: Vector, velocity: Vector, spin: Vector) -> None:
+        """Set the ball's place, velocity and spin."""
+        self.set_state(self.ball, BodyState(position, NO_TURN, velocity, spin))
+
+    def push_ball(self, force: Vector, at: Vector) -> None:
+        """Apply a force, N, to the ball's centre `at` for the next step."""
+        pybullet.applyExternalForce(self.ball, -1, force, at, pybullet.WORLD_FRAME, physicsClientId=self.client)
+
+    def ignore_ball_contacts(self, robot: int | None) -> None:
+        """Let the ball not collide with this one robot, or collide with all: a held ball lies a little in the hull."""
+        if robot == self._ball_ignores:
+            return
+        for place, collide in ((self._ball_ignores, 1), (robot, 0)):
+            if place is not None:
+                pybullet.setCollisionFilterPair(
+                    self.robots[place], self.ball, -1, -1, collide, physicsClientId=self.client
+                )
+        self._ball_ignores = robot
+
+    def step(self) -> None:
+        """One physics step."""
+        self._ball_now = None
+        pybullet.stepSimulation(physicsClientId=self.client)
+
+    def ball_contacts(self, holder: int | None) -> "BallContacts":
+        """What the ball touched in the last step, beside the ground; against its holder it is never pressed."""
+        contacts = pybullet.getContactPoints(self.ball, physicsClientId=self.client)
+        if len(contacts) < 2 and (not contacts or contacts[0][2] == self._ground):
+            return _NO_CONTACTS
+        depth = {contact[2]: -contact[8] for contact in contacts if contact[2] != self._ground}
+        robots = [place for place, body in enumerate(self.robots) if body in depth]
+        if holder is not None:
+            depth.pop(self.robots[holder], None)
+        return BallContacts(robots, max(depth.values(), default=0.0))
+
+    def _robot_contacts(self) -> tuple[tuple[int, int], ...]:
+        """Pairs of robots that touched each other in the last step, in roster order."""
+        bodies = self._robot_of
+        found = [
+            (bodies[contact[1]], bodies[contact[2]])
+            for contact in pybullet.getContactPoints(physicsClientId=self.client)
+            if contact[8] <= _TOUCHING and contact[1] in bodies and contact[2] in bodies
+        ]
+        return tuple(sorted({(min(pair), max(pair)) for pair in found})) if found else ()
+
+
+def _pack(obstacle: ObstacleState) -> bytes:
+    o = obstacle
+    return o.name.encode() + _OBSTACLE.pack(o.x, o.y, o.heading, o.radius, o.height, o.size_x, o.size_y)
+
+
+def _robot_state(state: BodyState, holding: bool) -> RobotState:
+    (x, y, z), (_, _, qz, qw), (vx, vy, _), (_, _, omega) = state
+    return RobotState(x, y, z, wrap(2.0 * math.atan2(qz, qw)), vx, vy, omega, holding)
+
+
+def _distance_of(point: tuple[Any, ...]) -> float:
+    distance: float = point[8]
+    return distance
+
+
+class Gap(NamedTuple):
+    """Two bodies where they are nearest."""
+
+    on_one: Vector
+    """m."""
+    on_other: Vector
+    """m."""
+    normal: Vector
+    """From the other to the one, of unit length."""
+    width: float
+    """m; negative where they overlap."""
+
+
+class BallContacts(NamedTuple):
+    """Robots that touch the ball, in roster order, and how deep it is pressed into others than ground and holder, m."""
+
+    robots: list[int]
+    depth: float
+
+
+_NO_CONTACTS = BallContacts([], 0.0)
+
+
+def fingerprint() -> dict[str, str]:
+    """What two machines must share to compute the same world: the engine, and the maths library's answers."""
+    answers = (math.sin(1e5), math.cos(2.5), math.exp(1.1), math.atan2(0.3, -0.7), math.pow(1.1, 7.3), math.log(3.3))
+    version = importlib.metadata.version("pybullet")
+    return {"engine": f"pybullet {version}, api {pybullet.getAPIVersion()}", "libm": struct.pack("<6d", *answers).hex()}

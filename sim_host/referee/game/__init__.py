@@ -1,0 +1,1 @@
+"""The game as the referee remembers it: state, restarts, decisions, set pieces, participation, clocks."""

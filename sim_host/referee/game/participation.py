@@ -1,0 +1,87 @@
+"""Who takes part: cards, robots off the field with the time that is left to them, programs that are gone."""
+
+import dataclasses
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from schemas.game import DisciplinaryRecord, OffField
+from schemas.side import Side
+
+IN_PLAYING_TIME = frozenset({OffField.SECOND_YELLOW, OffField.RED_CARD})
+"""Whose time off is playing time; a repair or a substitution goes on while the clock stands."""
+
+
+class CardCount(NamedTuple):
+    """The cards of one robot."""
+
+    yellow: int = 0
+    """Those that count toward the next punishment."""
+    red: int = 0
+
+
+class Absence(NamedTuple):
+    """A robot off the field."""
+
+    why: OffField
+    left: float | None = None
+    """s until it may come back, at the next stoppage; nothing when no time brings it back."""
+
+    @property
+    def for_good(self) -> bool:
+        """It is sent off for the rest of the match."""
+        return self.why is OffField.RED_CARD and self.left is None
+
+
+@dataclass(frozen=True, slots=True)
+class Participation:
+    """Robots that are not simply there; the mappings are replaced, never changed."""
+
+    cards: Mapping[str, CardCount] = field(default_factory=dict)
+    """Robots that were shown a card."""
+    absences: Mapping[str, Absence] = field(default_factory=dict)
+    silent: Mapping[str, float] = field(default_factory=dict)
+    """Robots whose program is gone, and for how many s."""
+    substitutions: Mapping[Side, int] = field(default_factory=dict)
+    returned: Mapping[Side, int] = field(default_factory=dict)
+    """Robots that have come back in this stoppage."""
+
+    def after(self, silent: Collection[str], dt: float, playing: bool) -> "Participation":
+        """The same `dt` s later, with the robots whose program is gone; `playing` while the game clock runs."""
+        if not (self.absences or self.silent or silent):
+            return self
+        absences = {name: _after(one, dt, playing) for name, one in self.absences.items()}
+        lost = {name: self.silent.get(name, 0.0) + dt for name in silent}
+        return dataclasses.replace(self, absences=absences, silent=lost)
+
+    @property
+    def change_key(self) -> tuple[object, ...]:
+        """What changes only when somebody is shown a card, leaves or comes back."""
+        return (*self.cards.items(), *((name, away.why) for name, away in self.absences.items()))
+
+    def of_robots(self, names: Collection[str]) -> "Participation":
+        """The same for those of these names: who left the match with its scene is forgotten."""
+        cards = {name: record for name, record in self.cards.items() if name in names}
+        absences = {name: one for name, one in self.absences.items() if name in names}
+        silent = {name: time for name, time in self.silent.items() if name in names}
+        return dataclasses.replace(self, cards=cards, absences=absences, silent=silent)
+
+    def disciplinary_records(self, names: Collection[str]) -> dict[str, DisciplinaryRecord]:
+        """Those of these robots that have a card or are off the field, as they are published."""
+        if not (self.cards or self.absences):
+            return {}
+        found = {}
+        for name in names:
+            record, away = self.cards.get(name), self.absences.get(name)
+            if record is None and away is None:
+                continue
+            yellow, red = record or CardCount()
+            left = None if away is None or away.left is None else round(away.left, 3)
+            found[name] = DisciplinaryRecord(yellow=yellow, red=red, off_field=away.why if away else None, left=left)
+        return found
+
+
+def _after(away: Absence, dt: float, playing: bool) -> Absence:
+    if away.left is None or (away.why in IN_PLAYING_TIME and not playing):
+        return away
+    return away._replace(left=max(0.0, away.left - dt))

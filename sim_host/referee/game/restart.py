@@ -1,0 +1,23 @@
+"""A restart as the referee calls it: which, for whom, and from where."""
+
+from typing import NamedTuple
+
+from schemas.game import Phase
+from schemas.side import Side
+
+Spot = tuple[float, float]
+"""A point on the ground: x and y in m, field frame."""
+CENTRE: Spot = (0.0, 0.0)
+
+
+class Restart(NamedTuple):
+    """A way to bring the ball back into play: which, for whom (nobody at a drop ball), and from where."""
+
+    phase: Phase
+    side: Side | None
+    spot: Spot
+
+
+def kick_off_after_goal(scorers: Side) -> Restart:
+    """The kick-off of the side that conceded."""
+    return Restart(Phase.KICK_OFF, scorers.opponent, CENTRE)

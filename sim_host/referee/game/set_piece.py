@@ -1,0 +1,109 @@
+"""A restart from its START until the taker's side may score: who touched the ball, and how far it rolled freely.
+
+The evidence is the snapshot's touches, kick and possession. A touch in the `KICK_DURATION` after a kick belongs to
+it: the ball is leaving the hull.
+"""
+
+import math
+from typing import NamedTuple
+
+from schemas.config.rule_book import RuleBook
+from schemas.game import Phase
+from schemas.side import Side
+from sim_host.referee.game.restart import Restart, Spot
+from sim_host.snapshot import Roster, Snapshot
+
+KICK_DURATION = 0.1
+"""s."""
+
+
+class SetPiece(NamedTuple):
+    """One restart that was started; in play or not, the phase says."""
+
+    restart: Restart
+    roll_start: Spot
+    """Where the ball's free roll began: its spot, or where it was touched last."""
+    rolled: float = 0.0
+    """m; the longest way that the ball has rolled freely."""
+    moved: float = 0.0
+    """m between the ball and its spot."""
+    touched: tuple[str, ...] = ()
+    """Robots that touched the ball since START, each once, in order."""
+    now: tuple[str, ...] = ()
+    """Robots that touch it in this tick."""
+    kicker: str | None = None
+    """The taker's robot that has kicked it."""
+    since_kick: float = 0.0
+    """s."""
+
+    @property
+    def taker(self) -> str | None:
+        """The first robot that touched the ball."""
+        return self.touched[0] if self.touched else None
+
+    def touchers(self, roster: Roster, side: Side) -> int:
+        """How many robots of a side have touched the ball."""
+        return sum(roster.side_of(name) is side for name in self.touched)
+
+
+def started(restart: Restart) -> SetPiece:
+    """At START."""
+    return SetPiece(restart, restart.spot)
+
+
+def set_piece_after(piece: SetPiece | None, snapshot: Snapshot, in_play: bool, dt: float) -> SetPiece | None:
+    """The set piece one tick of `dt` s later; once in play, only touches change it."""
+    if piece is None or (in_play and not snapshot.touches):
+        return piece
+    ball, touches = (snapshot.ball.x, snapshot.ball.y), snapshot.touches
+    kicker = piece.kicker or _kicker(piece, snapshot)
+    new = tuple([name for name in touches if name not in piece.touched])
+    return piece._replace(
+        roll_start=ball if touches else piece.roll_start,
+        rolled=max(piece.rolled, math.dist(piece.roll_start, ball)),
+        moved=math.dist(piece.restart.spot, ball),
+        touched=piece.touched + new if new else piece.touched,
+        now=touches,
+        kicker=kicker,
+        since_kick=piece.since_kick + dt if piece.kicker is not None else 0.0,
+    )
+
+
+def _kicker(piece: SetPiece, snapshot: Snapshot) -> str | None:
+    name = snapshot.kicked
+    return name if name is not None and snapshot.roster.side_of(name) is piece.restart.side else None
+
+
+def is_settled(piece: SetPiece, book: RuleBook, snapshot: Snapshot) -> bool:
+    """Whether, in play, nothing of the restart binds anybody any more.
+
+    So many robots have touched the ball as a goal asks for, or the other side has won it: a touch in passing, as of a
+    shot that grazes a defender, does not help the taker.
+    """
+    side, roster = piece.restart.side, snapshot.roster
+    if side is None:
+        return len(piece.touched) >= book.restarts.drop_robots_to_score
+    if piece.restart.phase is Phase.PENALTY:
+        return True
+    holder = snapshot.possession
+    won = holder is not None and roster.side_of(holder) is not side
+    return won or piece.touchers(roster, side) >= _asked(book)
+
+
+def why_no_goal(piece: SetPiece | None, book: RuleBook, roster: Roster, side: Side) -> tuple[int, int] | None:
+    """Robots that have touched the ball since the restart and those that a goal of `side` asks for; nothing if enough.
+
+    A penalty may go in directly. The other side of a restart is bound by nothing.
+    """
+    if piece is None or piece.restart.side is side.opponent or piece.restart.phase is Phase.PENALTY:
+        return None
+    if piece.restart.side is None:
+        touched, asked = len(piece.touched), book.restarts.drop_robots_to_score
+    else:
+        touched, asked = piece.touchers(roster, side), _asked(book)
+    return (touched, asked) if touched < asked else None
+
+
+def _asked(book: RuleBook) -> int:
+    """Robots of the taker's side that touch the ball before its goal counts."""
+    return 1 if book.fouls.direct_goal == "off" else book.scoring.robots_touched

@@ -1,0 +1,48 @@
+"""The clocks of a match: running time, effective playing time, and the timer of what is going on."""
+
+from typing import NamedTuple
+
+ROUNDING = 1e-9
+"""s; sums of ticks may fall this short of a limit that is a whole number of ticks."""
+
+
+class Timing(NamedTuple):
+    """All times in s."""
+
+    limit: float
+    """Game clock at which this half ends."""
+    clock: float = 0.0
+    """Playing time of this half and those before it."""
+    runs: bool = False
+    """From the first START of a half to its end, also through stoppages."""
+    effective: float = 0.0
+    """How long the ball has been in play."""
+    timer: float = 0.0
+    """Time since STOP, the signal, START, or the beginning of the break."""
+    until: float | None = None
+    """What the timer is held against, as far as there is such a limit."""
+
+    def after(self, dt: float, in_play: bool) -> "Timing":
+        """The clocks `dt` later."""
+        return Timing(
+            self.limit,
+            min(self.clock + dt, self.limit) if self.runs else self.clock,
+            self.runs,
+            self.effective + dt if in_play else self.effective,
+            self.timer + dt,
+            self.until,
+        )
+
+    def restart_timer(self, until: float | None, *, runs: bool | None = None) -> "Timing":
+        """The timer begins again and is held against `until`; the clock runs on as it does unless told."""
+        return self._replace(timer=0.0, until=until, runs=self.runs if runs is None else runs)
+
+    @property
+    def left(self) -> float | None:
+        """Time until the limit of what is going on, to 1 ms."""
+        return None if self.until is None else max(0.0, round(self.until - self.timer, 3))
+
+
+def reached(timer: float, limit: float) -> bool:
+    """Whether a timer has come to its limit, both in s."""
+    return timer >= limit - ROUNDING

@@ -1,0 +1,63 @@
+"""Beside the field: where robots that are off it stand, and where they come back.
+
+Each side has its bench along the right touch line of its own half, as simatch parks its robots; off the field means
+beyond the boundary, where nothing of the game reaches them. They come back just inside that touch line, near the
+halfway line, where there is room.
+"""
+
+import math
+
+from schemas.frames import Pose
+from sim_host.referee.game.referee_state import RefereeState
+from sim_host.referee.match_constants import MatchConstants
+from sim_host.snapshot import Snapshot
+
+_BEYOND = 0.5
+"""m between the border and the hull of a robot on the bench: more than the boundary is thick."""
+_SPACING = 0.2
+"""m of air between two robots."""
+_FIRST = 0.5
+"""m between the halfway line and the hull of the first."""
+_PLACES = 12
+"""Places to come back that are tried; a longer row would not fit along half a touch line."""
+
+
+def bench_pose(match: MatchConstants, state: RefereeState, name: str) -> Pose:
+    """Where a robot stands while it is off the field."""
+    roster, pitch, reach = match.roster, match.pitch, max(match.reaches)
+    side = roster.side_of(name)
+    mates = [mate for mate in roster.names if roster.side_of(mate) is side]
+    x = _along(mates.index(name), reach)
+    y = -(pitch.touch_line + pitch.border + _BEYOND + reach)
+    return Pose(x, y, math.pi / 2).team(state.attack(side))
+
+
+def entry_pose(match: MatchConstants, state: RefereeState, snapshot: Snapshot, name: str) -> Pose | None:
+    """Where a robot comes back: the first place that is free, as far from the ball as a restart asks; nothing if none.
+
+    `snapshot` has the robots where they are; those on the bench are in nobody's way.
+    """
+    roster, pitch = match.roster, match.pitch
+    own, side = roster.names.index(name), roster.side_of(name)
+    reach = match.reaches[own]
+    ball = state.spot or (snapshot.ball.x, snapshot.ball.y)
+    for place in range(_PLACES):
+        x, y = _along(place, reach), -(pitch.touch_line - reach - _SPACING)
+        pose = Pose(x, y, math.pi / 2).team(state.attack(side))
+        away = math.dist(ball, (pose.x, pose.y)) - reach
+        if away >= match.book.restarts.opponent_distance and _is_free(match, snapshot, own, pose):
+            return pose
+    return None
+
+
+def _along(place: int, reach: float) -> float:
+    """The x of the nth place from the halfway line, m in the team frame."""
+    return -(_FIRST + reach + place * (2.0 * reach + _SPACING))
+
+
+def _is_free(match: MatchConstants, snapshot: Snapshot, own: int, pose: Pose) -> bool:
+    for index, robot in enumerate(snapshot.robots):
+        apart = match.reaches[own] + match.reaches[index] + _SPACING
+        if index != own and math.dist((robot.x, robot.y), (pose.x, pose.y)) < apart:
+            return False
+    return True

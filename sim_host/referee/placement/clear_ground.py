@@ -1,0 +1,89 @@
+"""Ground that obstacles leave clear: where the ball is placed when one stands on its spot.
+
+As a league does it, the ball goes to the nearest place that is free: at a kick-off along the halfway line and at a
+penalty along the mark's distance to the goal, so that neither side gains, at a throw-in along the touch line, otherwise
+in any direction. It stays inside the lines, and out of penalty areas that it was not in, and a robot has room on every
+side of it where there is such a place.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Final
+
+from schemas.config.obstacle import Shape
+from schemas.frames import rotate
+from schemas.game import Phase
+from sim_host.referee.areas import in_a_penalty_area
+from sim_host.referee.game.restart import Restart, Spot
+from sim_host.referee.match_constants import MatchConstants
+from sim_host.snapshot import ObstacleState, Snapshot
+
+_TOUCHES = 0.02
+"""m that the ball may be set down in a hull, and is pushed out gently."""
+_STEP = 0.05
+"""m between the places that are tried."""
+_FARTHEST = 8.0
+"""m from the spot that are looked at."""
+_BEARINGS = 32
+"""Directions that are tried where any may be taken."""
+
+_ALONG_Y: Final = (math.pi / 2, -math.pi / 2)
+_ALONG_X: Final = (0.0, math.pi)
+_LINES: Mapping[Phase, tuple[float, ...]] = {
+    Phase.KICK_OFF: _ALONG_Y,
+    Phase.PENALTY: _ALONG_Y,
+    Phase.THROW_IN: _ALONG_X,
+}
+"""Restart → the bearings that it is moved along, rad in the field frame, where there is a free place on them."""
+
+
+def clear_restart(match: MatchConstants, snapshot: Snapshot, restart: Restart) -> Restart:
+    """The restart itself, or the same at the nearest spot that no obstacle stands on."""
+    if has_room(match, snapshot, restart.spot):
+        return restart
+    lines = _LINES.get(restart.phase, ())
+    for room in (match.ball.radius + 2.0 * max(match.reaches, default=0.0), match.ball.radius):
+        for bearings in (lines, _all_bearings(restart.spot)):
+            for spot in _around(match, restart.spot, bearings):
+                if clearance(snapshot, spot) >= room:
+                    return restart._replace(spot=spot)
+    return restart
+
+
+def has_room(match: MatchConstants, snapshot: Snapshot, spot: Spot) -> bool:
+    """Whether the ball can lie there, for all that obstacles do."""
+    return clearance(snapshot, spot) >= match.ball.radius - _TOUCHES
+
+
+def clearance(snapshot: Snapshot, spot: Spot) -> float:
+    """m between a point on the ground and the hull of the nearest obstacle; 0 or less on one, infinite without any."""
+    return min((_to_hull(obstacle, spot) for obstacle in snapshot.obstacles), default=math.inf)
+
+
+def _to_hull(obstacle: ObstacleState, spot: Spot) -> float:
+    x, y = spot[0] - obstacle.x, spot[1] - obstacle.y
+    if obstacle.shape is Shape.CYLINDER:
+        return math.hypot(x, y) - obstacle.radius
+    along, across = rotate(x, y, -obstacle.heading)
+    away_x, away_y = abs(along) - obstacle.size_x / 2, abs(across) - obstacle.size_y / 2
+    return math.hypot(max(away_x, 0.0), max(away_y, 0.0))
+
+
+def _all_bearings(spot: Spot) -> tuple[float, ...]:
+    """From the one toward the centre of the field to both sides."""
+    inward = math.atan2(-spot[1], -spot[0]) if spot != (0.0, 0.0) else 0.0
+    turns = [(step + 1) // 2 * (1 if step % 2 else -1) for step in range(_BEARINGS)]
+    return tuple([inward + turn * math.tau / _BEARINGS for turn in turns])
+
+
+def _around(match: MatchConstants, spot: Spot, bearings: tuple[float, ...]) -> Iterator[Spot]:
+    """Places where the ball may lie, the nearest first."""
+    pitch, inset = match.pitch, match.book.restarts.field_inset
+    most_x, most_y = max(abs(spot[0]), pitch.goal_line - inset), max(abs(spot[1]), pitch.touch_line - inset)
+    was_in_area = in_a_penalty_area(pitch, *spot)
+    for ring in range(1, round(_FARTHEST / _STEP) + 1):
+        for bearing in bearings:
+            x = round(spot[0] + ring * _STEP * math.cos(bearing), 6)
+            y = round(spot[1] + ring * _STEP * math.sin(bearing), 6)
+            if abs(x) <= most_x and abs(y) <= most_y and (was_in_area or not in_a_penalty_area(pitch, x, y)):
+                yield x, y

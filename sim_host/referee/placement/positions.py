@@ -1,0 +1,273 @@
+"""Positions before START: distances to the whole robot, own halves at a kick-off, areas at a penalty.
+
+The taker is the robot of its side nearest to the ball. One defender besides the goalkeeper may stand nearer than the
+others in its own penalty area, not in the goal area. Nobody stands where the ball is to lie. Robots off
+the field are not looked at.
+
+Section: restarts.
+Measures: the way between the ball's spot and the robot's hull, taken as the circle that holds it in any direction.
+Not judged: robots that change their places between START and the kick, as long as they do not touch the ball.
+"""
+
+import dataclasses
+import math
+from collections.abc import Callable, Iterator, Mapping
+from typing import NamedTuple
+
+from schemas.frames import Pose
+from schemas.game import GameStage, Phase
+from sim_host.referee.areas import in_goal_area, in_penalty_area
+from sim_host.referee.game.referee_state import RefereeState
+from sim_host.referee.game.restart import Restart, Spot
+from sim_host.referee.match_constants import MatchConstants
+from sim_host.referee.placement.clear_ground import clearance
+from sim_host.snapshot import RobotStates, Snapshot
+
+MAX_OVERLAP = 0.02
+"""m that a hull may reach into the ball on its spot: a taker may touch it."""
+_ROOM = 0.2
+"""m; how much farther than the rules ask a robot is set down that is moved, and how much air it has to others."""
+_BEARINGS = 24
+"""Directions from the ball that are tried for it."""
+_RINGS = 8
+"""Distances that are tried, 1 m apart."""
+
+
+class PositionFault(NamedTuple):
+    """One robot that stands wrong."""
+
+    robot: str
+    text: str
+    """Who and how, in one phrase."""
+    measured: float | None = None
+    """m."""
+    limit: float | None = None
+    """m that are asked."""
+
+
+class Violation(NamedTuple):
+    """What is wrong with one robot's place: a phrase, and what was measured and asked, m."""
+
+    phrase: str
+    measured: float | None = None
+    limit: float | None = None
+
+
+class LineUp(NamedTuple):
+    """The robots before a restart; robots by their index in the roster."""
+
+    match: MatchConstants
+    state: RefereeState
+    restart: Restart
+    snapshot: Snapshot
+    on_field: tuple[int, ...]
+    """Robots on the field."""
+    kicker: int | None
+    """The taker's robot nearest to the ball; a drop ball has none."""
+    free: tuple[int, ...]
+    """Defenders who may stand near the ball before their own goal."""
+
+    def own_end(self, index: int) -> int:
+        """Sign of the x of the goal that a robot defends."""
+        return -self.state.attack(self.match.roster.sides[index])
+
+    def is_keeper(self, index: int) -> bool:
+        """Whether a robot keeps its side's goal."""
+        return self.match.keepers(self.state.participation.absences)[index]
+
+    def takes(self, index: int) -> bool:
+        """Whether a robot is of the side that takes the restart."""
+        return self.match.roster.sides[index] is self.restart.side
+
+
+def position_faults(
+    match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot
+) -> tuple[PositionFault, ...]:
+    """Who stands wrong for the restart and by how much, each once, in the order of the roster."""
+    line_up = _line_up(match, state, restart, snapshot)
+    checks = _checks(state, restart)
+    faults = []
+    for index in line_up.on_field:
+        for check in checks:
+            violation = check(line_up, index)
+            if violation is not None:
+                name = match.roster.names[index]
+                faults.append(
+                    PositionFault(name, f"{name} stands {violation.phrase}", violation.measured, violation.limit)
+                )
+                break
+    return tuple(faults)
+
+
+def is_spot_covered(match: MatchConstants, state: RefereeState, spot: Spot, snapshot: Snapshot) -> bool:
+    """Whether a robot stands where the ball is to lie: it cannot be set down in a hull."""
+    line_up = _line_up(match, state, Restart(state.phase, state.side, spot), snapshot)
+    return any(_on_spot(line_up, index) for index in line_up.on_field)
+
+
+def legal_pose(
+    match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot, fault: PositionFault
+) -> Pose:
+    """Where a robot that stands wrong is moved: on the field, near its bearing from the ball, in nobody's way.
+
+    It stays where it is when there is no such place.
+    """
+    line_up = _line_up(match, state, restart, snapshot)
+    index = match.roster.names.index(fault.robot)
+    robot = snapshot.robots[index]
+    for x, y in _around(line_up, index):
+        moved = RobotStates((*snapshot.robots[:index], robot._replace(x=x, y=y), *snapshot.robots[index + 1 :]))
+        tried = line_up._replace(snapshot=dataclasses.replace(snapshot, robots=moved))
+        if all(check(tried, index) is None for check in _checks(state, restart)) and _has_room(tried, index):
+            return Pose(x, y, math.atan2(restart.spot[1] - y, restart.spot[0] - x))
+    return Pose(robot.x, robot.y, robot.heading)
+
+
+def _line_up(match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot) -> LineUp:
+    away = state.participation.absences
+    on_field = tuple([index for index, name in enumerate(match.roster.names) if name not in away])
+    line_up = LineUp(match, state, restart, snapshot, on_field, None, ())
+    return line_up._replace(kicker=_kicker(line_up), free=_free_defenders(line_up))
+
+
+def _around(line_up: LineUp, index: int) -> Iterator[Spot]:
+    """Places on the field around the ball, the nearest ring first, from the robot's own bearing to both sides."""
+    pitch, robot, (x, y) = line_up.match.pitch, line_up.snapshot.robots[index], line_up.restart.spot
+    if line_up.is_keeper(index):
+        yield line_up.own_end(index) * (pitch.goal_line - line_up.match.reaches[index] - _ROOM), 0.0
+    bearing = math.atan2(robot.y - y, robot.x - x)
+    nearest = _min_distance(line_up, index) + line_up.match.reaches[index] + _ROOM
+    for ring in range(_RINGS):
+        for step in range(_BEARINGS):
+            turn = (step + 1) // 2 * (1 if step % 2 else -1) * math.tau / _BEARINGS
+            away = nearest + ring
+            place = x + away * math.cos(bearing + turn), y + away * math.sin(bearing + turn)
+            if abs(place[0]) <= pitch.goal_line and abs(place[1]) <= pitch.touch_line:
+                yield place
+
+
+def _has_room(line_up: LineUp, index: int) -> bool:
+    robots, reaches = line_up.snapshot.robots, line_up.match.reaches
+    here = robots[index].x, robots[index].y
+    if clearance(line_up.snapshot, here) <= reaches[index] + _ROOM:
+        return False
+    return all(
+        math.dist(here, (robots[other].x, robots[other].y)) > reaches[index] + reaches[other] + _ROOM
+        for other in line_up.on_field
+        if other != index
+    )
+
+
+def _kicker(line_up: LineUp) -> int | None:
+    own = [index for index in line_up.on_field if line_up.takes(index)]
+    return min(own, key=lambda index: _from_ball(line_up, index), default=None)
+
+
+def _free_defenders(line_up: LineUp) -> tuple[int, ...]:
+    """The goalkeeper in its own penalty area (ours), one more there outside the goal area (rule book, set pieces)."""
+    match, robots = line_up.match, line_up.snapshot.robots
+    inside = [
+        index
+        for index in line_up.on_field
+        if not line_up.takes(index)
+        and in_penalty_area(match.pitch, line_up.own_end(index), robots[index].x, robots[index].y)
+    ]
+    keepers = [index for index in inside if line_up.is_keeper(index)]
+    others = [
+        index
+        for index in inside
+        if index not in keepers
+        and not in_goal_area(match.pitch, line_up.own_end(index), robots[index].x, robots[index].y)
+    ]
+    nearest = sorted(others, key=lambda index: _from_ball(line_up, index))[:1]
+    return (*keepers, *nearest)
+
+
+def _from_ball(line_up: LineUp, index: int) -> float:
+    """m between the ball's spot and the robot's hull."""
+    robot = line_up.snapshot.robots[index]
+    return math.dist(line_up.restart.spot, (robot.x, robot.y)) - line_up.match.reaches[index]
+
+
+def _min_distance(line_up: LineUp, index: int) -> float:
+    """m that a robot other than the kicker keeps from the ball."""
+    numbers = line_up.match.book.restarts
+    if line_up.restart.phase is Phase.DROP_BALL:
+        return numbers.drop_ball_distance
+    is_mate = line_up.takes(index) and line_up.restart.phase is not Phase.PENALTY
+    return numbers.teammate_distance if is_mate else numbers.opponent_distance
+
+
+def _near_ball(line_up: LineUp, index: int) -> Violation | None:
+    is_dropped = line_up.restart.phase is Phase.DROP_BALL
+    if not is_dropped and (index == line_up.kicker or index in line_up.free):
+        return None
+    distance, asked = _from_ball(line_up, index), _min_distance(line_up, index)
+    if distance >= asked:
+        return None
+    return Violation(f"{distance:.2f} m from the ball, {asked:.2f} m asked", distance, asked)
+
+
+def _on_spot(line_up: LineUp, index: int) -> Violation | None:
+    """Nobody's hull is where the ball lies, not even the kicker's."""
+    room = line_up.match.ball.radius - MAX_OVERLAP
+    distance = _from_ball(line_up, index)
+    return Violation("on the ball's spot", distance, room) if distance < room else None
+
+
+def _in_other_half(line_up: LineUp, index: int) -> Violation | None:
+    """The whole robot stays in its own half, of the kicker its centre."""
+    hull = 0.0 if index == line_up.kicker else line_up.match.reaches[index]
+    over = hull - line_up.snapshot.robots[index].x * line_up.own_end(index)
+    return Violation(f"{over:.2f} m in the other half", over, 0.0) if over > 0 else None
+
+
+def _wrong_at_penalty(line_up: LineUp, index: int) -> Violation | None:
+    """The defending goalkeeper waits in its goal area, all but the kicker out of the penalty area and away."""
+    if index == line_up.kicker:
+        return None
+    pitch, robot = line_up.match.pitch, line_up.snapshot.robots[index]
+    end = 1 if line_up.restart.spot[0] > 0 else -1
+    if line_up.is_keeper(index) and line_up.own_end(index) == end:
+        return None if in_goal_area(pitch, end, robot.x, robot.y) else Violation("outside its goal area")
+    if in_penalty_area(pitch, end, robot.x, robot.y, line_up.match.reaches[index]):
+        return Violation("in the penalty area")
+    return _near_ball(line_up, index)
+
+
+def _wrong_at_shoot_out(line_up: LineUp, index: int) -> Violation | None:
+    """The kicker waits in the centre circle, the goalkeeper in its goal area, all others beyond the halfway line."""
+    pitch, robot = line_up.match.pitch, line_up.snapshot.robots[index]
+    end = 1 if line_up.restart.spot[0] > 0 else -1
+    away = math.hypot(robot.x, robot.y)
+    if index == line_up.kicker:
+        radius = pitch.centre_circle_radius
+        return None if away <= radius else Violation(f"{away:.2f} m from the centre mark", away, radius)
+    if line_up.is_keeper(index) and line_up.own_end(index) == end:
+        return None if in_goal_area(pitch, end, robot.x, robot.y) else Violation("outside its goal area")
+    over = robot.x * end + line_up.match.reaches[index]
+    if over > 0:
+        return Violation(f"{over:.2f} m over the halfway line", over, 0.0)
+    clear = away - line_up.match.reaches[index]
+    if clear < pitch.centre_circle_radius:
+        return Violation("in the centre circle", clear, pitch.centre_circle_radius)
+    return None
+
+
+def _checks(state: RefereeState, restart: Restart) -> "tuple[Check, ...]":
+    return SHOOT_OUT if state.stage is GameStage.SHOOT_OUT else CHECKS[restart.phase]
+
+
+Check = Callable[[LineUp, int], Violation | None]
+
+CHECKS: Mapping[Phase, tuple[Check, ...]] = {
+    Phase.KICK_OFF: (_on_spot, _in_other_half, _near_ball),
+    Phase.FREE_KICK: (_on_spot, _near_ball),
+    Phase.GOAL_KICK: (_on_spot, _near_ball),
+    Phase.THROW_IN: (_on_spot, _near_ball),
+    Phase.CORNER: (_on_spot, _near_ball),
+    Phase.PENALTY: (_on_spot, _wrong_at_penalty),
+    Phase.DROP_BALL: (_on_spot, _near_ball),
+}
+"""Restart → what is asked of every robot."""
+SHOOT_OUT: tuple[Check, ...] = (_wrong_at_shoot_out,)

@@ -1,0 +1,202 @@
+"""Cards and people: who is shown what, who leaves the field and for how long, and who comes back when.
+
+Yellow cards of one robot add up to a suspension and then to a red card. A robot off the field stands beyond the
+boundary, and its commands rest. Suspensions are served in playing time, repairs and substitutions also while the clock
+stands; then the robot comes back by itself at the next stoppage, at its side's right touch line, where there is room. A
+robot whose program is gone is taken out, and comes back when it is heard again; one that people parked, when they say.
+
+Section: misconduct; repair and substitution.
+Measures: cards by robot, red cards by side, the time off; how long a program has not answered, as the host tells it.
+Not judged: who is fit to play; cards stay with the name, also of a substitute.
+"""
+
+import dataclasses
+from collections.abc import Mapping
+
+from schemas.config.rule_book import Discipline
+from schemas.game import RESTARTS, Card, EventKind, OffField, Phase
+from schemas.side import Side
+from sim_host.referee.game.participation import Absence, CardCount, Participation
+from sim_host.referee.game.timing import reached
+from sim_host.referee.placement.bench import bench_pose, entry_pose
+from sim_host.referee.ruling_draft import RulingDraft
+
+RULE = "discipline"
+WAITS_FOR_PEOPLE = frozenset({OffField.PARKED})
+"""Robots that come back only when somebody asks for it."""
+STOPPAGES = RESTARTS | {Phase.STOPPED, Phase.HALF_TIME, Phase.PARKING}
+"""Phases in which robots may come back, before START is given."""
+
+
+def show_card(draft: RulingDraft, rule: str, name: str, card: Card) -> None:
+    """Show a robot a card, and send it off when the rule book says so."""
+    participation, book = draft.state.participation, draft.book.discipline
+    record = participation.cards.get(name, CardCount())
+    absence = None
+    if card is Card.YELLOW:
+        record = record._replace(yellow=record.yellow + 1)
+        if book.yellows_to_red and record.yellow >= book.yellows_to_red:
+            card = Card.RED
+        elif book.yellows_to_suspension and record.yellow == book.yellows_to_suspension:
+            absence = Absence(OffField.SECOND_YELLOW, book.suspension)
+    if card is Card.RED:
+        before = _count_reds(draft, draft.match.roster.side_of(name))
+        record = CardCount(0, record.red + 1)
+        absence = Absence(OffField.RED_CARD, _red_duration(book, before))
+    draft.state = draft.state._replace(
+        participation=dataclasses.replace(participation, cards={**participation.cards, name: record})
+    )
+    count = f"{record.yellow} in all" if card is Card.YELLOW else f"{record.red} in all"
+    draft.add_event(
+        EventKind.CARD,
+        rule,
+        f"{card.value} card for {name}, {count}",
+        side=draft.match.roster.side_of(name),
+        robot=name,
+        card=card,
+    )
+    if absence is not None:
+        take_out(draft, rule, name, absence)
+
+
+def take_out(draft: RulingDraft, rule: str, name: str, absence: Absence) -> None:
+    """Have a robot leave the field; one that has left already is off for the new reason from now on."""
+    participation, was_there = draft.state.participation, name not in draft.state.participation.absences
+    draft.state = draft.state._replace(
+        participation=dataclasses.replace(participation, absences={**participation.absences, name: absence})
+    )
+    if was_there:
+        draft.place_robot(name, bench_pose(draft.match, draft.state, name))
+    draft.add_event(
+        EventKind.OFF_FIELD,
+        rule,
+        f"{name} is off the field: {_why(absence)}",
+        side=draft.match.roster.side_of(name),
+        robot=name,
+        limit=absence.left,
+        unit="" if absence.left is None else "s",
+    )
+
+
+def why_stays_out(draft: RulingDraft, name: str) -> str | None:
+    """Why a robot off the field may not come back now, or nothing."""
+    state, participation = draft.state, draft.state.participation
+    absence, side = participation.absences[name], draft.match.roster.side_of(name)
+    if absence.for_good:
+        return "it is sent off for good"
+    if absence.left is not None and not reached(0.0, absence.left):
+        return f"its time is not up, {absence.left:.1f} s are left"
+    if name in participation.silent:
+        return "its program does not answer"
+    if state.phase not in STOPPAGES or state.running:
+        return f"it comes back in a stoppage, the phase is {state.phase}"
+    limit = draft.book.people.returns_per_stoppage
+    if participation.returned.get(side, 0) >= limit:
+        return f"{limit} of its side came back in this stoppage already, which is the limit"
+    if entry_pose(draft.match, state, draft.snapshot, name) is None:
+        return "there is no room at its touch line"
+    return None
+
+
+def bring_back(draft: RulingDraft, rule: str, name: str) -> None:
+    """Have a robot come back, where there is room; `why_stays_out` has been asked."""
+    state, participation = draft.state, draft.state.participation
+    pose = entry_pose(draft.match, state, draft.snapshot, name)
+    if pose is None:
+        return
+    side, why = draft.match.roster.side_of(name), participation.absences[name].why
+    absences = {other: one for other, one in participation.absences.items() if other != name}
+    returned = {**participation.returned, side: participation.returned.get(side, 0) + 1}
+    draft.state = state._replace(participation=dataclasses.replace(participation, absences=absences, returned=returned))
+    draft.place_robot(name, pose)
+    draft.add_event(
+        EventKind.ON_FIELD,
+        rule,
+        f"{name} is back on the field after: {reason_text(why)}",
+        side=side,
+        robot=name,
+        place=(pose.x, pose.y),
+    )
+
+
+def advance(draft: RulingDraft) -> None:
+    """What time brings: robots whose program is gone are taken out, those whose time is up come back."""
+    participation, limit = draft.state.participation, draft.book.people.silent_limit
+    if participation.silent and limit and draft.state.phase not in (Phase.PRE_GAME, Phase.FULL_TIME):
+        for name in draft.match.roster.names:
+            if (
+                name in participation.silent
+                and name not in participation.absences
+                and reached(participation.silent[name], limit)
+            ):
+                take_out(draft, RULE, name, Absence(OffField.SILENT))
+    if not draft.state.participation.absences or draft.state.running:
+        return
+    arrived = False
+    for name in draft.match.roster.names:
+        absence = draft.state.participation.absences.get(name)
+        if absence is None or absence.why in WAITS_FOR_PEOPLE or arrived:
+            continue
+        if why_stays_out(draft, name) is None:
+            bring_back(draft, RULE, name)
+            arrived = True  # the next looks for room in the next tick, when this one is seen where it came
+
+
+def for_next_half(participation: Participation, book: Discipline) -> Participation:
+    """The people of the next half: yellow cards are forgotten where the rule book says so."""
+    if not book.reset_each_half:
+        return participation
+    cards = {name: record._replace(yellow=0) for name, record in participation.cards.items()}
+    return dataclasses.replace(participation, cards=cards)
+
+
+def for_new_stoppage(participation: Participation) -> Participation:
+    """The people at STOP: nobody has come back yet."""
+    return dataclasses.replace(participation, returned={}) if participation.returned else participation
+
+
+def count_playable(draft: RulingDraft, side: Side) -> int:
+    """How many robots a side has that are on the field or may come back to it."""
+    participation, roster = draft.state.participation, draft.match.roster
+    mine = [name for name, its in zip(roster.names, roster.sides, strict=True) if its is side]
+    gone = [name for name in mine if name in participation.absences and _is_gone(participation.absences[name])]
+    return len(mine) - len(gone)
+
+
+def reason_text(why: OffField) -> str:
+    """A reason in words."""
+    return REASONS[why]
+
+
+REASONS: Mapping[OffField, str] = {
+    OffField.SECOND_YELLOW: "suspension",
+    OffField.RED_CARD: "red card",
+    OffField.REPAIR: "repair",
+    OffField.SUBSTITUTION: "substitution",
+    OffField.SILENT: "its program is gone",
+    OffField.PARKED: "parked",
+}
+
+
+def _is_gone(absence: Absence) -> bool:
+    return absence.for_good or absence.why is OffField.SILENT
+
+
+def _why(absence: Absence) -> str:
+    words = reason_text(absence.why)
+    if absence.left is not None:
+        return f"{words}, {absence.left:g} s"
+    return f"{words}, for good" if absence.for_good else words
+
+
+def _count_reds(draft: RulingDraft, side: Side) -> int:
+    """Red cards that robots of a side have been shown."""
+    cards, roster = draft.state.participation.cards, draft.match.roster
+    return sum(record.red for name, record in cards.items() if name in roster.names and roster.side_of(name) is side)
+
+
+def _red_duration(book: Discipline, before: int) -> float | None:
+    """s off the field for a red card of a side that had so many before; nothing when it is for good."""
+    if not book.red_duration or (book.reds_to_removal and (before + 1) % book.reds_to_removal == 0):
+        return None
+    return book.red_duration + before * book.red_growth

@@ -1,0 +1,59 @@
+"""The penalty shoot-out from attempt to attempt: sides alternate until one cannot be caught up with.
+
+The side that would have kicked off begins. A level shoot-out is repeated as often as the rule book says, the other side
+beginning, and then said to be undecided.
+
+Section: match, play-offs; penalty shoot-out.
+Measures: penalties taken and goals of each side; the clock stands.
+Not judged: who wins an undecided match.
+"""
+
+from schemas.game import GameStage, Phase
+from schemas.side import Side
+from sim_host.referee.game.restart import CENTRE, Restart
+from sim_host.referee.game.shoot_out import ShootOut
+from sim_host.referee.placement.spots import restart_at
+from sim_host.referee.procedures import restart
+from sim_host.referee.procedures.ending import end_match
+from sim_host.referee.ruling_draft import RulingDraft
+
+
+def begin(draft: RulingDraft) -> None:
+    """Signal the first penalty, of the side that would have kicked off."""
+    state = draft.state
+    out = ShootOut(state.kick_off.opponent)
+    draft.state = state._replace(stage=GameStage.SHOOT_OUT, shoot_out=out, before=None)
+    restart.signal(draft, penalty_for(draft, out.next_side()))
+
+
+def count(draft: RulingDraft, scored: bool) -> None:
+    """An attempt is over."""
+    state = draft.state
+    if state.shoot_out is not None and state.side is not None:
+        draft.state = state._replace(shoot_out=state.shoot_out.after_attempt(state.side, scored))
+
+
+def next_penalty(draft: RulingDraft, rule: str) -> None:
+    """After an attempt: the other side's, another series, or the end."""
+    state, periods = draft.state, draft.book.periods
+    out = state.shoot_out
+    if out is None:
+        return
+    kicks = periods.shoot_out_kicks
+    leader = out.leader(kicks)
+    said = f"cyan {out.goals.cyan} : {out.goals.magenta} magenta"
+    if leader is not None:
+        end_match(draft, rule, f"{leader} wins the penalty shoot-out, {said}")
+        return
+    if out.is_played(kicks):
+        if out.series >= periods.shoot_out_series:
+            end_match(draft, rule, f"the penalty shoot-out is undecided after {out.series} series, {said}")
+            return
+        out = out.next_series()
+        draft.state = state._replace(shoot_out=out)
+    restart.stop(draft, rule, penalty_for(draft, out.next_side()))
+
+
+def penalty_for(draft: RulingDraft, side: Side) -> Restart:
+    """A penalty of a side, from the mark it attacks."""
+    return restart_at(draft.match, draft.state, Phase.PENALTY, side, CENTRE)

@@ -1,0 +1,197 @@
+"""The match from before its first half to full time: kick-offs, stoppages, halves, and what a decision leads to.
+
+Each half ends at once when its playing time is up; robots park, and after the break they are carried to their start
+poses and play in the other direction, the other side kicking off. A level match whose match file or rule book asks for
+a winner goes on with extra time, as much shorter or longer than the rule book says as the halves are, and then with a
+penalty shoot-out. A side that cannot field enough robots, because they are sent off for good or their programs are
+gone, forfeits; where both sides have as few, the match ends as it stands.
+
+Section: match.
+Measures: the clock, which runs from the first START of a half to its end, also through stoppages; beside it the
+effective playing time, while the ball is in play. In a shoot-out both stand.
+Not judged: added time.
+"""
+
+from collections.abc import Callable, Mapping
+
+from schemas.game import RESTARTS, EventKind, GameStage, Phase, Score
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.game.referee_state import RefereeState
+from sim_host.referee.game.restart import CENTRE, Restart
+from sim_host.referee.game.timing import reached
+from sim_host.referee.placement.bench import bench_pose
+from sim_host.referee.procedures import discipline, penalties, restart
+from sim_host.referee.procedures.ending import end_if_forfeited, end_match, suspend_play
+from sim_host.referee.ruling_draft import RulingDraft
+
+RULE = "periods"
+HALF_PHASES = RESTARTS | {Phase.STOPPED, Phase.PLAY}
+"""Phases in which a half is being played."""
+
+
+def carry_out(draft: RulingDraft, rule: str, decision: Decision) -> None:
+    """Let what a rule or action decided happen."""
+    if decision.ends_half:
+        end_half(draft, rule, decision.text)
+        return
+    if decision.goal_for is not None:
+        draft.state = draft.state._replace(score=draft.state.score.plus(decision.goal_for))
+    if decision.shot_scored is not None:
+        penalties.count(draft, decision.shot_scored)
+    draft.add_event(
+        decision.kind,
+        rule,
+        decision.text,
+        side=decision.side,
+        robot=decision.robot,
+        robots=decision.robots,
+        place=decision.place,
+        score=_published_score(draft.state, decision),
+        measured=decision.measured,
+        limit=decision.limit,
+        unit=decision.unit,
+        card=decision.card,
+    )
+    if decision.card is not None and decision.robot is not None:
+        discipline.show_card(draft, rule, decision.robot, decision.card)
+    if decision.shot_scored is not None:
+        penalties.next_penalty(draft, rule)
+    else:
+        restart.stop(draft, rule, decision.restart)
+
+
+def begin_half(draft: RulingDraft) -> None:
+    """Signal the kick-off of the half."""
+    if not end_if_forfeited(draft):
+        restart.signal(draft, Restart(Phase.KICK_OFF, draft.state.kick_off, CENTRE))
+
+
+def end_half(draft: RulingDraft, rule: str, text: str) -> None:
+    """End the half at once: robots park, then comes a break, or full time when nothing follows."""
+    kind = EventKind.HALF_TIME if what_follows(draft) is not None else EventKind.PARKING
+    if kind is EventKind.PARKING and not draft.book.periods.parking:
+        end_match(draft, rule, text)
+        return
+    draft.add_event(kind, rule, text, score=draft.state.score)
+    if draft.book.periods.parking:
+        suspend_play(draft, Phase.PARKING, draft.book.periods.parking)
+    else:
+        suspend_play(draft, Phase.HALF_TIME, _break_duration(draft))
+
+
+def what_follows(draft: RulingDraft) -> GameStage | None:
+    """The stage of the next half or of the shoot-out, or nothing when the match is over with this one."""
+    state, periods = draft.state, draft.book.periods
+    if state.stage is GameStage.SHOOT_OUT:
+        return None
+    if state.half < periods.halves:
+        return GameStage.REGULAR
+    if state.half > periods.halves and state.half < periods.halves + periods.extra_halves:
+        return GameStage.EXTRA_TIME
+    if not draft.match.needs_winner or state.score.cyan != state.score.magenta:
+        return None
+    if state.half == periods.halves and periods.extra_halves:
+        return GameStage.EXTRA_TIME
+    return GameStage.SHOOT_OUT if periods.shoot_out_kicks else None
+
+
+def begin_next_period(draft: RulingDraft) -> None:
+    """Begin what follows after a break, or end the match."""
+    stage = what_follows(draft)
+    if stage is None:
+        score = draft.state.score
+        end_match(draft, RULE, f"full time, cyan {score.cyan} : {score.magenta} magenta")
+    elif stage is GameStage.SHOOT_OUT:
+        _place_at_start_poses(draft)
+        penalties.begin(draft)
+    else:
+        _change_sides(draft, stage)
+
+
+def advance(draft: RulingDraft) -> None:
+    """What the time that has passed brings about in this phase."""
+    step = ADVANCE_BY_PHASE.get(draft.state.phase)
+    if step is not None:
+        step(draft)
+    restart.drop_settled_set_piece(draft)
+    discipline.advance(draft)
+    if draft.state.participation.absences and draft.state.phase in HALF_PHASES:
+        end_if_forfeited(draft)
+
+
+def _published_score(state: RefereeState, decision: Decision) -> Score | None:
+    if decision.shot_scored is not None and state.shoot_out is not None:
+        return state.shoot_out.goals
+    return state.score if decision.goal_for is not None else None
+
+
+def _change_sides(draft: RulingDraft, stage: GameStage) -> None:
+    """Begin the next half: other direction, everybody at the start poses of it, the other side kicks off."""
+    state, match = draft.state, draft.match
+    duration = match.half_duration if stage is GameStage.REGULAR else match.extra_half_duration
+    draft.state = state._replace(
+        half=state.half + 1,
+        stage=stage,
+        timing=state.timing._replace(limit=state.clock + duration),
+        kick_off=state.kick_off.opponent,
+        cyan_attacks=-state.cyan_attacks,
+        participation=discipline.for_next_half(state.participation, draft.book.discipline),
+        before=None,
+    )
+    _place_at_start_poses(draft)
+    begin_half(draft)
+
+
+def _place_at_start_poses(draft: RulingDraft) -> None:
+    """Carry everybody to the start poses, and who is off the field to the bench of the half."""
+    for name in draft.match.roster.names:
+        if name in draft.state.participation.absences:
+            draft.place_robot(name, bench_pose(draft.match, draft.state, name))
+        else:
+            draft.place_robot(name, draft.match.starts[name].team(draft.state.cyan_attacks))
+
+
+def _before_match(draft: RulingDraft) -> None:
+    if draft.match.automatic:
+        begin_half(draft)
+
+
+def _while_stopped(draft: RulingDraft) -> None:
+    pending = draft.state.pending
+    if pending is not None and reached(draft.state.timing.timer, draft.book.restarts.stop_to_signal):
+        restart.signal(draft, pending)
+
+
+def _while_restarting(draft: RulingDraft) -> None:
+    signalled = draft.state.restart
+    if signalled is not None:
+        restart.advance(draft, signalled)
+
+
+def _while_parking(draft: RulingDraft) -> None:
+    if not reached(draft.state.timing.timer, draft.book.periods.parking):
+        return
+    if what_follows(draft) is None:
+        begin_next_period(draft)
+    else:
+        suspend_play(draft, Phase.HALF_TIME, _break_duration(draft))
+
+
+def _during_break(draft: RulingDraft) -> None:
+    if reached(draft.state.timing.timer, _break_duration(draft)):
+        begin_next_period(draft)
+
+
+ADVANCE_BY_PHASE: Mapping[Phase, Callable[[RulingDraft], None]] = {
+    Phase.PRE_GAME: _before_match,
+    Phase.STOPPED: _while_stopped,
+    Phase.PARKING: _while_parking,
+    Phase.HALF_TIME: _during_break,
+} | dict.fromkeys(RESTARTS, _while_restarting)
+"""Phase → what time brings about in it; in the others, nothing."""
+
+
+def _break_duration(draft: RulingDraft) -> float:
+    """s of the break before what follows."""
+    periods = draft.book.periods
+    return periods.shoot_out_break if what_follows(draft) is GameStage.SHOOT_OUT else periods.half_time_break

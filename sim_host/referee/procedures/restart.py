@@ -1,0 +1,180 @@
+"""The restart sequence: STOP, ball placed and restart signalled, START, ball in play.
+
+Robots take positions from the signal on. START comes after the rule book's pause, as soon as everybody stands legally
+and the ball lies on its spot, at the latest after the positions limit: who stands wrong then is named, and moved or
+shown a card as the rule book says. The ball is in play once it has rolled freely far enough, or when the taker's time
+is over, from when on anybody may take it; a dropped ball at once. Where an obstacle stands on the spot, the restart is
+taken from the nearest free place, a kick-off on the halfway line, a penalty as far from the goal.
+
+Section: restarts.
+Measures: the time since STOP, signal and START; the ball's way from its spot, and its longest way between two touches.
+Not judged: who let the time go by.
+"""
+
+import math
+
+from schemas.game import Card, EventKind, GameStage, OfficiatingMode, Phase
+from sim_host.referee.evidence import NO_EVIDENCE
+from sim_host.referee.game import set_piece
+from sim_host.referee.game.restart import Restart
+from sim_host.referee.game.timing import reached
+from sim_host.referee.placement.clear_ground import clear_restart
+from sim_host.referee.placement.positions import PositionFault, is_spot_covered, legal_pose, position_faults
+from sim_host.referee.procedures import discipline
+from sim_host.referee.ruling_draft import RulingDraft
+from sim_host.referee.wording import restart_text
+
+RULE = "restart"
+POSITIONS = "positions"
+
+
+def stop(draft: RulingDraft, rule: str, restart: Restart | None) -> None:
+    """Halt the game at once; without a restart, people have to decide how it goes on."""
+    follows = f"{restart_text(restart)} follows" if restart is not None else "the referee decides how it goes on"
+    draft.add_event(EventKind.STOP, rule, f"STOP; {follows}")
+    state = draft.state
+    draft.state = state._replace(
+        phase=Phase.STOPPED,
+        side=None,
+        spot=None,
+        running=False,
+        pending=restart,
+        set_piece=None,
+        proposal=None,
+        participation=discipline.for_new_stoppage(state.participation),
+        timing=state.timing.restart_timer(draft.book.restarts.stop_to_signal if restart is not None else None),
+    )
+
+
+def signal(draft: RulingDraft, restart: Restart) -> None:
+    """Place the ball and signal the restart; robots take their positions.
+
+    Where a robot stands on the spot, the ball is placed as soon as it has gone; where an obstacle does, which nobody
+    moves, beside it.
+    """
+    state, meant = draft.state, restart
+    restart = clear_restart(draft.match, draft.snapshot, meant)
+    if not is_spot_covered(draft.match, state, restart.spot, draft.snapshot):
+        draft.place_ball(restart.spot)
+    draft.state = state._replace(
+        phase=restart.phase,
+        side=restart.side,
+        spot=restart.spot,
+        running=False,
+        pending=None,
+        set_piece=None,
+        timing=state.timing.restart_timer(draft.book.restarts.signal_to_start),
+        evidence=NO_EVIDENCE,
+    )
+    moved = math.dist(meant.spot, restart.spot)
+    beside = f", {moved:.2f} m from its spot, where an obstacle stands" if moved > 0.0 else ""
+    draft.add_event(EventKind.RESTART, RULE, restart_text(restart) + beside, side=restart.side, place=restart.spot)
+
+
+def start(draft: RulingDraft, restart: Restart, remark: str = "") -> None:
+    """Give START of the signalled restart; the first of a half sets the clock going, a drop ball is in play at once."""
+    state = draft.state
+    draft.state = state._replace(
+        running=True,
+        timing=state.timing.restart_timer(time_limit(draft, restart), runs=state.stage is not GameStage.SHOOT_OUT),
+        set_piece=set_piece.started(restart),
+        evidence=NO_EVIDENCE,
+    )
+    draft.checkpoint = restart.phase is Phase.KICK_OFF
+    draft.add_event(
+        EventKind.START, RULE, f"START of the {restart_text(restart)}{remark}", side=restart.side, place=restart.spot
+    )
+    if restart.phase is Phase.DROP_BALL:
+        _in_play(draft, restart, "a dropped ball is in play at once")
+
+
+def advance(draft: RulingDraft, restart: Restart) -> None:
+    """What time and the ball bring about while a restart is signalled or taken."""
+    if not draft.state.running:
+        _before_start(draft, restart)
+    elif draft.state.stage is not GameStage.SHOOT_OUT:
+        _before_play(draft, restart)
+
+
+def drop_settled_set_piece(draft: RulingDraft) -> None:
+    """Forget the set piece as soon as nothing of it binds anybody any more."""
+    piece = draft.state.set_piece
+    if piece is None or draft.state.phase is not Phase.PLAY:
+        return
+    if set_piece.is_settled(piece, draft.book, draft.snapshot):
+        draft.state = draft.state._replace(set_piece=None)
+
+
+def time_limit(draft: RulingDraft, restart: Restart) -> float:
+    """s after START until anybody may take the restart; in a shoot-out, until the attempt is over."""
+    if draft.state.stage is GameStage.SHOOT_OUT:
+        return draft.book.periods.shoot_out_limit
+    numbers = draft.book.restarts
+    return numbers.penalty_limit if restart.phase is Phase.PENALTY else numbers.time_limit
+
+
+def from_spot(draft: RulingDraft, restart: Restart) -> float:
+    """m on the ground between the ball and its spot."""
+    ball = draft.snapshot.ball
+    return math.dist(restart.spot, (ball.x, ball.y))
+
+
+def _before_start(draft: RulingDraft, restart: Restart) -> None:
+    """Between signal and START: the ball is kept on its spot, then START as soon as everybody stands legally."""
+    numbers, timer = draft.book.restarts, draft.state.timing.timer
+    if clear_restart(draft.match, draft.snapshot, restart) != restart:
+        signal(draft, restart)  # anew, beside the obstacle that somebody has put there meanwhile
+        return
+    on_spot = from_spot(draft, restart) <= numbers.drift
+    has_room = on_spot or not is_spot_covered(draft.match, draft.state, restart.spot, draft.snapshot)
+    if not on_spot and timer > 0 and has_room:
+        draft.place_ball(restart.spot)
+    if draft.match.mode is OfficiatingMode.MANUAL or not reached(timer, numbers.signal_to_start):
+        return
+    wrong = position_faults(draft.match, draft.state, restart, draft.snapshot)
+    if on_spot and not wrong:
+        start(draft, restart)
+    elif reached(timer, numbers.signal_to_start + numbers.positions_limit):
+        _start_with_faults(draft, restart, wrong)
+        if not has_room and numbers.moves_offenders:
+            draft.place_ball(restart.spot)
+
+
+def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: tuple[PositionFault, ...]) -> None:
+    """The positions limit is over: who stands wrong is named, moved and shown a card as the rule book says."""
+    numbers = draft.book.restarts
+    for fault in wrong:
+        robot = draft.snapshot.robots[draft.match.roster.names.index(fault.robot)]
+        draft.add_event(
+            EventKind.FOUL,
+            POSITIONS,
+            f"{fault.text} after {draft.state.timing.timer:.1f} s",
+            side=draft.match.roster.side_of(fault.robot),
+            robot=fault.robot,
+            place=(robot.x, robot.y),
+            measured=fault.measured,
+            limit=fault.limit,
+            unit="m",
+        )
+        if numbers.moves_offenders:
+            draft.place_robot(fault.robot, legal_pose(draft.match, draft.state, restart, draft.snapshot, fault))
+        if numbers.position_card and draft.match.mode is OfficiatingMode.AUTOMATIC:
+            discipline.show_card(draft, POSITIONS, fault.robot, Card.YELLOW)
+    start(draft, restart, f", although {wrong[0].text}" if wrong else "")
+
+
+def _before_play(draft: RulingDraft, restart: Restart) -> None:
+    """Between START and ball in play."""
+    numbers, piece = draft.book.restarts, draft.state.set_piece
+    limit = time_limit(draft, restart)
+    rolled = piece.rolled if piece is not None and numbers.restart_fouls else from_spot(draft, restart)
+    if rolled >= numbers.in_play_distance:
+        _in_play(draft, restart, f"ball in play after {rolled:.2f} m, {numbers.in_play_distance:.2f} m asked")
+    elif reached(draft.state.timing.timer, limit):
+        _in_play(draft, restart, f"ball in play {limit:g} s after START: anybody may take it")
+
+
+def _in_play(draft: RulingDraft, restart: Restart, text: str) -> None:
+    draft.add_event(EventKind.IN_PLAY, RULE, text, side=restart.side, robot=draft.state.last_touch)
+    state = draft.state
+    draft.state = state._replace(phase=Phase.PLAY, side=None, spot=None, timing=state.timing.restart_timer(None))

@@ -1,0 +1,83 @@
+"""One tick in which something happens: what has been decided in it so far."""
+
+from dataclasses import dataclass, field
+
+from schemas.config.roster import Placement
+from schemas.config.rule_book import RuleBook
+from schemas.frames import Pose
+from schemas.game import Card, EventKind, GameEvent, Score
+from schemas.side import Side
+from sim_host.referee.game.referee_state import RefereeState, point
+from sim_host.referee.game.restart import Spot
+from sim_host.referee.match_constants import MatchConstants
+from sim_host.snapshot import Snapshot
+
+
+@dataclass(slots=True)
+class RulingDraft:
+    """Collects what one tick brings; lives no longer than the call of `Referee.step`."""
+
+    match: MatchConstants
+    snapshot: Snapshot
+    state: RefereeState
+    events: list[GameEvent] = field(default_factory=list)
+    placements: list[Placement] = field(default_factory=list)
+    checkpoint: bool = False
+
+    def add_event(
+        self,
+        kind: EventKind,
+        rule: str,
+        text: str,
+        *,
+        side: Side | None = None,
+        robot: str | None = None,
+        robots: tuple[str, ...] = (),
+        place: Spot | None = None,
+        score: Score | None = None,
+        measured: float | None = None,
+        limit: float | None = None,
+        unit: str = "",
+        card: Card | None = None,
+    ) -> None:
+        """Add an event of this tick; `rule` is the file name of the rule or action that decided.
+
+        `measured` is the quantity that broke the rule and `limit` what it allows or asks, both in `unit`.
+        """
+        event = GameEvent(
+            tick=self.snapshot.tick,
+            time=self.snapshot.time,
+            clock=self.state.clock,
+            kind=kind,
+            rule=rule,
+            side=side,
+            robot=robot,
+            robots=list(robots),
+            place=point(place),
+            score=score,
+            measured=None if measured is None else round(measured, 4),
+            limit=limit,
+            unit=unit,
+            card=card,
+            text=text,
+        )
+        self.events.append(event)
+
+    def place_ball(self, spot: Spot) -> None:
+        """Have the ball set down at rest."""
+        self.placements.append(Placement(body="ball", x=spot[0], y=spot[1]))
+
+    @property
+    def ball_spot(self) -> Spot:
+        """Where the ball lies: where it was set down in this tick, or where it was seen."""
+        down = [(placement.x, placement.y) for placement in self.placements if placement.body == "ball"]
+        return down[-1] if down else (self.snapshot.ball.x, self.snapshot.ball.y)
+
+    @property
+    def book(self) -> RuleBook:
+        """The numbers that this match is refereed by."""
+        return self.match.book
+
+    def place_robot(self, name: str, pose: Pose) -> None:
+        """Have a robot set down at rest."""
+        self.placements.append(Placement(body=name, x=pose.x, y=pose.y, heading=pose.heading))

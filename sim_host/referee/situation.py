@@ -1,0 +1,111 @@
+"""What the rules look at in one tick: the state with timers moved on, the snapshot, and the line that was crossed."""
+
+import dataclasses
+from enum import Enum
+from typing import NamedTuple
+
+from schemas.game import Phase
+from sim_host.referee.evidence import NO_EVIDENCE, evidence_after
+from sim_host.referee.game.referee_state import RefereeState
+from sim_host.referee.game.set_piece import set_piece_after
+from sim_host.referee.game.shoot_out import ShootOut
+from sim_host.referee.match_constants import MatchConstants
+from sim_host.snapshot import BallState, Snapshot
+
+
+class Line(Enum):
+    """A line that bounds the field."""
+
+    TOUCH = "touch line"
+    GOAL = "goal line"
+
+
+class Crossing(NamedTuple):
+    """The ball's centre, in m, at the moment when the whole ball had passed a line."""
+
+    line: Line
+    x: float
+    y: float
+    z: float
+
+
+class Situation(NamedTuple):
+    """One tick as the rules see it."""
+
+    match: MatchConstants
+    state: RefereeState
+    snapshot: Snapshot
+    crossing: Crossing | None
+
+
+def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapshot, dt: float) -> Situation:
+    """The situation of this tick: clock and timers moved on by `dt` s, touches and stillness of the ball taken in."""
+    ball = snapshot.ball
+    now = ball[:3]
+    in_play = state.phase is Phase.PLAY
+    slow = in_play and _is_still(ball, match.book.stall.still_speed)
+    seen = NO_EVIDENCE
+    if state.running:
+        seen = evidence_after(
+            match, state.evidence, match.keepers(state.participation.absences), state.cyan_attacks, snapshot, dt
+        )
+    now_state = RefereeState(  # `_replace` takes half as long again, in every tick
+        phase=state.phase,
+        timing=state.timing.after(dt, in_play),
+        kick_off=state.kick_off,
+        side=state.side,
+        spot=state.spot,
+        running=state.running,
+        half=state.half,
+        stage=state.stage,
+        score=state.score,
+        cyan_attacks=state.cyan_attacks,
+        pending=state.pending,
+        set_piece=set_piece_after(state.set_piece, snapshot, in_play, dt),
+        participation=state.participation.after(snapshot.silent, dt, state.timing.runs),
+        shoot_out=state.shoot_out,
+        proposal=None if state.proposal is None else state.proposal.after(dt),
+        before=state.before,
+        still=state.still + dt if slow else 0.0,
+        ball=now,
+        evidence=seen,
+    )
+    if state.shoot_out is not None and state.running:
+        now_state = now_state._replace(shoot_out=_with_nearest_ball(match, now_state, snapshot, state.shoot_out))
+    inside = abs(ball.x) <= match.out_x and abs(ball.y) <= match.out_y
+    crossing = None if inside or state.ball is None else crossed(match, state.ball, now)
+    return Situation(match, now_state, snapshot, crossing)
+
+
+def crossed(
+    match: MatchConstants, before: tuple[float, float, float], now: tuple[float, float, float]
+) -> Crossing | None:
+    """The first line that the ball passed on the straight way from `before` to `now`; nothing if it was out before."""
+    first: tuple[float, Line] | None = None
+    for axis, limit, line in ((0, match.out_x, Line.GOAL), (1, match.out_y, Line.TOUCH)):
+        if abs(before[axis]) > limit:
+            return None
+        if abs(now[axis]) > limit:
+            way = abs(now[axis] - before[axis])
+            edge = limit if now[axis] > 0 else -limit
+            share = abs(edge - before[axis]) / way
+            if first is None or share < first[0]:
+                first = (share, line)
+    if first is None:
+        return None
+    share, line = first
+    x, y, z = (b + share * (n - b) for b, n in zip(before, now, strict=True))
+    return Crossing(line, x, y, z)
+
+
+def _with_nearest_ball(match: MatchConstants, state: RefereeState, snapshot: Snapshot, out: ShootOut) -> ShootOut:
+    """The shoot-out with how near the ball has come to the goal in the hold of its taker."""
+    holder, side = snapshot.possession, state.side
+    if holder is None or side is None or snapshot.roster.side_of(holder) is not side:
+        return out
+    near = match.pitch.goal_line - snapshot.ball.x * state.attack(side)
+    return dataclasses.replace(out, nearest=near if out.nearest is None else min(near, out.nearest))
+
+
+def _is_still(ball: BallState, speed: float) -> bool:
+    return ball.vx * ball.vx + ball.vy * ball.vy + ball.vz * ball.vz < speed * speed

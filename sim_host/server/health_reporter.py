@@ -1,0 +1,55 @@
+"""How the host is doing, measured against wall time."""
+
+from collections import deque
+
+from schemas.messages.host import Health
+from schemas.process.clock import Clock
+from sim_host.server.inbox import Inbox
+from sim_host.server.presence_tracker import PresenceTracker
+
+_PERIOD_S = 0.25
+"""Wall time between two reports."""
+_AVERAGING_S = 1.0
+"""Wall time that the real-time factor is averaged over."""
+
+
+class HealthReporter:
+    """Real-time factor and tick times of the last second."""
+
+    def __init__(self, clock: Clock, pace: str) -> None:
+        self._clock = clock
+        self._pace = pace
+        self._marks: deque[tuple[float, float]] = deque()
+        self._worst: deque[tuple[float, float]] = deque()
+        self._last_tick = clock.now()
+        self._next = 0.0
+
+    def end_tick(self, time: float) -> bool:
+        """A tick has ended at this simulated time, s; whether a report is due."""
+        now = self._clock.now()
+        self._worst.append((now, now - self._last_tick))
+        self._last_tick = now
+        if now < self._next:
+            return False
+        self._next = now + _PERIOD_S
+        self._marks.append((now, time))
+        while now - self._marks[0][0] > _AVERAGING_S and len(self._marks) > 2:
+            self._marks.popleft()
+        while self._worst and now - self._worst[0][0] > _AVERAGING_S:
+            self._worst.popleft()
+        return True
+
+    def report(self, tick: int, time: float, late: int, inbox: Inbox, presence: PresenceTracker) -> Health:
+        """The report that is due."""
+        (began, then), (now, until) = self._marks[0], self._marks[-1]
+        return Health(
+            tick=tick,
+            time=time,
+            pace=self._pace,
+            real_time_factor=round((until - then) / (now - began), 3) if now > began else 0.0,
+            late_ticks=late,
+            worst_tick_ms=round(max((took for _, took in self._worst), default=0.0) * 1e3, 3),
+            robots={name: stats.health() for name, stats in inbox.agent_stats.items()},
+            strangers=dict(inbox.strangers),
+            recorders=presence.recorder_lags(tick),
+        )

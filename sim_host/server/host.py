@@ -1,0 +1,210 @@
+"""The host of one match: the simulation on the bus, tick by tick, at its pace."""
+
+from collections.abc import Callable
+
+from schemas.bus.batch_publisher import BatchPublisher
+from schemas.bus.contract import Bus
+from schemas.config.match_config import MatchConfig
+from schemas.config.profile import Profile
+from schemas.game import EventKind, GameEvent
+from sim_host.match.simulation import Simulation, TickResult
+from sim_host.server.active_order_publisher import ActiveOrderPublisher
+from sim_host.server.health_reporter import HealthReporter
+from sim_host.server.inbox import Inbox
+from sim_host.server.invalid_log import InvalidLog
+from sim_host.server.manual_control import ManualControl
+from sim_host.server.outbox import Outbox
+from sim_host.server.pace import Lockstep, Pace, Realtime
+from sim_host.server.presence_tracker import PresenceTracker
+from sim_host.server.services import Services
+
+_FULL_TIME_GRACE_S = 0.75
+"""Wall time that the host stays after full time for those who watch: what they missed of the end shows with the bus's
+next heartbeat, half a second after it, and can be fetched again as long as the host is there."""
+_RECORDER_GRACE_S = 5.0
+"""Wall time that the host waits at the end for its recorders to take in the last tick."""
+
+
+class Host:
+    """A match that agents, coaches and recorders meet in."""
+
+    def __init__(self, config: MatchConfig, bus: Bus) -> None:
+        self.simulation = Simulation(config)
+        self._invalid_log = InvalidLog()
+        self._batches = BatchPublisher(bus)
+        self.inbox = Inbox(bus, self.simulation.roster, self._invalid_log, self._batches)
+        self.presence = PresenceTracker(bus, self.inbox.agent_stats, config.patience.recorder)
+        self._manual = ManualControl(bus, self._invalid_log)
+        self._config = config
+        self._clock = bus.clock
+        self._services = Services(bus, self.simulation, self._invalid_log, self._batches, self.presence.has_referee_box)
+        self.pace = _pace(config, bus, self.inbox, self.presence, self._while_waiting, self.simulation.profile)
+        tick_s = self.simulation.profile.time.tick
+        self._outbox = Outbox(self._batches, self.simulation.roster, tick_s, sights_kept=config.record.sights)
+        self._active_orders = ActiveOrderPublisher(
+            self._batches, self.simulation.orders, self.inbox.agent_stats, tick_s
+        )
+        self._health = HealthReporter(bus.clock, config.pace)
+        self._roster = self.simulation.roster
+        self._silent = dict.fromkeys(self._roster.names, False)
+        self.stopping = False
+        """Somebody has told the host to end the match."""
+        self._set_sim_time(0)
+        bus.declare_alive("host", "host")
+
+    def run(self) -> None:
+        """Play the match to its end, or until somebody tells the host to leave."""
+        self.wait_for_all()
+        self.begin()
+        while not (self.simulation.over or self.stopping):
+            self.tick()
+        self.wait_for_recorders()
+
+    def stop(self) -> None:
+        """End the match soon, but no tick in its middle: what was recorded of the last one is whole."""
+        self.stopping = True
+        self.pace.stop_waiting()
+
+    def wait_for_all(self) -> None:
+        """Wait until every robot has an agent, as long as patience lasts; a referee action ends the waiting too."""
+        deadline = self._clock.now() + self._config.patience.attendance
+        while not self.presence.all_present(self._config.record.wait) and self._clock.now() < deadline:
+            if self.stopping:
+                return
+            self.presence.update(timeout=0.02)
+            self._process_requests()
+            self._report(self.simulation.now)
+            self._batches.send_if_due()
+            if self._services.actions:
+                return
+
+    def begin(self) -> None:
+        """Tell everyone of tick 0."""
+        first = self.simulation.now
+        for robot, sight in first.sights.items():
+            self._send_sight(robot, sight)
+        self._outbox.publish_tick(first, self.simulation.state)
+        self._batches.end_tick(first.tick)
+        self.pace.begin()
+
+    def tick(self) -> TickResult:
+        """One tick: hear the robots, move the world, tell everyone."""
+        commands = self.pace.gather(self.simulation.now.tick, self._outbox.resend_sight)
+        self.presence.update()
+        self._process_requests()
+        self._set_sim_time(self.simulation.now.tick + 1)
+        commands = self._manual.override(self.simulation.now.tick, self._roster.names, commands)
+        silent = {name for name, is_silent in self._silent.items() if is_silent and name not in commands}
+        tick = self.simulation.step(commands, self._services.actions, self._send_sight, silent)
+        self._outbox.publish_tick(tick, self.simulation.state)
+        self._active_orders.publish(tick.tick, tick.time, self.simulation.roster)
+        self._services.reply(tick.replies)
+        self._update_stats(tick)
+        self._report(tick)
+        self._batches.end_tick(tick.tick)
+        return tick
+
+    def wait_for_recorders(self) -> None:
+        """Give the recorders time to take in the last tick, and after full time those who watch to hear of it."""
+        last = self.simulation.now.tick
+        self._batches.send()
+        deadline = self._clock.now() + _RECORDER_GRACE_S
+        while self._clock.now() < deadline:
+            self.presence.update(timeout=0.005)
+            self._services.process()
+            self._services.refuse("the match is over")
+            self._batches.send_if_due()
+            if not any(self.presence.recorder_lags(last).values()):
+                break
+        if self.simulation.over and self.presence.has_watchers():
+            self._linger(self._clock.now() + _FULL_TIME_GRACE_S)
+
+    def _linger(self, until: float) -> None:
+        """Answer that the match is over until this wall time, or until somebody tells the host to leave."""
+        while self._clock.now() < until and not self.stopping:
+            self._clock.sleep_until(min(until, self._clock.now() + 0.05))
+            self._services.process()
+            self._services.refuse("the match is over")
+
+    def _process_requests(self) -> None:
+        """Answer who asks, and follow an operator who lets other robots take part."""
+        self._services.process()
+        roster = self.simulation.roster
+        if (roster.names, roster.sides, roster.still) != (self._roster.names, self._roster.sides, self._roster.still):
+            self.inbox.set_roster(roster)
+            self.presence.refresh_agents()
+            self._outbox.set_roster(roster)
+            self._silent = {name: self._silent.get(name, False) for name in roster.names}
+        self._roster = roster
+
+    def _while_waiting(self) -> None:
+        """While answers are missing: whoever joins must know the match, and what was said must not wait as long."""
+        self._services.answer_setup()
+        self._batches.send_if_due()
+
+    def _send_sight(self, robot: str, sight: bytes) -> None:
+        """Sights go out before anything else: robots wait for them, watchers do not."""
+        if robot == self.simulation.roster.names[0]:
+            self.inbox.sights_sent(self.simulation.world.tick, self._clock.unix_ns())
+        self._outbox.publish_sight(robot, sight)
+
+    def _set_sim_time(self, tick: int) -> None:
+        """What is sent from now on belongs to this tick."""
+        self._clock.sim_ns = round(tick * self.simulation.profile.time.tick * 1e9)
+
+    def _update_stats(self, tick: TickResult) -> None:
+        """Note what was refused, and say when a robot falls silent or is heard again."""
+        for name, count in tick.refused.items():
+            self.inbox.agent_stats[name].refused += count
+        for name, driven in self._manual.changes():
+            text = f"{name} is driven by hand" if driven else f"{name} is given back to its brain"
+            self._publish_agent_event(tick, name, "hand", text)
+        for name, was_silent in self._silent.items():
+            stats = self.inbox.agent_stats[name]
+            if stats.idle:
+                continue
+            fell = not stats.alive or stats.silent >= self.pace.silent_ticks
+            silent = fell or (was_silent and not stats.answering)
+            if silent == was_silent:
+                continue
+            self._silent[name] = silent
+            text = f"{name} does not answer, its robot rests" if silent else f"{name} answers"
+            self._publish_agent_event(tick, name, "attendance", text)
+
+    def _publish_agent_event(self, tick: TickResult, name: str, rule: str, text: str) -> None:
+        if name not in self._roster.names:
+            return
+        self._outbox.publish_event(
+            GameEvent(
+                tick=tick.tick,
+                time=tick.time,
+                clock=self.simulation.state.clock,
+                kind=EventKind.AGENT,
+                rule=rule,
+                side=self._roster.side_of(name),
+                robot=name,
+                text=text,
+            )
+        )
+
+    def _report(self, tick: TickResult) -> None:
+        """Say how the host is doing, when it is time to, and of one invalid payload at most: a flood is not echoed."""
+        invalid = self._invalid_log.pop(tick.tick, tick.time)
+        if invalid is not None:
+            self._outbox.publish_invalid(invalid)
+        if self._health.end_tick(tick.time):
+            late = self.pace.late_ticks
+            self._outbox.publish_health(self._health.report(tick.tick, tick.time, late, self.inbox, self.presence))
+
+
+def _pace(
+    config: MatchConfig,
+    bus: Bus,
+    inbox: Inbox,
+    presence: PresenceTracker,
+    while_waiting: Callable[[], None],
+    profile: Profile,
+) -> Pace:
+    if config.speed is None:
+        return Lockstep(bus.clock, inbox, presence, config.patience, while_waiting)
+    return Realtime(bus.clock, inbox, profile.time.tick, config.speed, profile.safety.watchdog)

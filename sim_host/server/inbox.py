@@ -1,0 +1,173 @@
+"""What robots say to the host: commands are taken in, checked and counted; nothing they send can stop the host."""
+
+from collections import deque
+from collections.abc import Container
+from dataclasses import dataclass, field
+from itertools import chain, repeat
+from statistics import median
+
+from schemas.bus.batch_publisher import BatchPublisher
+from schemas.bus.contract import Bus, ReceivedMessage
+from schemas.message import BadMessageError
+from schemas.messages.command import Command
+from schemas.messages.host import RobotHealth
+from schemas.messages.light import light_reader
+from schemas.topics import COMMAND
+from sim_host.server.invalid_log import InvalidLog
+from sim_host.snapshot import Roster
+
+_read_command = light_reader(Command)
+SILENT_TICKS = 3
+"""A robot that missed this many ticks in a row is not waited for until it is heard again."""
+_MAX_STRANGERS = 100
+"""Keys of strangers that are counted by name; a flood of invented names must not fill the memory."""
+_MAX_INVALID_IN_A_ROW = 1000
+"""Useless messages taken in before the host goes on with its work: a flood must not hold it."""
+_LATENCY_SAMPLES = 50
+"""Answers that the median latency is taken over: one second of ticks."""
+
+
+@dataclass(slots=True)
+class AgentStats:
+    """The account of one robot's agent: what it answered, missed, sent twice or wrongly."""
+
+    alive: bool = False
+    answering: bool = False
+    answers: int = 0
+    missed: int = 0
+    duplicates: int = 0
+    invalid: int = 0
+    refused: int = 0
+    silent: int = 0
+    """Ticks missed in a row."""
+    removed: bool = False
+    """Its robot was taken off the pitch."""
+    still: bool = False
+    """Its robot stands still, whatever it says."""
+    newest: int = -1
+    """Tick of the newest sight it has answered."""
+    acknowledged: int | None = None
+    """Number of the coach's order that its newest command acknowledges."""
+    latencies: deque[float] = field(default_factory=lambda: deque(maxlen=_LATENCY_SAMPLES))
+
+    @property
+    def is_silent(self) -> bool:
+        """Not worth waiting for: idle, gone, or without an answer to several ticks."""
+        return self.idle or not self.alive or self.silent >= SILENT_TICKS
+
+    @property
+    def idle(self) -> bool:
+        """There is nothing for it to do."""
+        return self.removed or self.still
+
+    def end_tick(self, answered: bool) -> None:
+        """A tick went by, with its answer or without."""
+        self.answering = answered
+        if answered:
+            self.silent = 0
+        elif not self.idle:
+            self.missed += 1
+            self.silent += 1
+
+    def mark_received(self) -> None:
+        """Something valid came from it, be it too late: one that was given up gets another tick of waiting."""
+        self.silent = min(self.silent, SILENT_TICKS - 1)
+
+    def health(self) -> RobotHealth:
+        """The account as it is published."""
+        return RobotHealth(
+            alive=self.alive,
+            answering=self.answering,
+            answers=self.answers,
+            missed=self.missed,
+            duplicates=self.duplicates,
+            invalid=self.invalid,
+            refused=self.refused,
+            removed=self.removed,
+            still=self.still,
+            latency_ms=round(median(self.latencies) * 1e3, 3) if self.latencies else None,
+        )
+
+
+class Inbox:
+    """The commands of all robots."""
+
+    def __init__(self, bus: Bus, roster: Roster, invalid_log: InvalidLog, batches: BatchPublisher) -> None:
+        """`batches` gets everything that comes, for the record."""
+        self._commands = bus.subscribe(COMMAND)
+        self._invalid_log = invalid_log
+        self._batches = batches
+        self.agent_stats: dict[str, AgentStats] = {}
+        self.strangers: dict[str, int] = {}
+        self._sent_at: deque[tuple[int, int]] = deque(maxlen=_LATENCY_SAMPLES)
+        self.set_roster(roster)
+
+    def set_roster(self, roster: Roster) -> None:
+        """Hear these robots from now on; the accounts of those that were removed are kept."""
+        for name, stats in self.agent_stats.items():
+            stats.removed = name not in roster.names
+        for name in roster.names:
+            stats = self.agent_stats.setdefault(name, AgentStats())
+            stats.still = name in roster.still
+            stats.silent = 0
+
+    def sights_sent(self, tick: int, unix_ns: int) -> None:
+        """Remember when the sights of a tick went out, for the latency of their answers."""
+        self._sent_at.append((tick, unix_ns))
+
+    def receive_command(self, tick: int, timeout: float) -> tuple[str, Command] | None:
+        """The next valid command that answers this tick or an earlier one not answered yet; nothing after `timeout` s.
+
+        Everything else is counted on its sender's account and forgotten.
+        """
+        for wait in chain((timeout,), repeat(0.0, _MAX_INVALID_IN_A_ROW)):
+            received = self._commands.receive(wait)
+            if received is None:
+                return None
+            self._batches.add_received(received)
+            checked = self._check(received, tick)
+            if checked is not None:
+                return checked
+        return None
+
+    def end_tick(self, answered: Container[str]) -> None:
+        """A tick went by with the answers of these robots."""
+        for name, stats in self.agent_stats.items():
+            stats.end_tick(name in answered)
+
+    def _check(self, received: ReceivedMessage, tick: int) -> tuple[str, Command] | None:
+        name = received.key.split("/")[1]
+        stats = self.agent_stats.get(name)
+        if stats is None:
+            self._count_stranger(received)
+            return None
+        if stats.removed:
+            return None  # it answers what it saw before it was removed
+        try:
+            command = _read_command(received.payload)
+            if command.answers_tick > tick:
+                raise BadMessageError(f"Command: answers_tick is {command.answers_tick}, the newest sight is {tick}")
+        except BadMessageError as error:
+            stats.invalid += 1
+            self._invalid_log.add(received.key, str(error), received.payload)
+            return None
+        stats.mark_received()
+        if command.answers_tick <= stats.newest:
+            stats.duplicates += 1
+            return None
+        stats.newest = command.answers_tick
+        stats.acknowledged = command.acknowledges_order
+        stats.answers += 1
+        self._note_latency(stats, command.answers_tick, received.arrived_ns)
+        return name, command
+
+    def _count_stranger(self, received: ReceivedMessage) -> None:
+        key = received.key if received.key in self.strangers or len(self.strangers) < _MAX_STRANGERS else "others"
+        self.strangers[key] = self.strangers.get(key, 0) + 1
+        self._invalid_log.add(received.key, "no robot of this match has that name", received.payload)
+
+    def _note_latency(self, stats: AgentStats, tick: int, arrived_ns: int) -> None:
+        for sent_tick, sent_ns in reversed(self._sent_at):
+            if sent_tick == tick and arrived_ns:
+                stats.latencies.append((arrived_ns - sent_ns) * 1e-9)
+                return

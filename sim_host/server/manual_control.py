@@ -1,0 +1,82 @@
+"""Robots that people drive: their commands replace those of the robots' brains."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from schemas.bus.contract import Bus
+from schemas.message import BadMessageError
+from schemas.messages.command import Command, Kick
+from schemas.messages.manual import ManualDrive
+from schemas.topics import MANUAL
+from sim_host.server.invalid_log import InvalidLog
+
+TIMEOUT_S = 0.5
+"""Wall time without a word after which a robot is given back."""
+
+
+@dataclass(slots=True)
+class _DrivenRobot:
+    message: ManualDrive
+    received_at: float
+    """Wall time."""
+    kick: Kick | None
+    """Asked for and not handed on yet."""
+
+
+class ManualControl:
+    """All robots that are driven manually."""
+
+    def __init__(self, bus: Bus, invalid_log: InvalidLog) -> None:
+        self._subscription = bus.subscribe(MANUAL)
+        self._clock = bus.clock
+        self._invalid_log = invalid_log
+        self._driven: dict[str, _DrivenRobot] = {}
+        self._reported: dict[str, bool] = {}
+
+    def override(self, tick: int, names: tuple[str, ...], commands: Mapping[str, Command]) -> dict[str, Command]:
+        """The commands that answer `tick`, those of driven robots in place of their brains'.
+
+        What the brain of a driven robot says on the radio is still said.
+        """
+        self._receive(names)
+        overridden = dict(commands)
+        for name in [name for name in names if name in self._driven]:
+            robot, own = self._driven[name], commands.get(name)
+            overridden[name] = Command(
+                answers_tick=tick,
+                drive=robot.message.drive,
+                dribble=robot.message.dribble,
+                kick=robot.kick,
+                radio=own.radio if own is not None else None,
+            )
+            robot.kick = None
+        return overridden
+
+    def changes(self) -> Iterator[tuple[str, bool]]:
+        """Robots that came under manual control or were given back since this was last asked."""
+        for name in sorted({*self._driven, *self._reported}):
+            is_driven = name in self._driven
+            if is_driven != (name in self._reported):
+                yield name, is_driven
+        self._reported = dict.fromkeys(self._driven, True)
+
+    def _receive(self, names: tuple[str, ...]) -> None:
+        """Take in what has come, and let those go that are silent or not there."""
+        now = self._clock.now()
+        while (received := self._subscription.receive()) is not None:
+            name = received.chunks["robot"]
+            try:
+                message: ManualDrive = received.message()
+                if name not in names:
+                    raise BadMessageError("no robot of this match has that name")
+            except BadMessageError as error:
+                self._invalid_log.add(received.key, str(error), received.payload)
+                continue
+            if message.release:
+                self._driven.pop(name, None)
+                continue
+            waiting = self._driven[name].kick if name in self._driven else None
+            self._driven[name] = _DrivenRobot(message, now, message.kick or waiting)
+        self._driven = {
+            name: robot for name, robot in self._driven.items() if name in names and now - robot.received_at < TIMEOUT_S
+        }

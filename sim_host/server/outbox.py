@@ -1,0 +1,118 @@
+"""What the host says: one writer per key, each message encoded once."""
+
+from dataclasses import replace
+from typing import Any
+
+from schemas.bus.batch_publisher import BatchPublisher
+from schemas.bus.contract import Publisher
+from schemas.game import GameEvent
+from schemas.messages.host import Health, Invalid
+from schemas.side import Side
+from schemas.topic import Delivery
+from schemas.topics import APPLIED, BELIEF, EVENT, HEALTH, INVALID, SIGHT, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
+from sim_host.match.simulation import TickResult
+from sim_host.referee.game.referee_state import RefereeState
+from sim_host.snapshot import Roster
+
+_LISTENER_CHECK_TICKS = 50
+"""Ticks between two looks for listeners of single bodies."""
+_STATE_PERIOD_S = 1.0
+"""Simulated time after which the state of the game is said again."""
+
+
+class Outbox:
+    """All writers of the host."""
+
+    def __init__(self, batches: BatchPublisher, roster: Roster, tick_s: float, *, sights_kept: bool = False) -> None:
+        """`sights_kept`: a recorder can fetch sights again, which costs some 30 MB of memory for ten robots."""
+        self._sight_topic = replace(SIGHT, delivery=Delivery.RECOVERED) if sights_kept else SIGHT
+        self._batches = batches
+        self._world = batches.publisher(WORLD)
+        self._applied = batches.publisher(APPLIED)
+        self._state = batches.publisher(STATE)
+        self._event = batches.publisher(EVENT)
+        self._health = batches.publisher(HEALTH)
+        self._invalid = batches.publisher(INVALID)
+        self._ball = batches.publisher(WORLD_BALL)
+        self._last_sights: dict[str, bytes] = {}
+        self._listeners: list[tuple[Publisher, str | None]] = []
+        self._sights: dict[str, Publisher] = {}
+        self._robots: dict[str, Publisher] = {}
+        self._beliefs: dict[tuple[str, Side], Publisher] = {}
+        self.set_roster(roster)
+        self._last_game_state: tuple[Any, ...] = ()
+        self._state_every = round(_STATE_PERIOD_S / tick_s)
+
+    def set_roster(self, roster: Roster) -> None:
+        """Speak to and of these robots from now on; a writer that was there before counts on."""
+        self._roster = roster
+        for name, side in zip(roster.names, roster.sides, strict=True):
+            if name not in self._sights:
+                self._sights[name] = self._batches.publisher(self._sight_topic, robot=name)
+                self._robots[name] = self._batches.publisher(WORLD_ROBOT, robot=name)
+            if (name, side) not in self._beliefs:
+                self._beliefs[name, side] = self._batches.publisher(BELIEF, side=side.value, robot=name)
+        self._listeners = []
+
+    def publish_sight(self, robot: str, sight: bytes) -> None:
+        """Send a robot what it perceives."""
+        self._sights[robot].put_payload(sight)
+        self._last_sights[robot] = sight
+
+    def resend_sight(self, robot: str) -> None:
+        """Send one robot that plays its newest sight once more."""
+        if robot not in self._roster.names or robot not in self._last_sights:
+            return
+        self._sights[robot].put_payload(self._last_sights[robot])
+
+    def publish_tick(self, tick: TickResult, state: RefereeState) -> None:
+        """Send world, inputs, words, events, and the game's state when it changed, was acted on, or once a second."""
+        for event in tick.events:
+            self._event.put(event)
+        episode = tick.world["episode"]
+        game_state = (
+            state.phase,
+            state.side,
+            state.running,
+            state.half,
+            state.score,
+            state.cyan_attacks,
+            state.spot,
+            state.participation.change_key,
+            state.shoot_out,
+            state.proposal is None,
+            episode,
+        )
+        if game_state != self._last_game_state or tick.replies or tick.tick % self._state_every == 0:
+            self._state.put(state.game_state(tick.tick, tick.time, episode))
+            self._last_game_state = game_state
+        for side, robot, belief in tick.beliefs:
+            self._beliefs[robot, side].put_payload(belief)
+        self._world.put_fields(tick.world)
+        self._applied.put_payload(tick.applied_encoded)
+        self._publish_bodies(tick)
+
+    def publish_event(self, event: GameEvent) -> None:
+        """Send an event that is not the referee's."""
+        self._event.put(event)
+
+    def publish_health(self, health: Health) -> None:
+        """Send how the host is doing."""
+        self._health.put(health)
+
+    def publish_invalid(self, invalid: Invalid) -> None:
+        """Send word of a payload that was no valid message."""
+        self._invalid.put(invalid)
+
+    def _publish_bodies(self, tick: TickResult) -> None:
+        """Send single bodies to those who listen for them."""
+        if tick.tick % _LISTENER_CHECK_TICKS == 0:
+            pairs = [(self._ball, None), *((self._robots[name], name) for name in self._roster.names)]
+            self._listeners = [(writer, name) for writer, name in pairs if writer.has_subscribers()]
+        for writer, name in self._listeners:
+            head: dict[str, Any] = {"tick": tick.tick, "time": tick.time}
+            if name is None:
+                writer.put_fields({**head, "ball": tick.world["ball"]})
+            else:
+                side: Side = self._roster.side_of(name)
+                writer.put_fields({**head, "robot": tick.world["robots"][name], "side": side})

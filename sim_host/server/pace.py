@@ -1,0 +1,178 @@
+"""How the host waits for its robots between two ticks: not at all and on time, or for every answer."""
+
+import math
+from collections.abc import Callable
+from typing import Protocol
+
+from schemas.config.match_config import Patience
+from schemas.messages.command import Command
+from schemas.process.clock import Clock
+from sim_host.server.inbox import SILENT_TICKS, Inbox
+from sim_host.server.presence_tracker import MAX_RECORDER_LAG, PresenceTracker
+
+_RESEND_S = 0.05
+"""Wall time after which an unanswered sight is sent again: a lost message is not waited for."""
+_PRESENCE_CHECK_S = 0.005
+"""Wall time between two looks for robots that came or went."""
+
+Resend = Callable[[str], None]
+"""Sends the newest sight of one robot again."""
+
+
+class Pace(Protocol):
+    """A way of waiting."""
+
+    late_ticks: int
+    """Ticks that began later than they should have."""
+    silent_ticks: int
+    """A robot without an answer to this many ticks in a row is said to be silent."""
+
+    def begin(self) -> None:
+        """The first sights go out now."""
+
+    def stop_waiting(self) -> None:
+        """Wait for nobody any more: the host is about to leave."""
+
+    def gather(self, tick: int, resend: Resend) -> dict[str, Command]:
+        """Wait as this pace does after the sights of `tick` went out; the commands to apply in the next tick."""
+
+
+class Realtime:
+    """Never waits for anyone: the next tick begins when its time has come, and the newest commands count."""
+
+    def __init__(self, clock: Clock, inbox: Inbox, tick_s: float, speed: float, watchdog_s: float) -> None:
+        self._clock = clock
+        self._inbox = inbox
+        self.silent_ticks = math.ceil(watchdog_s / tick_s)
+        self._period = tick_s / speed
+        self._next = 0.0
+        self.late_ticks = 0
+
+    def begin(self) -> None:
+        """The first tick begins one period from now."""
+        self._next = self._clock.now()
+
+    def stop_waiting(self) -> None:
+        """Nothing to do: this pace waits for its next tick alone."""
+
+    def gather(self, tick: int, resend: Resend) -> dict[str, Command]:
+        """Sleep to the next tick, then take in what has come."""
+        del resend  # a robot that missed this sight gets the next one soon enough
+        self._next += self._period
+        now = self._clock.now()
+        if now > self._next:
+            self.late_ticks += 1
+            self._next = now  # the field does not hurry to make up for lost time
+        self._clock.sleep_until(self._next)
+        commands: dict[str, Command] = {}
+        while (answer := self._inbox.receive_command(tick, 0.0)) is not None:
+            commands[answer[0]] = answer[1]
+        self._inbox.end_tick(commands)
+        return commands
+
+
+class Lockstep:
+    """Waits for every living agent's answer to each tick, and for nothing else."""
+
+    def __init__(
+        self,
+        clock: Clock,
+        inbox: Inbox,
+        presence: PresenceTracker,
+        patience: Patience,
+        while_waiting: Callable[[], None] = lambda: None,
+    ) -> None:
+        """`while_waiting` is done now and then while answers are missing."""
+        self._clock = clock
+        self._while_waiting = while_waiting
+        self._inbox = inbox
+        self._presence = presence
+        self._patience = patience.answer
+        self._recorder_patience = patience.recorder
+        self._stalled: dict[str, int] = {}
+        self._stopped_waiting = False
+        self.silent_ticks = SILENT_TICKS
+        self.late_ticks = 0
+        self.step_agents: Callable[[], None] | None = None
+        """Called while answers are missing, in place of waiting: within one process the agents answer here."""
+
+    def begin(self) -> None:
+        """Nothing to do: the first tick begins with the last answer."""
+
+    def stop_waiting(self) -> None:
+        """Take what is there from now on."""
+        self._stopped_waiting = True
+
+    def gather(self, tick: int, resend: Resend) -> dict[str, Command]:
+        """Wait for all answers; a robot that gives none within the limit is silent for this tick."""
+        self._wait_for_recorders(tick)
+        commands: dict[str, Command] = {}
+        start = self._clock.now()
+        next_check, next_resend = start, start + _RESEND_S
+        missing = self._missing(tick)
+        while missing:
+            answer = self._inbox.receive_command(tick, 0.0) or self._wait_for_answer(tick)
+            if answer is not None:
+                name, command = answer
+                if command.answers_tick == tick:
+                    commands[name] = command
+                    missing.pop(name, None)
+                continue
+            now = self._clock.now()
+            if self._stopped_waiting or now - start > self._patience:
+                self.late_ticks += 1
+                break
+            if now >= next_check:
+                next_check = now + _PRESENCE_CHECK_S
+                self._while_waiting()
+                to_resend = [change.name for change in self._presence.update() if change.alive]
+                missing = self._missing(tick)
+                if now >= next_resend:
+                    next_resend = now + _RESEND_S
+                    to_resend = list(missing)
+                for name in to_resend:
+                    resend(name)
+        while (answer := self._inbox.receive_command(tick, 0.0)) is not None:
+            if answer[1].answers_tick == tick:
+                commands[answer[0]] = answer[1]
+        self._inbox.end_tick(commands)
+        return commands
+
+    def _wait_for_answer(self, tick: int) -> tuple[str, Command] | None:
+        """The next answer, or nothing after a while."""
+        if self.step_agents is not None:
+            self.step_agents()
+        return self._inbox.receive_command(tick, 0.0 if self.step_agents else min(_RESEND_S, self._patience))
+
+    def _missing(self, tick: int) -> dict[str, None]:
+        """Robots whose answer is worth waiting for, in the order of the roster."""
+        agent_stats = self._inbox.agent_stats.items()
+        return {name: None for name, stats in agent_stats if stats.newest < tick and not stats.is_silent}
+
+    def _wait_for_recorders(self, tick: int) -> None:
+        """Let no recorder fall further behind than what can be recovered; one that stands still is left behind."""
+        late: dict[str, int] = {}
+        deadline = 0.0
+        while True:
+            self._presence.update()
+            before, late = late, self._far_behind(tick)
+            now = self._clock.now()
+            if not late or self._stopped_waiting:
+                return
+            if late != before:
+                deadline = now + self._recorder_patience
+            elif now > deadline:
+                self._stalled.update(late)
+                return
+            if self.step_agents is not None:
+                self.step_agents()
+            else:
+                self._presence.receive_progress(0.01)
+
+    def _far_behind(self, tick: int) -> dict[str, int]:
+        """Recorders that are too far behind, and where they are; without those that stand where they were given up."""
+        return {
+            name: newest
+            for name, newest in self._presence.recorders.items()
+            if tick - newest > MAX_RECORDER_LAG and self._stalled.get(name) != newest
+        }

@@ -1,0 +1,52 @@
+"""The handler that takes actions to the referee: each is noted, judged in the next tick, and answered after it."""
+
+from collections.abc import Callable, Sequence
+
+from schemas.bus.contract import Bus, Query
+from schemas.game import REFBOX, ActionName, ActionReply, RefereeAction
+from schemas.message import BadMessageError
+from schemas.topics import ACTION
+from sim_host.server.invalid_log import InvalidLog
+
+REFEREE_BOX_DECIDES = ActionReply(
+    accepted=False, reason="a league's referee box is connected and officiates; only stop is left"
+)
+
+
+class ActionHandler:
+    """Notes what the referee is asked for; while a league's referee box officiates, others may only stop the game."""
+
+    def __init__(self, bus: Bus, invalid_log: InvalidLog, has_referee_box: Callable[[], bool]) -> None:
+        """`has_referee_box` tells whether a referee box is connected."""
+        self._questions = bus.serve(ACTION)
+        self._invalid_log = invalid_log
+        self._has_referee_box = has_referee_box
+        self._pending: list[Query] = []
+        self.actions: list[RefereeAction] = []
+        """Noted, and to be put to the referee in the next tick."""
+
+    def process(self) -> None:
+        """Note the actions asked for."""
+        while (query := self._questions.receive()) is not None:
+            try:
+                action: RefereeAction = query.message()
+            except BadMessageError as error:
+                self._invalid_log.add(query.key, str(error), query.payload)
+                query.fail(str(error))
+                continue
+            if self._has_referee_box() and action.source != REFBOX and action.action is not ActionName.STOP:
+                query.reply(REFEREE_BOX_DECIDES)
+            else:
+                self.actions.append(action)
+                self._pending.append(query)
+
+    def reply(self, replies: Sequence[ActionReply]) -> None:
+        """Answer the actions noted, in order, and forget them."""
+        for query, reply in zip(self._pending, replies, strict=True):
+            query.reply(reply)
+        self._pending.clear()
+        self.actions.clear()
+
+    def refuse(self, reason: str) -> None:
+        """Answer the actions noted with a refusal, and forget them."""
+        self.reply([ActionReply(accepted=False, reason=reason)] * len(self._pending))

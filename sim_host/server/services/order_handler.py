@@ -1,0 +1,47 @@
+"""The handler that takes in the coaches' orders: the newest of each side stands."""
+
+from schemas.bus.batch_publisher import BatchPublisher
+from schemas.bus.contract import Bus, ReceivedMessage
+from schemas.message import BadMessageError
+from schemas.messages.coach import CoachOrder
+from schemas.side import Side
+from schemas.topics import ORDER
+from sim_host.server.invalid_log import InvalidLog
+
+
+class OrderHandler:
+    """Keeps the active orders."""
+
+    def __init__(
+        self, bus: Bus, active: dict[Side, CoachOrder], invalid_log: InvalidLog, batches: BatchPublisher
+    ) -> None:
+        """`active` is where the orders are kept: side → its newest."""
+        self._orders = bus.subscribe(ORDER)
+        self._active = active
+        self._invalid_log = invalid_log
+        self._batches = batches
+
+    def process(self) -> None:
+        """Take in what has come."""
+        while (received := self._orders.receive()) is not None:
+            self._batches.add_received(received)
+            try:
+                order, side = received.message(), _side_of(received)
+            except BadMessageError as error:
+                self._invalid_log.add(received.key, str(error), received.payload)
+                continue
+            active = self._active.get(side)
+            if order == active:
+                continue  # said twice
+            reason = order.refusal_after(active)
+            if reason:
+                self._invalid_log.add(received.key, reason, received.payload)
+            else:
+                self._active[side] = order
+
+
+def _side_of(received: ReceivedMessage) -> Side:
+    side = received.chunks["side"]
+    if side not in [known.value for known in Side]:
+        raise BadMessageError(f"no side is named {side}")
+    return Side(side)

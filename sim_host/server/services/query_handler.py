@@ -1,0 +1,30 @@
+"""A handler that answers each question of one topic as soon as it is read."""
+
+from collections.abc import Callable
+from typing import Any
+
+from schemas.bus.contract import Bus
+from schemas.message import BadMessageError, Message
+from schemas.topic import Topic
+from sim_host.server.invalid_log import InvalidLog
+
+
+class QueryHandler:
+    """Answers one topic."""
+
+    def __init__(self, bus: Bus, topic: Topic, answer: Callable[[Any], Message], invalid_log: InvalidLog) -> None:
+        """`answer` is given the valid query, and gives the reply."""
+        self._questions = bus.serve(topic)
+        self._answer = answer
+        self._invalid_log = invalid_log
+
+    def process(self) -> None:
+        """Answer all that were asked."""
+        while (query := self._questions.receive()) is not None:
+            try:
+                asked = query.message()
+            except BadMessageError as error:
+                self._invalid_log.add(query.key, str(error), query.payload)
+                query.fail(str(error))
+                continue
+            query.reply(self._answer(asked))

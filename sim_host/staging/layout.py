@@ -1,0 +1,128 @@
+"""The layout: who takes part, what stands on the pitch, and where; every operation makes a new one."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.config.robot_model import RobotModel
+from schemas.config.roster import Placement, RosterEntry
+from schemas.config.scene import Scene, SceneGame, check_names, check_sides
+from schemas.config.sections import Ball, Pitch
+from schemas.errors import TouchlineError, did_you_mean
+from schemas.side import Side
+from sim_host.staging.overlap import Block, Body, Disc, goal_blocks, why_outside, why_overlapping
+
+BALL = "ball"
+
+
+@dataclass(frozen=True, slots=True)
+class Specs:
+    """What of a match does not change by a operation, and what bodies look like."""
+
+    pitch: Pitch
+    ball: Ball
+    types: Mapping[str, RobotModel]
+    """Every type that a robot may have."""
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """Everything on the pitch, from the next tick on."""
+
+    robots: tuple[RosterEntry, ...]
+    """In the order of the roster."""
+    obstacles: tuple[StaticObstacle, ...]
+    at: Mapping[str, Placement]
+    """Robot or ball → where it is, or is going to be set down."""
+
+    @property
+    def names(self) -> list[str]:
+        """Robots, obstacles, and the ball."""
+        return [*(entry.name for entry in self.robots), *(one.name for one in self.obstacles), BALL]
+
+
+@dataclass(frozen=True, slots=True)
+class LayoutChange:
+    """What a operation comes to."""
+
+    layout: Layout
+    summary: str
+    """What is done, as the end of a sentence."""
+    placements: list[Placement] = field(default_factory=list)
+    game: SceneGame | None = None
+    """What the game becomes; nothing where it goes on. The world begins anew, and nothing of before counts."""
+
+    @property
+    def ball(self) -> tuple[float, float]:
+        """Where the ball is on the ground, m."""
+        at = self.layout.at[BALL]
+        return at.x, at.y
+
+
+def in_roster_order(robots: Sequence[RosterEntry]) -> tuple[RosterEntry, ...]:
+    """In the order of a roster: cyan's, then magenta's, each side's goalkeeper first."""
+    sides = list(Side)
+    return tuple(sorted(robots, key=lambda entry: (sides.index(entry.side), not entry.keeper)))
+
+
+def scene_layout(scene: Scene, summary: str) -> LayoutChange:
+    """A scene from its beginning, possible or not."""
+    placements = [*(robot.placement for robot in scene.robots), scene.ball.placement]
+    robots = in_roster_order([robot.entry for robot in scene.robots])
+    layout = Layout(robots, tuple(scene.obstacles), {one.body: one for one in placements})
+    return LayoutChange(layout, summary, placements, scene.game)
+
+
+def check_layout(layout: Layout, specs: Specs, new: Sequence[str]) -> None:
+    """Make sure that a layout is possible; of bodies, those that are `new` are looked at.
+
+    Raises:
+        TouchlineError: it is not, in one sentence.
+    """
+    try:
+        check_names([name for name in layout.names if name != BALL])
+        check_sides(list(layout.robots))
+    except ValueError as error:
+        raise TouchlineError(str(error)) from None
+    if not layout.robots:
+        raise TouchlineError("nobody would be left; a match has one robot at least")
+    for entry in layout.robots:
+        if entry.type not in specs.types:
+            raise TouchlineError(f'{entry.name} has the type "{entry.type}"; {did_you_mean(entry.type, specs.types)}')
+    bodies = _bodies(layout, specs)
+    movable = [body for name, body in bodies.items() if name in layout.at and isinstance(body, Disc)]
+    goals = goal_blocks(specs.pitch)
+    for name in new:
+        body = bodies[name]
+        if name in layout.at and isinstance(body, Disc):
+            others = [other for other in bodies.values() if other is not body]
+            fault = why_outside(specs.pitch, body) or why_overlapping(body, [*others, *goals])
+        else:  # obstacles may stand in each other
+            fault = next(filter(None, [why_overlapping(other, [body]) for other in movable]), None)
+        if fault is not None:
+            raise TouchlineError(fault)
+
+
+def _bodies(layout: Layout, specs: Specs) -> dict[str, Body]:
+    bodies: dict[str, Body] = {}
+    for entry in layout.robots:
+        hull, at = specs.types[entry.type].body, layout.at[entry.name]
+        bodies[entry.name] = Disc(entry.name, at.x, at.y, hull.reach, 0.0, hull.height, core=hull.radius)
+    for one in layout.obstacles:
+        bodies[one.name] = _obstacle(one)
+    radius, at = specs.ball.radius, layout.at[BALL]
+    height = radius if at.z is None else at.z
+    bodies[BALL] = Disc("the ball", at.x, at.y, radius, height - radius, height + radius, is_ball=True)
+    return bodies
+
+
+def _obstacle(one: StaticObstacle) -> Body:
+    (x, y), (long, wide, high) = one.place, one.extents
+    if one.shape is Shape.CYLINDER:
+        return Disc(one.name, x, y, long / 2, 0.0, high)
+    return Block(one.name, x, y, one.heading, long / 2, wide / 2, 0.0, high)
+
+
+def with_placements(layout: Layout, placements: Sequence[Placement]) -> Layout:
+    """The layout with bodies set down."""
+    return replace(layout, at={**layout.at, **{one.body: one for one in placements}})

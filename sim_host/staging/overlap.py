@@ -1,0 +1,95 @@
+"""Whether there is room: bodies as discs and blocks on the ground, with the heights between which they stand."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from schemas.config.sections import Pitch
+from schemas.frames import rotate
+from sim_host.physics.pitch import Box, goals
+
+MAX_OVERLAP = 0.02
+"""m; bodies that are set down this deep in each other are pushed apart gently, and a held ball lies a little deep."""
+
+
+@dataclass(frozen=True, slots=True)
+class Disc:
+    """A robot, the ball, or a round obstacle: m, field frame."""
+
+    name: str
+    x: float
+    y: float
+    radius: float
+    bottom: float
+    top: float
+    core: float | None = None
+    """How near the ball may come to the axis of a robot whose frame reaches farther than that."""
+    is_ball: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A box-shaped obstacle or a part of a goal: m, rad, field frame."""
+
+    name: str
+    x: float
+    y: float
+    heading: float
+    half_x: float
+    half_y: float
+    bottom: float
+    top: float
+
+
+Body = Disc | Block
+
+
+def goal_blocks(pitch: Pitch) -> list[Block]:
+    """Frames and nets of both goals."""
+    boxes = [box for goal in goals(pitch) for box in (*goal.frame, *goal.net)]
+    return [_block(box) for box in boxes]
+
+
+def _block(box: Box) -> Block:
+    return Block("a goal", box.x, box.y, 0.0, box.half_x, box.half_y, box.z - box.half_z, box.z + box.half_z)
+
+
+def why_outside(pitch: Pitch, body: Disc) -> str | None:
+    """Why a body is not within the boundary, or nothing."""
+    x, y = (pitch.goal_line + pitch.border - body.radius, pitch.touch_line + pitch.border - body.radius)
+    if abs(body.x) <= x + MAX_OVERLAP and abs(body.y) <= y + MAX_OVERLAP:
+        return None
+    return (
+        f"{body.name} would be at ({body.x:g}, {body.y:g}), beyond the boundary; "
+        f"|x| is at most {x:.2f} m, |y| at most {y:.2f} m"
+    )
+
+
+def why_overlapping(body: Disc, others: Iterable[Body]) -> str | None:
+    """Why there is no room for a body among others, or nothing."""
+    for other in others:
+        depth = overlap(body, other)
+        if depth > MAX_OVERLAP:
+            at = f"({body.x:g}, {body.y:g})"
+            return f"{body.name} at {at} would be {depth:.2f} m inside {other.name}; choose another place"
+    return None
+
+
+def overlap(body: Disc, other: Body) -> float:
+    """How deep a body is in another on the ground, m; negative for the gap between them, or if one is above."""
+    if body.bottom >= other.top or other.bottom >= body.top:
+        return -math.inf
+    if isinstance(other, Disc):
+        return (
+            _hull_distance(body, other) + _hull_distance(other, body) - math.hypot(body.x - other.x, body.y - other.y)
+        )
+    along, across = rotate(body.x - other.x, body.y - other.y, -other.heading)
+    away_x, away_y = abs(along) - other.half_x, abs(across) - other.half_y
+    if away_x <= 0.0 and away_y <= 0.0:
+        return body.radius - max(away_x, away_y)
+    return body.radius - math.hypot(max(away_x, 0.0), max(away_y, 0.0))
+
+
+def _hull_distance(body: Disc, other: Disc) -> float:
+    """m from the axis of a body to its hull, as another meets it."""
+    return body.radius if body.core is None or not other.is_ball else body.core

@@ -1,1 +1,0 @@
-"""The physical world; the only package that knows PyBullet."""

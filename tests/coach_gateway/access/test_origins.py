@@ -1,0 +1,55 @@
+"""Which pages may speak to the server: nobody else can lead a browser to a name that is ours."""
+
+import pytest
+
+from coach_gateway.access.origins import Origins
+from schemas.errors import TouchlineError
+
+
+@pytest.mark.parametrize(
+    ("origin", "host"),
+    [
+        ("http://127.0.0.1:8080", "127.0.0.1:8080"),
+        ("http://localhost:8080", "localhost:8080"),
+        ("http://[::1]:8080", "[::1]:8080"),
+        ("http://192.168.1.5:8080", "192.168.1.5:8080"),
+        ("http://field:8080", "field:8080"),
+        ("http://FIELD:8080", "field:8080"),
+        ("https://cup.example.org", "127.0.0.1:8080"),
+    ],
+)
+def test_our_own_page_and_an_allowed_one_come_in(origin: str, host: str) -> None:
+    assert Origins(["https://cup.example.org"], ["localhost", "field"]).allows(origin, host)
+
+
+@pytest.mark.parametrize(
+    ("origin", "host"),
+    [
+        (None, "127.0.0.1:8080"),
+        ("null", "127.0.0.1:8080"),
+        ("", ""),
+        ("http://127.0.0.1:8080", None),
+        ("http://127.0.0.1:8081", "127.0.0.1:8080"),
+        ("https://127.0.0.1:8080", "127.0.0.1:8080"),
+        ("http://evil.example", "127.0.0.1:8080"),
+        ("http://evil.example:8080", "evil.example:8080"),  # a name of theirs that leads to our address
+        ("http://127.0.0.1.evil.example:8080", "127.0.0.1.evil.example:8080"),
+        ("https://cup.example.org.evil.example", "127.0.0.1:8080"),
+        ("file://", "127.0.0.1:8080"),
+        ("http://[::1", "[::1"),
+    ],
+)
+def test_a_page_of_somebody_else_does_not(origin: str | None, host: str | None) -> None:
+    assert not Origins(["https://cup.example.org"], ["localhost"]).allows(origin, host)
+
+
+def test_an_allowed_origin_may_be_written_in_large_letters() -> None:
+    assert Origins(["https://Cup.Example.org"]).allows("https://cup.example.org", "127.0.0.1:8080")
+
+
+@pytest.mark.parametrize(
+    "origin", ["cup.example.org", "https://cup.example.org/page", "ftp://cup.example.org", "*", "", "https://[::1"]
+)
+def test_an_origin_that_is_none_is_refused_with_how_to_write_it(origin: str) -> None:
+    with pytest.raises(TouchlineError, match="write it as https://"):
+        Origins([origin])

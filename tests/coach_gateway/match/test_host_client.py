@@ -1,0 +1,169 @@
+import threading
+
+import pytest
+
+from coach_gateway.match.host_client import HostClient
+from coach_gateway.match.orders import OrderStatus
+from schemas.bus.contract import Bus
+from schemas.bus.in_process_bus import Medium
+from schemas.config.match_config import load_match
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
+from schemas.errors import TouchlineError
+from schemas.game import ActionName, ActionReply, RefereeAction
+from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
+from schemas.messages.host import Setup
+from schemas.process.clock import SteppedClock
+from schemas.side import Side
+from schemas.topics import ACTION, ACTIVE_ORDER, ORDER, SETUP
+
+MICROSECONDS = 1_795_275_009_214_000
+"""Since 1970: far beyond what a clock in ms will say."""
+
+
+@pytest.fixture
+def medium() -> Medium:
+    return Medium()
+
+
+def seat(medium: Medium) -> Bus:
+    return medium.open_bus("friendly", SteppedClock())
+
+
+def setup_of_a_match() -> Setup:
+    match = load_match(None, {f"teams.{side}.size": 2 for side in Side})
+    return Setup.of(match, load_profile("msl"), load_rule_book("friendly"))
+
+
+@pytest.fixture
+def host(medium: Medium):
+    """Answers how the match is set up, and refuses every action but `stop`; gives the actions it was asked for.
+
+    Magenta has an order already, of a program whose clock counts in microseconds.
+    """
+    bus = seat(medium)
+    setups, actions = bus.serve(SETUP), bus.serve(ACTION)
+    setup = setup_of_a_match().model_copy(update={"orders": {Side.MAGENTA: MICROSECONDS}})
+    asked: list[RefereeAction] = []
+
+    def answer_setups() -> None:
+        while (query := setups.receive(None)) is not None:
+            query.reply(setup)
+
+    def answer_actions() -> None:
+        while (query := actions.receive(None)) is not None:
+            action = query.message()
+            asked.append(action)
+            accepted = action.action is ActionName.STOP
+            query.reply(ActionReply(accepted=accepted, reason="" if accepted else "play is running"))
+
+    threads = [threading.Thread(target=answer) for answer in (answer_setups, answer_actions)]
+    for thread in threads:
+        thread.start()
+    yield asked
+    bus.close()
+    for thread in threads:
+        thread.join()
+
+
+def test_an_action_reaches_the_referee_and_its_answer_comes_back(medium: Medium, host: list[RefereeAction]) -> None:
+    gateway = HostClient(seat(medium))
+    assert gateway.act(RefereeAction(action=ActionName.STOP)).accepted
+    refused = gateway.act(RefereeAction(action=ActionName.CORNER, side=Side.MAGENTA))
+    assert (refused.accepted, refused.reason) == (False, "play is running")
+    assert [(action.action, action.side) for action in host] == [
+        (ActionName.STOP, None),
+        (ActionName.CORNER, Side.MAGENTA),
+    ]
+
+
+def test_an_action_without_a_host_names_the_match_and_what_to_do(medium: Medium) -> None:
+    with pytest.raises(TouchlineError, match=r'match "friendly": nobody answers game/action; name the match'):
+        HostClient(seat(medium)).act(RefereeAction(action=ActionName.STOP))
+
+
+def test_orders_go_to_their_side_alone_and_each_has_a_higher_number(medium: Medium, host: list[RefereeAction]) -> None:
+    listener = seat(medium)
+    cyan, magenta = listener.subscribe(ORDER, side="cyan"), listener.subscribe(ORDER, side="magenta")
+    gateway = HostClient(seat(medium))
+    first = gateway.order(Side.CYAN, mode=CoachMode.HOLD, max_speed=1.5)
+    second = gateway.order(Side.CYAN)
+    received = [cyan.receive(), cyan.receive()]
+    orders: list[CoachOrder] = [one.message() for one in received if one is not None]
+    assert orders == [first, second]
+    assert (first.mode, first.max_speed) == (CoachMode.HOLD, 1.5)
+    assert second.sequence > first.sequence >= 1
+    assert magenta.receive() is None
+
+
+def test_an_order_of_a_later_process_counts_more_than_one_of_an_earlier_process(
+    medium: Medium, host: list[RefereeAction]
+) -> None:
+    sequences = []
+    for moment in (1000.0, 1000.5):
+        clock = SteppedClock()
+        clock.sleep_until(moment)
+        sequences.append(HostClient(medium.open_bus("friendly", clock)).order(Side.CYAN).sequence)
+    assert sequences[0] < sequences[1]
+
+
+def test_an_order_about_a_robot_of_the_other_side_is_refused_with_a_hint(
+    medium: Medium, host: list[RefereeAction]
+) -> None:
+    with pytest.raises(TouchlineError, match='robot_a is "cyan7", no robot of cyan; did you mean "cyan'):
+        HostClient(seat(medium)).order(Side.CYAN, robot_a="cyan7")
+
+
+def test_an_order_that_contradicts_itself_is_refused_with_the_reason(medium: Medium, host: list[RefereeAction]) -> None:
+    with pytest.raises(TouchlineError, match="the order cannot be given: the test move needs robot_a and point_a"):
+        HostClient(seat(medium)).order(Side.CYAN, mode=CoachMode.TEST, test="move")
+
+
+def test_an_order_is_numbered_after_the_one_that_stands_whatever_the_clock_says(
+    medium: Medium, host: list[RefereeAction]
+) -> None:
+    gateway = HostClient(seat(medium))
+    gateway.orders.update()
+    ahead = CoachOrder(sequence=4_000_000_000_000)
+    standing = ActiveOrder(tick=1, time=0.02, order=ahead, acknowledged={"cyan1": True})
+    seat(medium).publisher(ACTIVE_ORDER, side="cyan").put(standing)
+    assert gateway.order(Side.CYAN).sequence == ahead.sequence + 1
+
+
+def test_a_coach_who_has_just_come_goes_on_from_the_number_that_stands_however_large(
+    medium: Medium, host: list[RefereeAction]
+) -> None:
+    first = HostClient(seat(medium)).order(Side.MAGENTA)
+    assert first.sequence == MICROSECONDS + 1
+    assert first.refusal_after(CoachOrder(sequence=MICROSECONDS)) == ""
+
+
+class AnsweringClock(SteppedClock):
+    """Has another robot acknowledge whenever somebody waits."""
+
+    __slots__ = ("say",)
+
+    def sleep_until(self, moment: float) -> None:
+        super().sleep_until(moment)
+        self.say()
+
+
+def test_robots_are_waited_for_until_all_have_acknowledged_or_patience_ends(
+    medium: Medium, host: list[RefereeAction]
+) -> None:
+    clock = AnsweringClock()
+    gateway = HostClient(medium.open_bus("friendly", clock))
+    given = gateway.order(Side.CYAN, mode=CoachMode.HOLD)
+    writer = seat(medium).publisher(ACTIVE_ORDER, side="cyan")
+    heard = {"cyan1": False, "cyan2": False}
+
+    def say() -> None:
+        writer.put(ActiveOrder(tick=1, time=0.02, order=given, acknowledged=heard))
+        heard["cyan1"] = True
+        heard["cyan2"] = clock.now() > 1.0
+
+    clock.say = say
+    assert gateway.wait_for_robots(Side.CYAN, given, patience=0.5).missing == ("cyan2",)
+    receipt = gateway.wait_for_robots(Side.CYAN, given, patience=5.0)
+    assert (receipt.status, receipt.missing) == (OrderStatus.ACTIVE, ())
+    assert clock.now() < 2.0

@@ -1,0 +1,222 @@
+"""A match as bridges see it, while hosts come and go."""
+
+import asyncio
+import threading
+from typing import Any
+
+from coach_gateway.match.live import LiveMatch
+from coach_gateway.refbox.call_generator import CallGenerator
+from schemas.bus.in_process_bus import Medium
+from schemas.config.match_config import load_match
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
+from schemas.game import REFBOX, ActionName, GameState, Phase, RefereeAction, Score
+from schemas.messages.host import Setup
+from schemas.process.clock import SteppedClock, WallClock
+from schemas.side import Side
+from schemas.topics import BELIEF, EVENT, SETUP, STATE
+
+
+def test_without_a_host_the_answer_is_a_refusal_that_says_so(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            bench.stage.bus.close()
+            await until(lambda: not bench.live.there)
+            reply = await bench.live.act(RefereeAction(action=ActionName.STOP))
+            assert not reply.accepted and "nobody answers game/action" in reply.reason
+
+    asyncio.run(play())
+
+
+def test_after_an_action_the_state_is_what_it_has_led_to(kicked_off: Any, until: Any) -> None:
+    """Who decides by the state, as base stations do, would decide by one from before his own last action."""
+
+    async def play() -> None:
+        async with kicked_off(**{"referee.mode": "manual", "duration": 3600.0}) as bench:
+            for action, score in [(ActionName.GOAL, 1), (ActionName.CANCEL_GOAL, 0)] * 3:
+                reply = await bench.live.act(RefereeAction(action=action, side=Side.CYAN))
+                assert reply.accepted and bench.live.state.score.cyan == score
+                refused = await bench.live.act(RefereeAction(action=ActionName.ENTER, robot="cyan1"))
+                assert not refused.accepted and bench.live.state.tick >= refused.tick > reply.tick
+
+    asyncio.run(play())
+
+
+def test_a_host_that_comes_after_another_is_asked_anew_and_nothing_of_the_old_match_counts(
+    opened: Any, until: Any
+) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            told: list[str] = []
+            call_generator = CallGenerator()
+            bench.live.on_state(
+                lambda state: told.extend(
+                    call.signal.name for call in call_generator.next_calls(state, bench.live.sides)
+                )
+            )
+            for _ in range(100):
+                bench.stage.say(phase=Phase.STOPPED, score=Score(cyan=2))
+            bench.stage.tell("of the old match")
+            await until(lambda: bench.live.events and bench.live.state.score.cyan == 2)
+            assert len(bench.live.sides) == 6
+            bench.stage.bus.close()
+            await until(lambda: not bench.live.there)
+            another = type(bench.stage)(
+                bench.stage.medium, load_match(None, {f"teams.{side}.size": 1 for side in Side})
+            )
+            bench.start(another)
+            await until(lambda: len(bench.live.sides) == 2)
+            told.clear()
+            another.say(phase=Phase.KICK_OFF, side=Side.CYAN)
+            await until(lambda: bench.live.state.phase is Phase.KICK_OFF)
+            assert bench.live.events == []
+            assert told == ["RESET", "FIRST_HALF", "KICKOFF"]
+
+    asyncio.run(play())
+
+
+def test_what_another_host_says_before_its_first_state_counts(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            for _ in range(100):
+                bench.stage.say(phase=Phase.STOPPED)
+            bench.stage.tell("of the old match")
+            await until(lambda: bench.live.events and bench.live.state.tick > 90)
+            bench.stage.bus.close()
+            await until(lambda: not bench.live.there)
+            another = type(bench.stage)(bench.stage.medium, load_match(None, {}))
+            bench.start(another)
+            for number in range(3):
+                another.tell(f"of the new match, {number}")
+            await until(lambda: len(bench.live.events) == 3)
+            another.say(phase=Phase.KICK_OFF, side=Side.CYAN)
+            await until(lambda: bench.live.state.phase is Phase.KICK_OFF)
+            assert [event.text[-1] for event in bench.live.events] == ["0", "1", "2"]
+
+    asyncio.run(play())
+
+
+def test_a_replay_that_goes_back_keeps_the_events_of_before(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            bench.stage.tell("at the beginning")
+            for _ in range(100):
+                bench.stage.say(phase=Phase.STOPPED)
+            bench.stage.tell("later")
+            await until(lambda: len(bench.live.events) == 2 and bench.live.state.tick > 90)
+            bench.stage.say(tick=10, time=0.2)
+            await until(lambda: bench.live.state.tick == 10)
+            assert [event.text for event in bench.live.events] == ["at the beginning"]
+
+    asyncio.run(play())
+
+
+def test_an_answer_of_a_host_that_has_gone_meanwhile_does_not_pass_for_the_new_ones(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            ask, answers = bench.live._client.setup, threading.Event()
+
+            def slow() -> Setup:
+                answer = ask()
+                answers.wait(30.0)
+                return answer
+
+            bench.live._client.setup = slow
+            bench.stage.say(episode=2)  # others may take part: it is asked again
+            await until(lambda: bench.live._asking is not None and not bench.live._asking.done())
+            bench.stage.setup = bench.stage.setup.model_copy(update={"rules": "another book"})
+            bench.stage.say(episode=3)
+            await until(lambda: bench.live.state.episode == 3)
+            answers.set()
+            await until(lambda: bench.live.setup.rules == "another book")
+
+    asyncio.run(play())
+
+
+def test_a_stop_waits_for_nobody_elses_questions(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            held = threading.Event()
+            act = bench.live._client.act
+            bench.live._client.act = lambda action: (
+                held.wait(30.0) and act(action) if action.action is ActionName.GOAL else act(action)
+            )
+            goals = [asyncio.create_task(bench.live.act(RefereeAction(action=ActionName.GOAL))) for _ in range(50)]
+            await asyncio.sleep(0)
+            assert (await bench.live.act(RefereeAction(action=ActionName.STOP))).accepted
+            assert (await bench.live.act(RefereeAction(action=ActionName.START, source=REFBOX))).accepted
+            assert not any(goal.done() for goal in goals)
+            held.set()
+            await asyncio.gather(*goals)
+
+    asyncio.run(play())
+
+
+def test_an_order_of_one_side_waits_for_none_of_the_others(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            held = threading.Event()
+            bench.live._benches[Side.CYAN].order = lambda *_, **__: held.wait(30.0)
+            slow = [asyncio.create_task(bench.live.order(Side.CYAN, mode="hold")) for _ in range(50)]
+            await asyncio.sleep(0)
+            assert (await bench.live.order(Side.MAGENTA, mode="hold")).mode == "hold"
+            assert not any(one.done() for one in slow)
+            held.set()
+            await asyncio.gather(*slow)
+
+
+def test_what_changes_while_the_host_answers_is_asked_for_again(until: Any) -> None:
+    async def play() -> None:
+        medium, clock = Medium(), SteppedClock()
+        host, live = medium.open_bus("friendly", WallClock()), LiveMatch(medium.open_bus("friendly", clock))
+        server, states = host.serve(SETUP), host.publisher(STATE)
+        asked: list[Any] = []
+
+        def look() -> int:
+            live.update()
+            asked.extend(iter(server.receive, None))
+            return len(asked)
+
+        def setup(size: int) -> Setup:
+            match = load_match(None, {f"teams.{side}.size": size for side in Side})
+            return Setup.of(match, load_profile("msl"), load_rule_book("friendly"))
+
+        states.put(GameState(tick=1, time=0.02, phase=Phase.PLAY))
+        await until(look, "the question")
+        states.put(GameState(tick=2, time=0.04, phase=Phase.PLAY, episode=2))
+        look()
+        asked[0].reply(setup(1))  # as it was before the scene that came meanwhile
+        await until(lambda: len(live.sides) == 2)
+        clock.sleep_until(10.0)
+        await until(lambda: look() == 2, "another question")
+        asked[1].reply(setup(3))
+        await until(lambda: len(live.sides) == 6)
+        stop = asyncio.Event()
+        stop.set()
+        await live.serve(stop)
+
+    asyncio.run(play())
+
+
+def test_what_cannot_be_read_is_counted_and_left_out(opened: Any, until: Any) -> None:
+    async def play() -> None:
+        async with opened() as bench:
+            for topic, chunks in ((STATE, {}), (EVENT, {}), (BELIEF, {"side": "cyan", "robot": "cyan1"})):
+                bench.stage.bus.publisher(topic, **chunks).put_payload(b"{")
+            await until(lambda: bench.live.unreadable >= 2)
+            assert bench.live.beliefs(list(Side)) == {}
+            assert bench.live.unreadable == 3
+
+    asyncio.run(play())
+
+
+def test_a_gateway_that_ends_asks_nobody_any_more() -> None:
+    async def play() -> None:
+        live = LiveMatch(Medium().open_bus("friendly", WallClock()))
+        stop = asyncio.Event()
+        stop.set()
+        await live.serve(stop)
+        reply = await live.act(RefereeAction(action=ActionName.STOP))
+        assert (reply.accepted, reply.reason) == (False, "the gateway ends")
+
+    asyncio.run(play())

@@ -1,0 +1,74 @@
+"""Which order stands, and who has taken it in. Reference 13, row 30: orders are numbered and acknowledged."""
+
+import pytest
+
+from coach_gateway.match.orders import OrderBook, OrderFollower, OrderStatus
+from schemas.bus.in_process_bus import Medium
+from schemas.messages.coach import ActiveOrder, CoachOrder
+from schemas.process.clock import SteppedClock
+from schemas.side import Side
+from schemas.topics import ACTIVE_ORDER
+
+
+def standing(sequence: int, tick: int = 5, **acknowledged: bool) -> ActiveOrder:
+    return ActiveOrder(
+        tick=tick, time=tick * 0.02, order=CoachOrder(sequence=sequence), acknowledged=acknowledged or {"cyan1": False}
+    )
+
+
+def test_an_order_is_unheard_then_stands_then_is_replaced() -> None:
+    book = OrderBook()
+    assert book.receipt(Side.CYAN, 7).status is OrderStatus.PENDING
+    book.update(Side.CYAN, standing(6))
+    assert book.receipt(Side.CYAN, 7).status is OrderStatus.PENDING
+    book.update(Side.CYAN, standing(7))
+    assert book.receipt(Side.CYAN, 7).status is OrderStatus.ACTIVE
+    assert book.receipt(Side.CYAN, 6).status is OrderStatus.REPLACED
+
+
+def test_a_receipt_names_who_has_acknowledged_and_who_has_not() -> None:
+    book = OrderBook()
+    book.update(Side.CYAN, standing(7, cyan1=True, cyan2=False, cyan3=True))
+    receipt = book.receipt(Side.CYAN, 7)
+    assert (receipt.acknowledged, receipt.missing) == (("cyan1", "cyan3"), ("cyan2",))
+    assert not receipt.is_final
+    assert str(receipt) == "acknowledged by cyan1, cyan3; not yet by cyan2"
+    book.update(Side.CYAN, standing(7, cyan1=True, cyan2=True, cyan3=True))
+    assert book.receipt(Side.CYAN, 7).is_final
+
+
+def test_each_side_has_its_own_order() -> None:
+    book = OrderBook()
+    book.update(Side.CYAN, standing(7))
+    assert book.active(Side.MAGENTA) is None
+    assert book.receipt(Side.MAGENTA, 7).status is OrderStatus.PENDING
+
+
+def test_what_is_only_said_again_is_no_news() -> None:
+    book = OrderBook()
+    assert book.update(Side.CYAN, standing(7, tick=5))
+    assert not book.update(Side.CYAN, standing(7, tick=55))
+    assert book.update(Side.CYAN, standing(7, tick=60, cyan1=True))
+    assert book.update(Side.CYAN, standing(8, tick=61, cyan1=True))
+
+
+def test_with_another_host_no_order_stands() -> None:
+    book = OrderBook()
+    book.update(Side.CYAN, standing(7))
+    book.clear()
+    assert book.active(Side.CYAN) is None
+
+
+@pytest.mark.parametrize("payload", [b"{", b"[]", b"\xff"])
+def test_the_watch_tells_which_side_there_is_news_of_and_counts_what_it_cannot_read(payload: bytes) -> None:
+    medium = Medium()
+    host = medium.open_bus("friendly", SteppedClock())
+    watch = OrderFollower(medium.open_bus("friendly", SteppedClock()))
+    assert watch.update() == []
+    writer = host.publisher(ACTIVE_ORDER, side="magenta")
+    writer.put(standing(7))
+    writer.put_payload(payload)
+    host.publisher(ACTIVE_ORDER, side="lilac").put(standing(7))
+    writer.put(standing(7))
+    assert watch.update() == [Side.MAGENTA]
+    assert watch.unreadable == 2

@@ -1,0 +1,94 @@
+"""Pages, gateways and hosts that come and go: a page says so, and goes on by itself."""
+
+
+def test_two_browsers_see_the_same_match_and_what_either_does(match, visit) -> None:
+    referee, spectator = visit(match, "referee"), visit(match)
+    referee.button("goal", "cyan").click()
+    for tab in (referee, spectator):
+        tab.until("document.getElementById('score').textContent === '1 : 0'")
+    for one, other in ((referee, spectator), (spectator, referee)):
+        tick = one.ask("window.touchline.match.frames.newest.tick")
+        other.until(f"window.touchline.match.frames.newest.tick >= {tick}")
+    spectator.page.close()
+    referee.button("goal", "cyan").click()
+    referee.until("document.getElementById('score').textContent === '2 : 0'")
+
+
+def test_a_page_that_is_loaded_again_knows_everything_again(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.button("goal", "cyan").click()
+    tab.until("document.querySelector('#events')?.textContent.includes('Goal')")
+    tab.page.reload()
+    tab.until("window.touchline?.match.role === 'referee' && window.touchline.pitchCanvas.world !== null")
+    tab.until("document.getElementById('score').textContent === '1 : 0'")
+    tab.until("document.querySelector('#events')?.textContent.includes('Goal')")
+    tab.page.locator("#all-events").click()
+    texts = tab.ask("window.touchline.match.events.map((event) => event.tick + event.text)")
+    assert len(texts) == len(set(texts))  # each once
+
+
+def test_a_gateway_that_is_killed_and_started_again_finds_its_pages(match, gateway_of, visit) -> None:
+    gateway = gateway_of(match.medium)
+    tab = visit(gateway.origin, "referee")
+    tab.loses_its_server = True
+    gateway.close()
+    tab.until("!document.getElementById('notice').hidden")
+    assert "connection is broken" in tab.page.locator("#notice").inner_text()
+    tab.page.keyboard.press("Space")
+    tab.wait_for_log("refused: the page has no connection to the gateway")
+    gateway_of(match.medium, gateway.port)
+    tab.until("document.getElementById('notice').hidden && window.touchline.match.role === 'referee'")
+    tick = tab.ask("window.touchline.match.frames.newest?.tick ?? 0")
+    tab.until(f"window.touchline.pitchCanvas.world?.tick > {tick + 20}")
+    tab.button("goal", "magenta").click()
+    tab.until("document.getElementById('score').textContent === '0 : 1'")
+
+
+def test_a_host_that_is_killed_and_started_again_is_waited_for(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.button("goal", "cyan").click()
+    tab.until("document.getElementById('score').textContent === '1 : 0'")
+    match.stop()
+    tab.until("document.getElementById('notice').textContent.includes('The host is gone')")
+    assert tab.button("start").is_disabled()
+    match.start()
+    match.signal_kick_off()
+    tab.until("document.getElementById('notice').hidden && document.getElementById('score').textContent === '0 : 0'")
+    tab.until("window.touchline.pitchCanvas.world !== null && window.touchline.pitchCanvas.world?.time > 0.5")
+    tab.button("goal", "magenta").click()
+    tab.until("document.getElementById('score').textContent === '0 : 1'")
+
+
+def test_a_line_that_is_dead_and_was_not_closed_is_noticed_and_tied_anew(match, gateway_of, visit, tunnel_to) -> None:
+    """As of a laptop that changed its network, or slept: nothing comes any more, and nobody says so."""
+    tunnel = tunnel_to(gateway_of(match.medium).port)
+    tab = visit(f"http://127.0.0.1:{tunnel.port}", "referee")
+    tab.ask("window.touchline.connection.patience = 3000")
+    tunnel.block()
+    tab.until("document.getElementById('notice').textContent.includes('The connection is broken')")
+    tab.until("document.getElementById('notice').hidden && window.touchline.match.role === 'referee'")
+    tick = tab.ask("window.touchline.match.frames.newest?.tick ?? 0")
+    tab.until(f"window.touchline.match.frames.newest?.tick > {tick + 20}")
+
+
+def test_a_page_waits_for_its_match_and_keeps_the_token_that_nobody_has_answered(match, gateway_of, browser) -> None:
+    waiting_page = gateway_of(None)
+    page = browser.new_context().new_page()
+    page.goto(f"{waiting_page.origin}/")
+    page.wait_for_function("() => document.getElementById('notice').textContent.includes('No host plays this match')")
+    page.evaluate("window.touchline.connection.answerWithin = 100")
+    page.locator("#enter-token").click()
+    page.locator("#token").fill("the-referee")
+    page.keyboard.press("Enter")
+    page.wait_for_timeout(500)  # several times as long as an answer is waited for
+    page.evaluate("window.touchline.connection.answerWithin = 20000")
+    waiting_page.close()
+    gateway_of(match.medium, waiting_page.port)
+    page.wait_for_function(
+        "() => window.touchline.match.role === 'referee' && !document.getElementById('stop').disabled"
+    )
+    assert page.locator("#notice").is_hidden()
+    assert page.evaluate("sessionStorage.getItem('touchline.token')") == "the-referee"
+    page.locator("#stop").click()
+    page.wait_for_function("() => document.getElementById('log').textContent.includes('Stop accepted')")
+    page.context.close()

@@ -1,0 +1,380 @@
+"""Commands from the page: what is accepted is done, what is refused is said, and nobody does what is not theirs."""
+
+import math
+
+import pytest
+
+from schemas.game import DisciplinaryRecord, Phase
+from schemas.messages.coach import CoachMode
+from schemas.messages.command import Kick, KickMode
+from schemas.process.clock import WallClock
+from schemas.side import Side
+from schemas.topics import MANUAL
+
+
+def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> None:
+    """Reference 13, row 32."""
+    tab = visit(match, "referee")
+    places = ["#moving", "[data-action=corner][data-side=cyan]", "#to-log", "#layer-roles", "#parameter-filter"]
+    tab.open("settings")
+    for place in places:
+        match.until(lambda: match.state.phase is not Phase.STOPPED or match.state.running)
+        if "action" in place:
+            tab.open("match")
+        tab.page.locator(place).focus()
+        tab.page.keyboard.press("Space")
+        match.until(lambda: match.state.phase is Phase.STOPPED)
+        tab.wait_for_log("Stop accepted")
+        assert tab.page.locator("#layer-roles").is_checked()  # the focus was there, and nothing else happened to it
+        tab.open("match")
+        tab.button("drop_ball").click()
+        tab.wait_for_log("Drop ball accepted")
+        tab.open("settings")
+    assert "Corner" not in tab.page.locator("#log").inner_text()
+
+
+def test_buttons_refuse_what_the_referee_refuses_and_say_why(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.button("enter").page.locator("[data-robot=cyan1] .who").click()
+    tab.button("enter").click()
+    tab.until("document.querySelector('.verdict.refused')?.textContent.includes('cyan1 is on the field')")
+    button, verdict = tab.button("enter").bounding_box(), tab.page.locator(".verdict").bounding_box()
+    assert button and verdict
+    assert abs(verdict["x"] - button["x"]) < 400 and abs(verdict["y"] - button["y"]) < 60  # beside what was pressed
+    tab.wait_for_log("Come back, cyan1 refused: enter: cyan1 is on the field")
+
+
+@pytest.mark.parametrize("side", list(Side))
+def test_every_restart_can_be_given_to_either_side(match, visit, side: Side) -> None:
+    tab = visit(match, "referee")
+    for phase in (Phase.KICK_OFF, Phase.FREE_KICK, Phase.GOAL_KICK, Phase.THROW_IN, Phase.CORNER, Phase.PENALTY):
+        tab.button(phase.value, side.value).click()
+        match.until(lambda phase=phase: match.state.phase is phase and match.state.side is side)
+    tab.button("drop_ball").click()
+    match.until(lambda: match.state.phase is Phase.DROP_BALL)
+    tab.until_seen("ball", match.state.spot.x, match.state.spot.y)
+    tab.button("start").click()
+    match.until(lambda: match.state.running)
+
+
+def test_goals_are_given_and_taken_back(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.button("goal", "cyan").click()
+    match.until(lambda: match.state.score.cyan == 1)
+    tab.button("cancel_goal", "cyan").click()
+    match.until(lambda: match.state.score.cyan == 0)
+
+
+def test_cards_repair_and_substitution_are_for_the_robot_that_is_chosen(match, visit) -> None:
+    tab = visit(match, "referee")
+    assert tab.button("yellow_card").is_disabled()
+    assert tab.button("yellow_card").get_attribute("title") == "choose a robot first"
+    tab.page.locator("#robot").select_option("magenta2")
+    tab.button("yellow_card").click()
+    match.until(lambda: standing(match, "magenta2").yellow == 1)
+    tab.button("stop").click()
+    match.until(lambda: match.state.phase is Phase.STOPPED)
+    tab.button("substitute").click()
+    match.until(lambda: standing(match, "magenta2").off_field == "substitution")
+    tab.page.locator("#robot").select_option("cyan2")
+    tab.button("red_card").click()
+    match.until(lambda: standing(match, "cyan2").red == 1)
+
+
+def test_what_ends_a_match_is_pressed_twice(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.button("end_game").click()
+    assert tab.button("end_game").inner_text() == "Press again"
+    assert match.state.phase is not Phase.FULL_TIME
+    tab.button("end_game").click()
+    assert tab.button("end_game").inner_text() == "End match"  # a third press would have to be made sure of again
+    match.until(lambda: match.host.simulation.over)
+
+
+def test_a_proposal_is_confirmed_or_overruled(match_of, visit) -> None:
+    match = match_of(still=True, referee={"mode": "mixed", "proposal": 60.0})
+    tab = visit(match, "referee")
+    match.until(lambda: match.state.phase is not Phase.PRE_GAME)
+    tab.button("drop_ball").click()
+    match.until(lambda: match.state.phase in (Phase.DROP_BALL, Phase.PLAY))
+    tab.until_seen("ball", 0.0, 0.0)
+    tab.button("start").click()
+    match.until(lambda: match.state.phase is Phase.PLAY)
+    tab.open("settings")
+    tab.page.locator("#freely").check()
+    tab.open("match")
+    tab.drag((match.world["ball"]["x"], match.world["ball"]["y"]), (0.0, 7.6))
+    match.until(lambda: match.state.proposal is not None)
+    tab.until("!document.getElementById('proposal').hidden")
+    assert tab.page.locator("#proposed").inner_text() == match.state.proposal
+    tab.page.locator("#overrule").click()
+    tab.wait_for_log("Overrule accepted")
+    match.until(lambda: match.state.proposal is not None)  # the ball is still out
+    tab.until("!document.getElementById('proposal').hidden")
+    tab.page.locator("#confirm").click()
+    tab.wait_for_log("Confirm accepted")
+    match.until(lambda: match.state.phase is not Phase.PLAY)
+    tab.until("document.getElementById('proposal').hidden")
+
+
+def test_a_spectator_can_press_nothing(resting, visit) -> None:
+    match = resting
+    tab = visit(match)
+    pressable = (
+        "[...document.querySelectorAll('{} button, {} select')].filter((one) => !one.disabled).map((one) => one.id)"
+    )
+    assert tab.ask(pressable.format("#buttons", "#buttons")) == ["robot"]
+    for panel in ("coach", "drive", "settings"):
+        tab.open(panel)
+    assert tab.page.locator("#order-give").is_disabled()
+    assert tab.page.locator("#drive-take").is_disabled()
+    assert tab.ask(pressable.format("#settings", "#settings")) == []
+    assert not tab.page.locator("#stop").is_visible()
+    tab.page.keyboard.press("Space")
+    tab.drag(match.where("cyan1"), (0.0, 3.0))
+    assert tab.page.locator("#log li").count() == 0
+    assert match.state.phase is Phase.KICK_OFF
+
+
+def test_a_coach_commands_its_own_side_alone(match, visit) -> None:
+    tab = visit(match, "cyan")
+    for action, side, may in (
+        ("hold_order", "cyan", True),
+        ("hold_order", "magenta", False),
+        ("kick_off", "cyan", False),
+        ("goal", "cyan", False),
+        ("stop", "", False),
+    ):
+        assert tab.button(action, side).is_enabled() is may
+    tab.page.locator("#robot").select_option("magenta1")
+    assert tab.button("repair").is_disabled()
+    tab.page.locator("#robot").select_option("cyan2")
+    assert tab.button("repair").is_enabled() and tab.button("red_card").is_disabled()
+    tab.page.keyboard.press("Space")
+    match.until(lambda: Side.CYAN in match.host.simulation.orders)
+    assert match.host.simulation.orders[Side.CYAN].mode is CoachMode.HOLD
+    assert Side.MAGENTA not in match.host.simulation.orders
+    tab.until("document.querySelector('[data-robot=cyan2] [data-is=order]').textContent === 'taken in'")
+    match.until(lambda: math.hypot(*(match.world["robots"]["cyan2"][axis] for axis in ("vx", "vy"))) < 0.02)
+
+
+def test_a_token_is_taken_from_the_address_kept_and_given_up(match, visit) -> None:
+    tab = visit(match, "referee")
+    assert tab.ask("location.href") == f"{tab.origin}/"
+    tab.page.reload()
+    tab.until("window.touchline?.match.role === 'referee'")
+    tab.page.locator("#role").click()
+    tab.page.locator("#leave").click()
+    tab.until("window.touchline.match.role === 'spectator'")
+    tab.page.reload()
+    tab.until("window.touchline?.match.setup && window.touchline.match.role === 'spectator'")
+    tab.page.locator("#enter-token").click()
+    tab.page.locator("#token").fill("nonsense")
+    tab.page.keyboard.press("Enter")
+    tab.until("document.getElementById('token-says').textContent.startsWith('refused: nobody has this token')")
+    tab.page.locator("#token").fill("cyans-coach")
+    tab.page.keyboard.press("Enter")
+    tab.until("window.touchline.match.role === 'cyan'")
+
+
+def test_the_ball_is_placed_by_dragging_where_the_referee_allows_it(resting, visit) -> None:
+    match = resting
+    tab = visit(match, "referee")
+    tab.button("start").click()
+    tab.until("window.touchline.match.state?.running")
+    ball = match.world["ball"]
+    tab.drag((ball["x"], ball["y"]), (3.0, 2.0))
+    tab.wait_for_log("the game is running; stop it first")
+    tab.button("drop_ball").click()
+    match.until(lambda: match.state.phase is Phase.DROP_BALL)
+    spot = match.state.spot
+    assert spot is not None
+    tab.until("window.touchline.match.state?.phase === 'drop_ball'")
+    tab.until_seen("ball", spot.x, spot.y)
+    tab.drag((spot.x, spot.y), (3.0, 2.0))
+    tab.wait_for_log("Ball to (3.00, 2.00) accepted")
+    assert (match.state.spot.x, match.state.spot.y) == pytest.approx((3.0, 2.0), abs=0.06)
+
+
+def test_a_robot_is_moved_by_dragging_while_the_game_is_stopped(resting, visit) -> None:
+    match = resting
+    tab = visit(match, "referee")
+    tab.button("start").click()
+    tab.until("window.touchline.match.state?.running")
+    tab.drag(match.where("cyan1"), (-6.0, 5.0))
+    tab.wait_for_log("Move cyan1 refused: the game is running")
+    tab.page.keyboard.press("Space")
+    tab.until("window.touchline.match.state?.phase === 'stopped'")
+    match.until(lambda: math.hypot(*(match.world["robots"]["cyan1"][axis] for axis in ("vx", "vy"))) < 0.02)
+    x, y = match.where("cyan1")
+    tab.until_seen("robots.cyan1", x, y)
+    tab.drag((x, y), (-6.0, 5.0))
+    tab.wait_for_log("cyan1 to (−6.00, 5.00) accepted")
+    match.until(lambda: math.dist(match.where("cyan1"), (-6.0, 5.0)) < 1.5)
+
+
+def test_a_body_is_set_down_by_numbers_too(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.button("stop").click()
+    match.until(lambda: match.state.phase is Phase.STOPPED)
+    tab.open("settings")
+    tab.page.locator("#place").click()
+    tab.wait_for_log("x and y are missing")
+    tab.page.locator("#place-body").select_option("magenta2")
+    for field, value in (("x", "5"), ("y", "-4"), ("heading", "90")):
+        tab.page.locator(f"#place-{field}").fill(value)
+    tab.page.locator("#place").click()
+    tab.wait_for_log("magenta2 to (5.00, −4.00) accepted")
+
+
+def test_a_scene_is_loaded_and_left(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.open("settings")
+    tab.page.locator("#scene").select_option("penalty")
+    assert tab.page.locator("#scene-says").inner_text()
+    tab.page.locator("#scene-load").click()
+    match.until(lambda: match.world["episode"] == 2)
+    tab.until("window.touchline.pitchCanvas.world?.episode === 2")
+    tab.page.locator("#match-reset").click()
+    match.until(lambda: match.world["episode"] == 3)
+
+
+def test_speed_and_noise_are_set_within_their_range_and_reset(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.open("settings")
+    row = tab.page.locator("[data-parameter='drive.max_speed']")
+    row.wait_for()
+    assert "m/s" in row.inner_text()
+    before = match.host.simulation.profile.drive.max_speed
+    for wrong, why in (("fast", "refused: fast is no number"), ("1000", "refused: drive.max_speed is 1000")):
+        row.locator("input").fill(wrong)
+        row.get_by_role("button", name="Set drive.max_speed", exact=True).click()
+        tab.wait_for_log(why)
+    assert match.host.simulation.profile.drive.max_speed == before
+    row.locator("input").fill("1.5")
+    row.get_by_role("button", name="Set drive.max_speed", exact=True).click()
+    match.until(lambda: match.host.simulation.profile.drive.max_speed == 1.5)
+    tab.until("document.querySelector('[data-parameter=\"drive.max_speed\"]').classList.contains('changed')")
+    row.get_by_role("button", name="Reset drive.max_speed").click()
+    match.until(lambda: match.host.simulation.profile.drive.max_speed == before)
+    tab.page.locator("#parameter-filter").fill("noise")
+    tab.page.locator("[data-parameter='noise.preset'] select").select_option("perfect")
+    tab.page.locator("[data-parameter='noise.preset']").get_by_role(
+        "button", name="Set noise.preset", exact=True
+    ).click()
+    tab.wait_for_log("noise.preset = perfect accepted")
+
+
+@pytest.mark.parametrize("side", list(Side))
+def test_an_order_takes_its_points_and_angles_from_the_field(match, visit, side: Side) -> None:
+    tab = visit(match, "referee")
+    sign = 1 if side is Side.CYAN else -1  # magenta attacks −x, and believes that it is +x
+    tab.open("coach")
+    tab.page.locator("#order-side").select_option(side.value)
+    tab.page.locator("#order-mode").select_option("test")
+    tab.page.locator("#order-test").select_option("move")
+    tab.page.locator("#order-robot_a").select_option(f"{side.value}2")
+    tab.page.locator("#order-max_speed").fill("1.5")
+    tab.page.locator("#order-point_a-pick").click()
+    assert tab.page.locator("#hint").is_visible()
+    tab.drag((2.0, 3.0), (2.0, 5.0))  # a point, and the direction +y
+    tab.page.locator("#order-give").click()
+    tab.wait_for_log(f"Test move, {side.value} accepted")
+    order = match.host.simulation.orders[side]
+    assert (order.mode, order.test, order.robot_a, order.max_speed) == ("test", "move", f"{side.value}2", 1.5)
+    assert (order.point_a.x, order.point_a.y) == pytest.approx((2.0 * sign, 3.0 * sign), abs=0.06)
+    assert order.angle_a == pytest.approx(sign * math.pi / 2, abs=0.05)
+    tab.until("document.querySelectorAll('#active-orders .ack.accepted').length === 2")
+
+
+def test_an_order_that_lacks_something_is_refused_with_the_reason(match, visit) -> None:
+    tab = visit(match, "magenta")
+    tab.open("coach")
+    assert tab.page.locator("#order-side option").count() == 1
+    tab.page.locator("#order-mode").select_option("test")
+    tab.page.locator("#order-test").select_option("circle")
+    tab.page.locator("#order-give").click()
+    tab.wait_for_log("the test circle needs robot_a and point_a and radius")
+
+
+def test_a_robot_is_driven_by_keys_in_place_of_its_brain_and_given_back(match, visit) -> None:
+    """Reference 13, row 43."""
+    tab = visit(match, "cyan")
+    tab.open("drive")
+    options = tab.page.locator("#drive-robot option")
+    assert [options.nth(number).get_attribute("value") for number in range(options.count())] == ["", "cyan1", "cyan2"]
+    tab.page.locator("#drive-robot").select_option("cyan2")
+    tab.page.locator("#drive-take").click()
+    match.until(lambda: said(match, "cyan2 is driven by hand"))
+    match.until(lambda: abs(match.world["robots"]["cyan2"]["vx"]) < 0.02)
+    heading = match.world["robots"]["cyan2"]["heading"]
+    tab.page.keyboard.down("w")
+    match.until(lambda: ahead(match, "cyan2", heading) > 1.0)
+    tab.page.keyboard.up("w")
+    match.until(lambda: abs(ahead(match, "cyan2", heading)) < 0.05)
+    tab.page.keyboard.down("q")
+    match.until(lambda: match.world["robots"]["cyan2"]["omega"] > 1.0)
+    tab.page.keyboard.up("q")
+    tab.page.keyboard.press("Escape")
+    match.until(lambda: said(match, "cyan2 is given back to its brain"))
+    assert tab.page.locator("#drive-take").inner_text() == "Take in hand"
+
+
+def test_a_gamepad_drives_kicks_and_dribbles(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.page.evaluate(
+        """() => {
+            const buttons = Array.from({ length: 8 }, () => ({ pressed: false }));
+            window.pad = { connected: true, axes: [0, 0, 0, 0], buttons };
+            navigator.getGamepads = () => [null, window.pad];
+        }"""
+    )
+    hands = match.hear(MANUAL)
+    tab.open("drive")
+    tab.page.locator("#drive-robot").select_option("cyan2")
+    tab.page.locator("#drive-take").click()
+    tab.ask("window.pad.axes[1] = -0.5, window.pad.axes[2] = 0.05")
+    match.until(lambda: any(hand.drive.vx == pytest.approx(0.75) and hand.drive.omega == 0.0 for hand in hands()))
+    tab.ask("window.pad.axes[1] = 0, window.pad.axes[2] = -1")
+    match.until(lambda: any(hand.drive.omega == pytest.approx(2.0) for hand in hands()))
+    tab.ask("window.pad.buttons[4].pressed = true")
+    match.until(lambda: any(hand.dribble for hand in hands()))
+    tab.ask("window.pad.buttons[1].pressed = true")
+    match.until(lambda: any(hand.kick == Kick(mode=KickMode.LOB, speed=8.0) for hand in hands()))
+    assert tab.page.locator("#dribble").get_attribute("aria-pressed") == "true"
+
+
+def test_leaving_the_page_gives_the_robot_back(match, visit) -> None:
+    tab = visit(match, "referee")
+    tab.open("drive")
+    tab.page.locator("#drive-robot").select_option("magenta1")
+    tab.page.locator("#drive-take").click()
+    match.until(lambda: said(match, "magenta1 is driven by hand"))
+    tab.page.goto("about:blank")
+    match.until(lambda: said(match, "magenta1 is given back to its brain"))
+
+
+def standing(match, robot: str) -> DisciplinaryRecord:
+    return match.state.robots.get(robot, DisciplinaryRecord())
+
+
+def said(match, text: str) -> bool:
+    return any(event.text == text for event in match.events)
+
+
+def ahead(match, robot: str, heading: float) -> float:
+    truth = match.world["robots"][robot]
+    return float(truth["vx"] * math.cos(heading) + truth["vy"] * math.sin(heading))
+
+
+def test_while_a_referee_box_commands_all_buttons_are_locked_but_stop(match, visit) -> None:
+    tab = visit(match, "referee")
+    box = match.medium.open_bus("friendly", WallClock())
+    box.declare_alive("refbox", "cyan")
+    tab.until("document.querySelector('[data-action=corner]').disabled")
+    assert "the referee box commands the match" in (tab.button("corner", "cyan").get_attribute("title") or "")
+    tab.button("stop").click()
+    match.until(lambda: match.state.phase is Phase.STOPPED)
+    tab.wait_for_log("Stop accepted")
+    box.close()
+    tab.until("!document.querySelector('[data-action=corner]').disabled")

@@ -1,0 +1,136 @@
+"""The page on a phone, by keyboard, for who sees other colours or none, in light and in dark."""
+
+import pytest
+
+TABS = ("robots", "events", "match", "coach", "drive", "settings", "host", "log")
+
+UNNAMED = """[...document.querySelectorAll("button, input, select, canvas, [role=tab], [tabindex='0']")]
+    .filter((one) => one.id !== "ground")
+    .filter((one) => !(one.textContent.trim() || one.getAttribute("aria-label") || one.labels?.length
+        || one.getAttribute("aria-labelledby")))
+    .map((one) => one.outerHTML)"""
+
+CONTRASTS = """() => {
+    const light = ([r, g, b]) => [r, g, b].map((c) => c / 255)
+        .map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4))
+        .reduce((sum, c, place) => sum + c * [0.2126, 0.7152, 0.0722][place], 0);
+    const canvas = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
+    const rgba = (colour) => {
+        canvas.clearRect(0, 0, 1, 1); canvas.fillStyle = colour; canvas.fillRect(0, 0, 1, 1);
+        return [...canvas.getImageData(0, 0, 1, 1).data];
+    };
+    const behind = (node) => {
+        const under = node.parentElement ? null : [255, 255, 255];
+        const [r, g, b, a] = rgba(getComputedStyle(node).backgroundColor);
+        if (a === 255) return [r, g, b];
+        const below = under ?? behind(node.parentElement);
+        return [r, g, b].map((c, place) => c * (a / 255) + below[place] * (1 - a / 255));
+    };
+    const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    const poor = [];
+    for (let text = texts.nextNode(); text; text = texts.nextNode()) {
+        const node = text.parentElement;
+        if (!text.textContent.trim() || !node.checkVisibility() || node.closest(":disabled")) continue;
+        const style = getComputedStyle(node), [a, b] = [light(rgba(style.color)), light(behind(node))];
+        const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+        const large = parseFloat(style.fontSize) >= (style.fontWeight >= 700 ? 18.6 : 24);
+        if (ratio < (large ? 3 : 4.5)) poor.push([text.textContent.trim(), node.className, ratio.toFixed(2)]);
+    }
+    return poor;
+}"""
+
+
+@pytest.mark.parametrize("width", [320, 360, 768])
+def test_a_phone_shows_everything_without_scrolling_sideways(match, visit, width: int) -> None:
+    tab = visit(match, "referee", width=width, height=780, has_touch=True)
+    for name in TABS:
+        tab.open(name)
+        panel = tab.page.locator(f"#to-{name}").get_attribute("aria-controls")
+        assert tab.page.locator(f"#{panel}").is_visible()
+        assert tab.ask("document.documentElement.scrollWidth") <= width
+        for place in ("#moving", "#stop", "#score", "#clock"):
+            box = tab.page.locator(place).bounding_box()
+            assert box is not None and box["x"] >= 0 and box["x"] + box["width"] <= width
+    tab.page.evaluate("window.scrollTo(0, 10000)")
+    assert tab.page.locator("#stop").is_visible()
+    box = tab.page.locator("#stop").bounding_box()
+    assert box is not None and 0 <= box["y"] < 780  # stopping is never scrolled away
+
+
+def test_a_replay_fits_a_phone_too(replayed, visit) -> None:
+    tab = visit(replayed, "referee", width=360, height=780)
+    assert tab.ask("document.documentElement.scrollWidth") <= 360
+    for place in ("#scrub", "#play", "#next", "#rate"):
+        box = tab.page.locator(place).bounding_box()
+        assert box is not None and box["x"] >= 0 and box["x"] + box["width"] <= 360
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_every_text_stands_out_from_what_is_behind_it(match, visit, scheme: str) -> None:
+    tab = visit(match, "referee", color_scheme=scheme)
+    for name in TABS[2:]:
+        tab.open(name)
+        assert tab.ask(CONTRASTS) == []
+    tab.page.locator("[data-robot=cyan1] .who").click()
+    tab.open("match")
+    tab.button("enter").click()
+    tab.until("document.querySelector('.verdict') !== null")
+    assert tab.ask(CONTRASTS) == []
+
+
+def test_every_control_has_a_name(match, visit) -> None:
+    tab = visit(match, "referee")
+    for name in TABS[2:]:
+        tab.open(name)
+    tab.until("document.querySelectorAll('.parameter').length > 0")
+    assert tab.ask(UNNAMED) == []
+    ids = tab.ask("[...document.querySelectorAll('[id]')].map((one) => one.id)")
+    assert len(ids) == len(set(ids))
+
+
+def test_sides_differ_in_shape_as_well_as_in_colour(match, visit) -> None:
+    tab = visit(match)
+    radii = [
+        tab.ask(f"getComputedStyle(document.querySelector('.mark.{side}')).borderRadius")
+        for side in ("cyan", "magenta")
+    ]
+    assert radii[0] != radii[1]
+
+
+def test_everything_is_reached_and_used_by_keyboard(match, visit) -> None:
+    tab = visit(match, "referee")
+    reached = set()
+    tab.page.locator("#stop").focus()
+    for _ in range(80):
+        tab.page.keyboard.press("Tab")
+        name, outline = tab.ask(
+            "[document.activeElement.id || document.activeElement.dataset.action || document.activeElement.className, "
+            "getComputedStyle(document.activeElement).outlineStyle]"
+        )
+        if name:
+            assert outline != "none", name  # one sees where the focus is
+        reached.add(name)
+    assert {"moving", "layer-trails", "to-match", "start", "kick_off", "robot", "all-events", "who"} <= reached
+    tab.page.locator("#to-match").focus()
+    tab.page.keyboard.press("ArrowRight")
+    assert tab.page.locator("#coach").is_visible() and tab.ask("document.activeElement.id") == "to-coach"
+    tab.page.keyboard.press("?")
+    assert tab.page.locator("#help").is_visible()
+    assert "stop" in tab.page.locator("#keys").inner_text()
+    tab.page.keyboard.press("Escape")
+    assert not tab.page.locator("#help").is_visible()
+    tab.page.locator("#layer-roles").focus()
+    tab.page.keyboard.press("Enter")
+    assert not tab.page.locator("#layer-roles").is_checked()
+    tab.page.keyboard.press("]")
+    assert tab.ask("window.touchline.selection.robot") == "cyan1"
+
+
+def test_what_the_field_shows_is_kept_for_the_next_visit(match, visit) -> None:
+    tab = visit(match)
+    tab.page.locator("#layer-passes").uncheck()
+    tab.page.locator("#layer-trails").select_option("all")
+    tab.page.reload()
+    tab.until("window.touchline?.pitchCanvas.world")
+    assert not tab.page.locator("#layer-passes").is_checked()
+    assert tab.page.locator("#layer-trails").input_value() == "all"

@@ -1,0 +1,174 @@
+"""Hands on the page: fingers that drag and drive, keys that stay down, and what nobody may move."""
+
+import math
+
+import pytest
+
+from schemas.game import Phase
+from schemas.process.clock import WallClock
+from schemas.topics import MANUAL
+
+PHONE = {"width": 390, "height": 844, "has_touch": True, "is_mobile": True}
+
+
+def stop(tab) -> None:
+    tab.page.locator("#stop").click()
+    tab.wait_for_log("Stop accepted")
+
+
+def drop(match, tab) -> tuple[float, float]:
+    """Drop the ball; returns where it lies."""
+    tab.button("drop_ball").click()
+    match.until(lambda: match.state.phase is Phase.DROP_BALL and match.state.spot is not None)
+    spot = match.state.spot
+    tab.until_seen("ball", spot.x, spot.y)
+    return spot.x, spot.y
+
+
+def said(match, text: str) -> bool:
+    return any(event.text == text for event in match.events)
+
+
+def take(match, tab, robot: str):
+    """Take a robot in hand; returns what is said of hands from then on."""
+    hands = match.hear(MANUAL)
+    tab.open("drive")
+    tab.page.locator("#drive-robot").select_option(robot)
+    tab.page.locator("#drive-take").click()
+    match.until(lambda: said(match, f"{robot} is driven by hand"))
+    return hands
+
+
+def test_a_finger_drags_a_robot_and_a_second_finger_has_no_part_in_it(resting, visit) -> None:
+    match = resting
+    tab = visit(match, "referee", **PHONE)
+    stop(tab)
+    begin, end, elsewhere = tab.at(*match.where("cyan1")), tab.at(-6.0, 5.0), tab.at(8.0, -4.0)
+    tab.touch("Start", begin)
+    for share in (0.3, 0.7, 1.0):
+        tab.touch("Move", tuple(a + share * (b - a) for a, b in zip(begin, end, strict=True)))
+    tab.touch("Start", end, elsewhere)
+    tab.touch("Move", end, (elsewhere[0] + 5, elsewhere[1]))
+    tab.touch("End", end)  # the second finger goes: nothing is set down by that
+    assert tab.page.locator("#log li").count() == 1
+    tab.touch("End")
+    tab.until("document.querySelector('#log li')?.textContent.includes('cyan1 to (')")
+    match.until(lambda: math.dist(match.where("cyan1"), (-6.0, 5.0)) < 1.0)
+    assert tab.page.locator("#log li").count() == 2
+
+
+def test_a_finger_beside_all_bodies_scrolls_the_page(resting, visit) -> None:
+    match = resting
+    tab = visit(match, "referee", width=390, height=500, has_touch=True, is_mobile=True)
+    stop(tab)
+    x, y = tab.at(0.0, 6.9)
+    tab.touch("Start", (x, y + 20))
+    for step in range(1, 8):
+        tab.touch("Move", (x, y + 20 - 30 * step))
+    tab.touch("End")
+    tab.until("window.scrollY > 50")
+    assert tab.page.locator("#log li").count() == 1
+
+
+def test_a_finger_on_the_buttons_drives_for_as_long_as_it_lies_there(match, visit) -> None:
+    tab = visit(match, "cyan", **PHONE)
+    hands = take(match, tab, "cyan2")
+    pad = tab.page.locator("#pad [data-code=KeyW]")
+    pad.scroll_into_view_if_needed()
+    box = pad.bounding_box()
+    assert box is not None
+    tab.touch("Start", (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2))
+    match.until(lambda: any(hand.drive.vx == pytest.approx(1.5) for hand in hands()))
+    tab.touch("End")
+    match.until(lambda: any(hand.drive.vx == 0.0 for hand in hands()))
+    tab.page.locator("#dribble").tap()
+    match.until(lambda: any(hand.dribble for hand in hands()))
+    tab.page.locator("#kick-lob").tap()
+    match.until(lambda: any(hand.kick is not None and hand.kick.mode == "lob" for hand in hands()))
+    tab.page.locator("#drive-take").tap()
+    match.until(lambda: said(match, "cyan2 is given back to its brain"))
+
+
+def test_a_key_that_is_let_go_of_beside_another_does_not_drive_on(match, visit) -> None:
+    tab = visit(match, "cyan")
+    hands = take(match, tab, "cyan2")
+    tab.page.keyboard.down("w")
+    match.until(lambda: any(hand.drive.vx > 0.0 for hand in hands()))
+    tab.page.keyboard.down("Control")
+    tab.page.keyboard.up("w")
+    tab.page.keyboard.up("Control")
+    match.until(lambda: any(hand.drive.vx == 0.0 for hand in hands()))
+    tab.page.wait_for_timeout(150)
+    assert all(hand.drive.vx == 0.0 for hand in hands())
+
+
+def test_a_page_that_is_no_longer_seen_gives_the_robot_back(match, visit) -> None:
+    """A hidden page's clock ticks once a second: the robot would be taken and given back each time."""
+    tab = visit(match, "cyan")
+    take(match, tab, "cyan2")
+    tab.page.evaluate(
+        """() => {
+            Object.defineProperty(document, "hidden", { get: () => true, configurable: true });
+            document.dispatchEvent(new Event("visibilitychange"));
+        }"""
+    )
+    match.until(lambda: said(match, "cyan2 is given back to its brain"))
+    assert tab.page.locator("#drive-take").inner_text() == "Take in hand"
+
+
+def test_a_robot_that_another_page_drives_cannot_be_taken(match, visit) -> None:
+    first, second = visit(match, "cyan"), visit(match, "referee")
+    take(match, first, "cyan2")
+    second.open("drive")
+    second.page.locator("#drive-robot").select_option("cyan2")
+    second.page.locator("#drive-take").click()
+    second.wait_for_log("Drive cyan2 refused: cyan2 is driven from another page")
+    assert second.page.locator("#drive-take").inner_text() == "Take in hand"
+    assert first.page.locator("#drive-take").inner_text() == "Give cyan2 back"
+    first.page.keyboard.press("Escape")
+    match.until(lambda: said(match, "cyan2 is given back to its brain"))
+    take(match, second, "cyan2")
+
+
+def test_what_a_coach_drags_stays_where_it_is(resting, visit) -> None:
+    match = resting
+    referee, tab = visit(match, "referee"), visit(match, "cyan")
+    for body, (x, y) in (("ball", drop(match, referee)), ("robots.cyan1", match.where("cyan1"))):
+        tab.until_seen(body, x, y)
+        tab.drag((x, y), (3.0, 3.0))
+        tab.wait_for_log("refused: only the referee sets bodies down")
+        tab.until_seen(body, x, y)
+    assert tab.ask("window.touchline.selection.dragged") is None
+
+
+def test_the_ball_is_not_dragged_while_a_referee_box_commands_and_the_page_says_who_does(resting, visit) -> None:
+    match = resting
+    tab, spectator = visit(match, "referee"), visit(match)
+    ball = drop(match, tab)
+    box = match.medium.open_bus("friendly", WallClock())
+    box.declare_alive("refbox", "cyan")
+    for one in (tab, spectator):
+        one.until("document.getElementById('notice').textContent.includes('A referee box commands the match of cyan')")
+        assert one.page.locator("#notice").is_visible()
+    tab.drag(ball, (3.0, 2.0))
+    tab.wait_for_log("refused: the referee box commands the match")
+    box.declare_alive("refbox", "magenta")
+    tab.until("document.getElementById('notice').textContent.includes('A referee box commands the match; ')")
+    box.close()
+    tab.until("document.getElementById('notice').hidden")
+
+
+def test_what_is_in_the_hand_when_the_game_goes_on_is_not_set_down(resting, visit) -> None:
+    match = resting
+    tab = visit(match, "referee")
+    stop(tab)
+    tab.page.mouse.move(*tab.at(*match.where("cyan1")))
+    tab.page.mouse.down()
+    tab.page.mouse.move(*tab.at(-6.0, 5.0))
+    tab.until("window.touchline.selection.dragged !== null")
+    other = visit(match, "referee")
+    drop(match, other)
+    other.button("start").click()
+    tab.until("window.touchline.match.state?.running")
+    tab.page.mouse.up()
+    tab.wait_for_log("Move cyan1 refused: the game is running")

@@ -1,0 +1,183 @@
+"""Commands from pages, over real sockets: who may do what, and what reaches the match."""
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from coach_gateway.match.host_client import HostClient
+from coach_gateway.web.manual_control import KEPT_S, ManualControl
+from coach_gateway.web.pages import Page
+from coach_gateway.web.protocol import PageDrive
+from schemas.game import ActionName
+from schemas.messages.coach import CoachMode, CoachOrder
+from schemas.messages.manual import ManualDrive
+from schemas.side import Side
+
+from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, wait_for
+
+Visit = Callable[..., Visitor]
+
+
+@pytest.mark.parametrize(
+    ("deed", "content"),
+    [
+        ("action", {"action": {"action": "stop"}}),
+        ("order", {"side": "cyan", "order": {"mode": "hold"}}),
+        ("scene", {"request": {"operation": "reset"}}),
+        ("parameters", {"request": {"operation": "reset"}}),
+        ("parameters", {"request": {"operation": "list"}}),
+        ("drive", {"robot": "cyan1", "manual": {}}),
+        ("replay", {"request": {"operation": "pause"}}),
+    ],
+)
+def test_a_spectator_cannot_command(deed: str, content: dict[str, Any], visit: Visit, host: FakeHost) -> None:
+    reply = visit().ask(deed, **content)
+    assert not reply["accepted"]
+    assert "this page has none" in reply["reason"]
+    assert [question for question in host.asked if hasattr(question, "source")] == []
+    assert host.orders.receive() is None
+    assert host.hands.receive() is None
+
+
+def test_a_stop_of_the_referee_reaches_the_match_and_is_named_after_the_page(visit: Visit, host: FakeHost) -> None:
+    """Reference 13, row 37."""
+    page = visit("referee")
+    assert page.ask("action", action={"action": "stop", "source": "somebody else"})["accepted"]
+    refused = page.ask("action", action={"action": "corner", "side": "cyan"})
+    assert (refused["accepted"], refused["reason"]) == (False, "play is running")
+    asked = [question for question in host.asked if hasattr(question, "action")]
+    assert [(question.action, question.source) for question in asked] == [
+        (ActionName.STOP, "referee's page"),
+        (ActionName.CORNER, "referee's page"),
+    ]
+
+
+def test_cyan_s_token_cannot_stop_magenta_s_robots(visit: Visit, host: FakeHost) -> None:
+    """Reference 13, row 51."""
+    page = visit("cyan")
+    for deed, content in (
+        ("action", {"action": {"action": "stop"}}),
+        ("action", {"action": {"action": "park", "robot": "magenta1"}}),
+        ("action", {"action": {"action": "repair", "robot": "magenta1"}}),
+        ("action", {"action": {"action": "substitute", "robot": "magenta1"}}),
+        ("action", {"action": {"action": "repair"}}),
+        ("order", {"side": "magenta", "order": {"mode": "hold"}}),
+        ("drive", {"robot": "magenta1", "manual": {}}),
+        ("scene", {"request": {"operation": "remove", "remove": ["magenta1"]}}),
+        ("parameters", {"request": {"operation": "set", "values": {"drive.max_speed": 0.1}}}),
+    ):
+        assert not page.ask(deed, **content)["accepted"], (deed, content)
+    assert host.orders.receive() is None
+    assert host.hands.receive() is None
+    assert [question for question in host.asked if hasattr(question, "source")] == []
+
+
+@pytest.mark.parametrize("side", ["cyan", "magenta"])
+def test_a_coach_stops_drives_and_repairs_its_own_robots(side: str, visit: Visit, host: FakeHost) -> None:
+    """Reference 14, defect 7; reference 13, row 43."""
+    page = visit(side)
+    given = page.ask("order", side=side, order={"mode": "hold", "max_speed": 1.5})
+    received = host.orders.receive(SOON)
+    assert received is not None and received.chunks == {"side": side}
+    order: CoachOrder = received.message()
+    assert given["accepted"]
+    assert (order.mode, order.max_speed, order.sequence) == (CoachMode.HOLD, 1.5, given["answer"]["sequence"])
+    page.say("drive", robot=f"{side}2", manual={"drive": {"vx": 1.0}})
+    driven = host.hands.receive(SOON)
+    assert driven is not None
+    assert (driven.chunks, driven.message().drive.vx) == ({"robot": f"{side}2"}, 1.0)
+    assert page.ask("action", action={"action": "repair", "robot": f"{side}2"})["accepted"]
+
+
+def test_of_two_orders_the_later_one_has_the_larger_number(visit: Visit, host: FakeHost) -> None:
+    page = visit("referee")
+    numbers = [page.say("order", side="cyan", order={"tactic": tactic}) for tactic in ("one", "two", "three")]
+    for number in numbers:
+        assert page.hear("reply", id=number)["accepted"]
+    orders = [wait_for(host.orders) for _ in numbers]
+    assert [order.tactic for order in sorted(orders, key=lambda order: order.sequence)] == ["one", "two", "three"]
+    assert len({order.sequence for order in orders}) == 3
+
+
+def test_an_order_that_makes_no_sense_is_refused_with_the_reason(visit: Visit, host: FakeHost) -> None:
+    page = visit("cyan")
+    reply = page.ask("order", side="cyan", order={"mode": "hold", "robot_a": "magenta1"})
+    assert (reply["accepted"], "no robot of cyan" in reply["reason"]) == (False, True)
+
+
+def test_the_token_counts_in_each_message_and_not_who_the_page_was(visit: Visit) -> None:
+    page = visit("referee")
+    assert page.ask("action", action={"action": "stop"})["accepted"]
+    assert not page.ask("action", token="", action={"action": "stop"})["accepted"]
+    assert not page.ask("action", token=TOKENS["cyan"], action={"action": "stop"})["accepted"]
+
+
+def test_questions_that_wait_hold_up_neither_a_stop_nor_another_role(
+    host_of: Callable[..., FakeHost], gateway_of: Callable[..., Gateway]
+) -> None:
+    slow = threading.Event()
+    host_of(slow=slow)
+    gateway = gateway_of()
+    coach, referee = Visitor(gateway.origin), Visitor(gateway.origin)
+    for page, role in ((coach, "cyan"), (referee, "referee")):
+        page.hear_what_is_played()
+        page.enter(role)
+    for page in (coach, referee):
+        for _ in range(8):
+            page.say("parameters", request={"operation": "list"})
+        refused = page.ask("parameters", request={"operation": "list"})
+        assert refused["reason"] == "8 questions of this page still wait for their answers"
+    assert referee.ask("action", action={"action": "stop"})["accepted"]
+    assert not slow.is_set()
+    slow.set()
+    coach.close()
+    referee.close()
+
+
+def test_orders_of_one_side_hold_up_none_of_the_other(
+    visit: Visit, host: FakeHost, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A coach whose orders take their time keeps nobody else's robots from being stopped."""
+    held, order = threading.Event(), HostClient.order
+
+    def slow(self: HostClient, side: Side, **content: Any) -> CoachOrder:
+        if side is Side.CYAN:
+            held.wait(20.0)
+        return order(self, side, **content)
+
+    monkeypatch.setattr(HostClient, "order", slow)
+    cyan, magenta = visit("cyan"), visit("magenta")
+    asked = [cyan.say("order", side="cyan", order={"mode": "play"}) for _ in range(3)]
+    assert magenta.ask("order", side="magenta", order={"mode": "hold"})["accepted"]
+    held.set()
+    assert all(cyan.hear("reply", id=number)["accepted"] for number in asked)
+
+
+def test_a_robot_is_driven_from_one_page_at_a_time(visit: Visit, host: FakeHost) -> None:
+    first, second = visit("cyan"), visit("referee")
+    for vx in (1.0, 1.5):
+        first.say("drive", robot="cyan1", manual={"drive": {"vx": vx}})
+        assert wait_for(host.hands).drive.vx == vx
+    first.say("drive", robot="cyan1", manual={"drive": {"vx": 2.0}})
+    second.say("drive", robot="cyan2", manual={"drive": {"vx": -1.0}})
+    assert sorted(wait_for(host.hands).drive.vx for _ in range(2)) == [-1.0, 2.0]  # each its own
+    first.say("drive", robot="cyan1", manual={"release": True})
+    assert wait_for(host.hands).release
+    second.say("drive", robot="cyan1", manual={"drive": {"vx": -2.0}})
+    assert wait_for(host.hands).drive.vx == -2.0
+
+
+def test_a_second_hand_on_a_robot_is_refused_until_the_first_has_let_go() -> None:
+    hands, first, second = ManualControl(), Page(None, None, 0.0), Page(None, None, 0.0)
+    drive = PageDrive(id=1, deed="drive", robot="cyan1", manual=ManualDrive())
+    release = drive.model_copy(update={"manual": ManualDrive(release=True)})
+    assert hands.refusal(first, drive, 10.0) is None
+    assert "cyan1 is driven from another page" in (hands.refusal(second, drive, 10.1) or "")
+    assert hands.refusal(second, release, 10.1) is not None  # nor does it take it out of the other's hand
+    assert hands.refusal(first, drive, 10.4) is None
+    assert hands.refusal(second, drive, 10.8) is not None
+    assert hands.refusal(first, release, 10.8) is None
+    assert hands.refusal(second, drive, 10.8) is None
+    assert hands.refusal(first, drive, 10.8 + KEPT_S) is None  # silent for so long, it has let go

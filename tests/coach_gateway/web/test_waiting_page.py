@@ -1,0 +1,138 @@
+"""A page that is opened before there is a host: it is there, says so, and goes on by itself when one comes."""
+
+import asyncio
+import contextlib
+import http.client
+import json
+import os
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+
+from coach_gateway.access.tokens import tokens_of
+from coach_gateway.web.binding import PageBinding, bind_page
+from coach_gateway.web.settings import WebSettings
+from coach_gateway.web.waiting_page import WaitingPage
+from schemas.bus.endpoint import with_free_port
+from schemas.bus.zenoh.bus import open_host
+from schemas.config.match_config import load_match
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
+from schemas.messages.host import Setup
+from schemas.process.clock import WallClock
+from schemas.topics import SETUP
+
+from .conftest import SOON, TOKENS, Visitor
+
+
+@contextlib.contextmanager
+def waiting_page(binding: PageBinding) -> Iterator[None]:
+    """It is served for as long as the block lasts."""
+    stop, loop = asyncio.Event(), asyncio.new_event_loop()
+    thread = threading.Thread(target=lambda: loop.run_until_complete(WaitingPage(binding, "friendly").serve(stop)))
+    thread.start()
+    try:
+        yield
+    finally:
+        loop.call_soon_threadsafe(stop.set)
+        thread.join(SOON)
+        assert not thread.is_alive()
+        loop.close()
+
+
+@pytest.fixture
+def binding(settings: WebSettings) -> Iterator[PageBinding]:
+    binding = bind_page(settings, tokens_of(settings.tokens))
+    yield binding
+    binding.listener.close()
+
+
+def test_a_page_that_waits_is_served_and_told_that_nobody_plays(binding: PageBinding) -> None:
+    with waiting_page(binding):
+        files = http.client.HTTPConnection(*binding.listener.getsockname(), timeout=SOON)
+        files.request("GET", "/")
+        answer = files.getresponse()
+        assert answer.status == 200 and b"Touchline" in answer.read()
+        assert answer.headers["Content-Security-Policy"].startswith("default-src 'none'")
+        files.close()
+        page = Visitor(binding.origin, TOKENS["referee"])
+        welcome = page.hear("welcome")
+        assert (welcome["setup"], welcome["deeds"], welcome["role"]) == (None, [], "spectator")
+        assert page.hear("host")["there"] is False
+        page.say("action", action={"action": "stop"})
+        page.send(b"garbage")
+        told = [json.loads(page.socket.recv(SOON))["kind"] for _ in range(2)]
+        assert told == ["alive", "alive"]  # nothing else is said there
+        with pytest.raises(InvalidStatus):
+            Visitor(binding.origin, claims="http://evil.example")
+    with pytest.raises(ConnectionClosed) as closed:
+        page.hear("reply")
+    assert closed.value.rcvd is not None and closed.value.rcvd.code == 1012  # come again
+
+
+def test_whoever_serves_next_takes_the_same_address(binding: PageBinding) -> None:
+    for _ in range(2):
+        with waiting_page(binding):
+            page = Visitor(binding.origin)
+            assert page.hear("welcome")["match"] == "friendly"
+            page.close()
+
+
+@pytest.mark.processes
+def test_a_served_page_waits_for_its_host_and_meets_it(tmp_path: Path) -> None:
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    tokens = tmp_path / "tokens.json"
+    command = [sys.executable, "-m", "coach_gateway", "--connect", endpoint, "--web", "--port", "0"]
+    process = subprocess.Popen(
+        [*command, "--tokens", str(tokens)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=os.environ
+    )
+    try:
+        assert process.stdout is not None
+        said = [process.stdout.readline().rstrip() for _ in range(3)]
+        assert said[1:] == [f"tokens: {tokens}", f"no host at {endpoint} yet; waiting for it"]
+        origin = said[0].removeprefix("page: ").removesuffix("/")
+        page = Visitor(origin)
+        assert page.hear("welcome")["setup"] is None
+        with open_host("friendly", WallClock(), endpoint) as bus:
+            setups = bus.serve(SETUP)
+            bus.declare_alive("host", "host")
+            with pytest.raises(ConnectionClosed):
+                page.hear("welcome")
+            page = Visitor(origin)  # as a page does by itself
+            query = setups.receive(SOON)
+            assert query is not None
+            query.reply(Setup.of(load_match(None, {}), load_profile("msl"), load_rule_book("friendly")))
+            page.hear_what_is_played()
+            page.token = json.loads(tokens.read_text())["referee"]
+            assert page.ask("token")["accepted"]
+            page.close()
+            process.terminate()
+            rest, _ = process.communicate(timeout=SOON)
+            assert (process.returncode, rest) == (0, "")
+    finally:
+        process.kill()
+        process.communicate()
+
+
+@pytest.mark.processes
+def test_a_page_that_waits_for_a_host_ends_when_it_is_told(tmp_path: Path) -> None:
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    command = [sys.executable, "-m", "coach_gateway", "--connect", endpoint, "--web", "--port", "0"]
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=os.environ, cwd=tmp_path
+    )
+    try:
+        assert process.stdout is not None
+        while "waiting for it" not in process.stdout.readline():
+            pass
+        process.terminate()
+        rest, _ = process.communicate(timeout=SOON)
+        assert (process.returncode, rest) == (0, "")
+    finally:
+        process.kill()
+        process.communicate()

@@ -1,0 +1,117 @@
+import json
+
+import pytest
+from mcap.reader import make_reader
+
+from recordings.container.json_schema import flat_schema, whole_schema
+from schemas.message import Message
+from schemas.topics import TOPICS
+
+MODELS = {
+    topic.message.__name__: topic.message for topic in TOPICS.values() if topic.recorded or topic.key.endswith("sight")
+}
+
+SCALARS = {"boolean": "bool", "string": "string", "number": "float64", "integer": "float64"}
+
+
+def datatypes(schema: dict, name: str) -> dict[str, list[tuple[str, str]]]:
+    """What Lichtblick's parser makes of a schema: type → its fields with their types; raises where that raises.
+
+    It takes objects with properties, and as fields booleans, texts that are plain or base64, numbers, objects, and
+    lists of plain texts, numbers, booleans and objects; nothing else, no references, no unions, no lists of lists.
+    """
+    found: dict[str, list[tuple[str, str]]] = {}
+    if schema.get("type") != "object":
+        raise ValueError(f"{name} is {schema.get('type')}, no object")
+    fields = found[name] = []
+    for field, content in schema["properties"].items():
+        kind, below = content.get("type"), f"{name}.{field}"
+        if kind == "array":
+            items = content["items"]
+            if items.get("type") == "object":
+                found |= datatypes(items, below)
+                fields.append((field, f"{below}[]"))
+            elif items.get("type") in SCALARS and "contentEncoding" not in items:
+                fields.append((field, f"{SCALARS[items['type']]}[]"))
+            else:
+                raise ValueError(f"{below} is a list of {items}")
+        elif kind == "object":
+            found |= datatypes(content, below)
+            fields.append((field, below))
+        elif kind in SCALARS and content.get("contentEncoding") in (None, "base64"):
+            fields.append((field, "uint8[]" if "contentEncoding" in content else SCALARS[kind]))
+        else:
+            raise ValueError(f"{below} is {content}")
+    return found
+
+
+@pytest.mark.parametrize("name", sorted(MODELS))
+def test_a_viewer_reads_the_flattened_schema_of_every_recorded_message(name):
+    assert datatypes(flat_schema(MODELS[name]), name)[name]
+
+
+def test_a_viewer_reads_the_schema_of_every_channel_of_a_recording(played):
+    """As it stands in the file, the schemas of all topics that a match has."""
+    with played.open("rb") as file:
+        schemas = make_reader(file).get_summary().schemas.values()
+    texts = {schema.name: json.loads(schema.data) for schema in schemas if schema.encoding == "jsonschema"}
+    assert {"touchline.World", "touchline.Command", "touchline.GameState", "touchline.Belief"} <= set(texts)
+    for name, schema in texts.items():
+        assert datatypes(schema, name)
+    world = datatypes(texts["touchline.World"], "touchline.World")
+    assert ("x", "float64") in world["touchline.World.ball"]
+
+
+@pytest.mark.parametrize(
+    "field",
+    [
+        {"$ref": "#/$defs/Pose"},
+        {"anyOf": [{"type": "number"}, {"type": "null"}]},
+        {"type": "array", "items": {"type": "array", "items": {"type": "number"}}},
+        {"type": "array", "items": {}},
+        {"type": "object"},
+        {"type": "null"},
+        {"type": "string", "contentEncoding": "base32"},
+        {"type": "array", "items": {"type": "string", "contentEncoding": "base64"}},
+    ],
+)
+def test_what_no_viewer_reads_is_refused_by_this_port_too(field):
+    """The constructs of the table in reference recording_facts, section 1."""
+    with pytest.raises((ValueError, KeyError)):
+        datatypes({"type": "object", "properties": {"field": field}}, "Message")
+
+
+@pytest.mark.parametrize("name", sorted(MODELS))
+def test_no_reference_and_no_union_is_left(name):
+    text = json.dumps(flat_schema(MODELS[name]))
+    assert not any(word in text for word in ("$ref", "$defs", "anyOf", "oneOf", '"null"', "prefixItems"))
+
+
+@pytest.mark.parametrize("name", sorted(MODELS))
+def test_every_field_of_the_message_is_still_there(name):
+    assert list(flat_schema(MODELS[name])["properties"]) == [
+        field.alias or name for name, field in MODELS[name].model_fields.items()
+    ]
+
+
+def test_the_whole_schema_is_what_a_viewer_refuses():
+    with pytest.raises((ValueError, KeyError)):
+        datatypes(whole_schema(MODELS["World"]), "World")
+
+
+def test_an_optional_part_is_flattened_to_the_part():
+    kick = flat_schema(MODELS["Command"])["properties"]["kick"]
+    assert {name: field["type"] for name, field in kick["properties"].items()} == {"mode": "string", "speed": "number"}
+
+
+def test_what_stands_below_the_robots_names_is_told():
+    robots = flat_schema(MODELS["World"])["properties"]["robots"]
+    assert robots["additionalProperties"]["properties"]["heading"]["type"] == "number"
+
+
+def test_a_field_of_two_types_is_refused_with_a_remedy():
+    class Undecided(Message):
+        value: int | str
+
+    with pytest.raises(ValueError, match="several types"):
+        flat_schema(Undecided)

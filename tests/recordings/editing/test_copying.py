@@ -1,0 +1,168 @@
+"""Recordings compared, filtered and merged: what differs first is found, what is copied keeps every byte."""
+
+import pytest
+
+from recordings.container.key_selection import KeySelection
+from recordings.editing.copying import filter_recording, merge_recordings
+from recordings.inspection.difference import compare
+from recordings.inspection.recording_facts import facts_of
+from recordings.reading.recording import open_recording
+from recordings.recorder.sink import FileLimits
+from schemas.errors import TouchlineError
+from schemas.game import Phase, Score
+from schemas.messages.command import Command, Drive
+from schemas.messages.host import Health
+from schemas.topics import HEALTH
+
+
+def told(recording) -> list[tuple[str, int, int, int, bytes]]:
+    return [(m.key, m.sequence, m.sent_ns, m.log_ns, m.payload) for m in recording.messages()]
+
+
+@pytest.fixture
+def run(make_rig, tmp_path):
+    """Records 120 ticks by name; `change` may say something else at tick 60."""
+
+    def record(name: str, change=None, limits: FileLimits | None = None, ticks: int = 120):
+        rig = make_rig(path=tmp_path / f"{name}.mcap", **({"limits": limits} if limits is not None else {}))
+        rig.begin()
+        rig.host.referee(0, Phase.PLAY, Score())
+        for tick in range(ticks):
+            if tick == 60 and change is not None:
+                change(rig.host)
+            rig.host.play(tick)
+            rig.recorder.pump()
+        return [open_recording(file) for file in rig.leave().files]
+
+    return record
+
+
+def test_two_recordings_of_one_course_of_events_are_identical(run):
+    (one,), (other,) = run("a"), run("b")
+    found = compare(one, other)
+    assert (found.identical, found.messages, found.keys, found.left_out) == (True, 721, 7, [])
+
+
+def test_what_depends_on_wall_time_is_left_out_unless_it_is_asked_for(run):
+    def health(host):
+        host.batches.publisher(HEALTH).put(Health(tick=60, time=1.2, pace="lockstep", real_time_factor=7.0))
+
+    def again(host):
+        host.writers["robot/cyan1/command"].put(Command(answers_tick=59, drive=Drive(vx=1.0)))
+
+    (one,) = run("a")
+    for name, change, key in (("b", health, "host/health"), ("c", again, "robot/cyan1/command")):
+        (other,) = run(name, change)
+        assert compare(one, other).identical
+        found = compare(one, other, everything=True)
+        assert found.first is not None
+        assert found.first.key == key
+
+
+def test_the_first_message_that_differs_is_named_with_its_fields(run):
+    def nudge(host):
+        world = host.writers["world"]
+        put = world.put
+
+        def differ(message):
+            world.put = put
+            ball = message.ball.model_copy(update={"x": message.ball.x + 1e-9})
+            put(message.model_copy(update={"ball": ball}))
+
+        world.put = differ
+
+    (one,), (other,) = run("a"), run("b", nudge)
+    first = compare(one, other).first
+    assert first is not None
+    assert (first.key, first.number, first.time, first.missing_in) == ("world", 60, 1.2, "")
+    (field,) = first.fields
+    assert field.path == "ball.x"
+    assert field.by == pytest.approx(1e-9, rel=1e-3)
+
+
+def test_the_earliest_difference_counts_though_another_key_differs_later(run):
+    def changed(host):
+        host.goal(60)
+
+    (one,), (other,) = run("a"), run("b", changed)
+    assert compare(one, other).first.key == "game/event"
+    assert compare(one, other).first.missing_in == "first"
+    assert compare(other, one).first.missing_in == "second"
+    assert compare(one, other, KeySelection(exclude=("game/event",))).identical
+
+
+def test_a_recording_that_ends_earlier_differs_where_it_ends(run):
+    (one,), (other,) = run("a"), run("b", ticks=100)
+    first = compare(one, other).first
+    assert (first.number, first.time, first.missing_in) == (100, 2.0, "second")
+
+
+def test_a_filtered_recording_has_the_chosen_keys_and_seconds_byte_for_byte(run, tmp_path):
+    (recording,) = run("a")
+    out = tmp_path / "part.mcap"
+    copied = filter_recording(recording, out, KeySelection(("robot/**", "game/state")), start=1.0, end=2.0)
+
+    part = open_recording(out, whole=True)
+    assert part.manifest.made == "filtered"
+    assert part.manifest.setup == recording.manifest.setup
+    assert part.attachments == recording.attachments
+    assert part.manifest.standing == 1  # the state that was said at tick 0
+    wanted = [m for m in told(recording) if m[0].startswith("robot/") and 1_000_000_000 <= m[3] < 2_000_000_000]
+    assert told(part)[1:] == wanted
+    assert told(part)[0][0] == "game/state"
+    assert copied.messages == len(wanted) + 1
+    facts = facts_of(part)
+    assert (facts.messages, facts.lost) == (len(wanted), 0)
+    assert part.result.keys["robot/cyan1/command"].messages == 50
+
+
+def test_a_copy_is_not_written_over_what_is_read(run):
+    (recording,) = run("a")
+    with pytest.raises(TouchlineError, match="another name"):
+        filter_recording(recording, recording.path)
+    assert open_recording(recording.path, whole=True)
+
+
+def test_the_files_of_a_split_recording_are_merged_to_what_one_file_would_have_been(run, tmp_path):
+    (whole,) = run("whole")
+    parts = run("split", limits=FileLimits(duration=0.7))
+    assert len(parts) == 4
+    copied = merge_recordings(list(reversed(parts)), tmp_path / "merged.mcap")
+
+    merged = open_recording(copied.path, whole=True)
+    assert told(merged) == told(whole)
+    assert merged.result.keys == whole.result.keys
+    assert copied.dropped == sum(part.manifest.standing for part in parts)
+
+
+def test_two_recordings_of_different_keys_become_one(run, tmp_path):
+    (recording,) = run("a")
+    paths = [tmp_path / "robots.mcap", tmp_path / "rest.mcap"]
+    filter_recording(recording, paths[0], KeySelection(("robot/**", "world")))
+    filter_recording(recording, paths[1], KeySelection(exclude=("robot/**",)))
+    merged = merge_recordings([open_recording(path) for path in paths], tmp_path / "merged.mcap")
+    assert merged.dropped == 120  # both have the world
+    assert sorted(told(open_recording(merged.path))) == sorted(told(recording))
+    assert compare(recording, open_recording(merged.path)).identical
+
+
+def test_two_runs_of_one_match_are_not_merged(run, make_rig, tmp_path):
+    (one,) = run("a")
+    rig = make_rig(path=tmp_path / "b.mcap")
+    rig.begin()
+    rig.host.bus.clock.sleep_until(5.0)
+    rig.play(range(10))
+    (other,) = rig.leave().files
+    with pytest.raises(TouchlineError, match="different runs"):
+        merge_recordings([one, open_recording(other)], tmp_path / "merged.mcap")
+    assert not list(tmp_path.glob("merged*"))
+
+
+def test_a_file_that_was_cut_off_can_be_filtered_and_says_so(run, tmp_path):
+    (recording,) = run("a")
+    cut = tmp_path / "cut.mcap"
+    data = recording.path.read_bytes()
+    cut.write_bytes(data[: data.index(b"\x06\0\0\0result")])
+    filter_recording(open_recording(cut), tmp_path / "part.mcap", KeySelection(("world",)))
+    facts = facts_of(open_recording(tmp_path / "part.mcap"))
+    assert (facts.ended, facts.lost) == ("cut_off", 0)

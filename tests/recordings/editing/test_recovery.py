@@ -1,0 +1,317 @@
+"""Files that were cut off, damaged, or left by a killed recorder: what is whole is there, nothing is made up."""
+
+import random
+import subprocess
+import sys
+from itertools import product
+from pathlib import Path
+
+import pytest
+from mcap.reader import make_reader
+from mcap.stream_reader import StreamReader
+
+from recordings.editing.recovery import recover
+from recordings.inspection.recording_facts import facts_of
+from recordings.reading.recording import open_recording
+from schemas.errors import TouchlineError
+
+TIMES = 200
+KILLS = 100
+
+
+@pytest.fixture(scope="module")
+def rng() -> random.Random:
+    return random.Random(7)
+
+
+@pytest.fixture
+def several_chunks(make_rig) -> Path:
+    """A finished recording of 208 ticks in 16 chunks."""
+    rig = make_rig()
+    rig.begin()
+    clock = rig.recorder_bus.clock
+    for tick in range(208):
+        rig.host.play(tick)
+        clock.sleep_until(clock.now() + 0.02)
+        rig.recorder.pump()
+        if tick % 13 == 12:
+            rig.sink.sync()  # ends a chunk, however busy the machine is
+    rig.host.goal(207)
+    rig.leave()
+    return rig.path
+
+
+def told(path: Path) -> list[tuple[str, int, int, bytes]]:
+    return [(m.key, m.sequence, m.log_ns, m.payload) for m in open_recording(path).messages()]
+
+
+def check_with_the_stock_readers(path: Path) -> int:
+    """Indexed and as a stream, with checksums; returns how many messages both find, those for viewers left out."""
+    with path.open("rb") as file:
+        reader = make_reader(file, validate_crcs=True)
+        encodings = [channel.message_encoding for _, channel, _ in reader.iter_messages()]
+        by_index = len(encodings)
+        statistics = reader.get_summary().statistics
+        assert statistics.message_count == by_index == sum(statistics.channel_message_counts.values())
+        assert statistics.chunk_count == len(reader.get_summary().chunk_indexes)
+        list(reader.iter_attachments())
+        file.seek(0)
+        records = list(StreamReader(file, validate_crcs=True).records)
+    assert sum(type(record).__name__ == "Message" for record in records) == by_index
+    return encodings.count("json")
+
+
+def test_a_file_that_is_whole_is_left_as_it_is(several_chunks):
+    before = several_chunks.read_bytes()
+    done = recover(several_chunks)
+    assert (done.repaired, done.messages, done.cut) == (False, 1249, 0)
+    assert several_chunks.read_bytes() == before
+
+
+def test_a_part_that_was_left_becomes_a_recording_in_place(make_rig):
+    rig = make_rig()
+    rig.begin()
+    rig.play(range(100))
+    rig.sink.sync()
+    rig.sink.abandon()
+    part = rig.path.with_name("match.mcap.part")
+    before = told(part)
+
+    done = recover(part)
+    assert (done.path, done.repaired, done.damaged, done.rest) == (rig.path, True, 0, None)
+    assert told(rig.path) == before
+    assert check_with_the_stock_readers(rig.path) == len(before) == done.messages
+    facts = facts_of(open_recording(rig.path, whole=True))
+    assert (facts.ended, facts.lost, facts.complete) == ("cut_off", 0, True)
+    assert not part.exists()
+
+
+def test_a_file_cut_off_anywhere_holds_an_exact_beginning_or_says_that_nothing_is_in_it(several_chunks, tmp_path, rng):
+    data, whole = several_chunks.read_bytes(), told(several_chunks)
+    path = tmp_path / "cut.mcap"
+    lengths = []
+    for number in range(TIMES):
+        size = rng.randrange(len(data))
+        path.write_bytes(data[:size] + bytes(4096 if number % 4 == 0 else 0))
+        try:
+            open_recording(path)
+            readable = told(path)
+            done = recover(path)
+        except TouchlineError as error:
+            assert "\n" not in str(error)
+            assert size < 120_000
+            continue
+        rest = told(path)
+        assert rest == whole[: len(rest)]
+        assert rest[: len(readable)] == readable
+        assert check_with_the_stock_readers(path) == len(rest) == done.messages
+        assert open_recording(path, whole=True).manifest == open_recording(several_chunks).manifest
+        lengths.append(len(rest))
+    assert len(lengths) > TIMES / 4
+    assert len({*lengths}) > 12
+
+
+def test_all_whole_chunks_before_the_cut_are_there(several_chunks, tmp_path):
+    """Cut in the middle of each chunk, and of the indexes behind it: the chunks before it stay, and it itself too."""
+    data, whole = several_chunks.read_bytes(), told(several_chunks)
+    with several_chunks.open("rb") as file:
+        chunks = make_reader(file).get_summary().chunk_indexes
+    counts = [0, *(sum(entry[2] <= chunk.message_end_time for entry in whole) for chunk in chunks)]
+    path = tmp_path / "cut.mcap"
+    for number, chunk in enumerate(chunks):
+        end = chunk.chunk_start_offset + chunk.chunk_length
+        for size, found in ((end - 1, counts[number]), (end, counts[number + 1]), (end + 20, counts[number + 1])):
+            path.write_bytes(data[:size])
+            assert recover(path).messages == found
+            assert told(path) == whole[:found]
+            check_with_the_stock_readers(path)
+
+
+def test_a_flipped_bit_is_told_or_does_no_harm(several_chunks, tmp_path, rng):
+    """Never a traceback, never data that is silently wrong: reading gives the truth, a part of it, or one sentence."""
+    data, whole = several_chunks.read_bytes(), told(several_chunks)
+    manifest = open_recording(several_chunks).manifest
+    attachments = open_recording(several_chunks).attachments
+    path, truth = tmp_path / "flipped.mcap", {*whole}
+    sentences = harmless = 0
+    for _ in range(TIMES):
+        changed = bytearray(data)
+        at = rng.randrange(len(data))
+        changed[at] ^= 1 << rng.randrange(8)
+        path.write_bytes(changed)
+        try:
+            recording = open_recording(path)
+            assert recording.manifest == manifest
+            assert all(attachments[name] == content for name, content in recording.attachments.items())
+            rest = told(path)
+            assert rest == whole or not recording.complete
+            assert truth.issuperset(rest)
+            facts_of(recording)
+            harmless += 1
+        except TouchlineError as error:
+            assert "\n" not in str(error)
+            assert str(path) in str(error)
+            sentences += 1
+        try:
+            recover(path)
+            kept = told(path)
+        except TouchlineError as error:
+            assert "\n" not in str(error)
+            continue
+        entries = iter(whole)
+        assert all(entry in entries for entry in kept)  # in order, nothing made up
+        check_with_the_stock_readers(path)
+    assert sentences > TIMES / 10
+    assert harmless > TIMES / 10
+
+
+def test_a_damaged_chunk_is_left_out_and_the_rest_stays(several_chunks):
+    whole = told(several_chunks)
+    with several_chunks.open("rb") as file:
+        chunk = make_reader(file).get_summary().chunk_indexes[5]
+    data = bytearray(several_chunks.read_bytes())
+    data[chunk.chunk_start_offset + chunk.chunk_length // 2] ^= 4
+    several_chunks.write_bytes(data)
+    with pytest.raises(TouchlineError, match=r"damaged inside.*touchline recover"):
+        told(several_chunks)
+
+    done = recover(several_chunks)
+    assert (done.repaired, done.damaged, done.cut) == (True, 1, 0)
+    gone = [entry for entry in whole if chunk.message_start_time <= entry[2] <= chunk.message_end_time]
+    assert told(several_chunks) == [entry for entry in whole if entry not in gone]
+    assert facts_of(open_recording(several_chunks)).lost == len(gone)
+    check_with_the_stock_readers(several_chunks)
+
+
+@pytest.mark.parametrize(
+    ("what", "bit"), [*product(("chunk", "index"), range(8)), *product(("metadata",), (0, 1, 2, 3, 7))]
+)
+def test_a_record_whose_opcode_changed_is_left_out_and_the_rest_stays(several_chunks, bit, what):
+    """One bit makes a footer of a chunk, an end of all data of an index, a channel of metadata."""
+    whole = told(several_chunks)
+    with several_chunks.open("rb") as file:
+        summary = make_reader(file).get_summary()
+    chunk = summary.chunk_indexes[5]
+    index = min(chunk.message_index_offsets.values())
+    place = {"chunk": chunk.chunk_start_offset, "index": index, "metadata": summary.metadata_indexes[-1].offset}[what]
+    data = bytearray(several_chunks.read_bytes())
+    data[place] ^= 1 << bit
+    several_chunks.write_bytes(data)
+
+    done = recover(several_chunks)
+    assert (done.repaired, done.cut) == (True, 0)
+    lost = [entry for entry in whole if chunk.message_start_time <= entry[2] <= chunk.message_end_time]
+    kept = told(several_chunks)
+    assert kept == (whole if what != "chunk" else [entry for entry in whole if entry not in lost])
+    assert check_with_the_stock_readers(several_chunks) == len(kept)
+
+
+def test_what_is_cut_off_beyond_a_chunk_is_kept_beside_it(several_chunks, tmp_path):
+    """A head that was damaged in a file without a summary hides all behind it; a repair must not destroy that."""
+    with several_chunks.open("rb") as file:
+        chunk = make_reader(file).get_summary().chunk_indexes[3]
+    data = bytearray(several_chunks.read_bytes()[: chunk.chunk_start_offset + 100])
+    data[chunk.chunk_start_offset + 5] ^= 0x40
+    rest = random.Random(1).randbytes(300_000)
+    path = tmp_path / "cut.mcap"
+    path.write_bytes(bytes(data) + rest)
+    done = recover(path)
+    assert done.rest == tmp_path / "cut.mcap.rest"
+    assert done.rest.read_bytes() == bytes(data[chunk.chunk_start_offset :]) + rest
+
+
+@pytest.mark.parametrize("content", [b"", b"tick,x,y\n1,2,3\n", b"\x89MCAP0\r\n", b"\x89MCAP0\r\n" + bytes(5000)])
+def test_what_is_no_recording_cannot_be_recovered(tmp_path, content):
+    path = tmp_path / "table.mcap"
+    path.write_bytes(content)
+    with pytest.raises(TouchlineError, match=r"not a recording|nothing in it can be recovered"):
+        recover(path)
+    assert path.read_bytes() == content
+
+
+def test_a_file_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(TouchlineError, match=r"gone\.mcap: No such file"):
+        recover(tmp_path / "gone.mcap")
+
+
+WRITES = """
+import os, sys
+from pathlib import Path
+sys.path.insert(0, sys.argv[1])
+from conftest import make_world
+import recordings.recorder.recording_writer as module
+from recordings.container.header import make_manifest
+from schemas.bus.contract import ReceivedMessage, Stamp
+from schemas.process.clock import WallClock
+from schemas.topics import WORLD
+module.FLUSH_S = 0.02
+payloads = [make_world(tick).encode() for tick in range(500)]
+manifest = make_manifest("friendly", "test", WallClock(), None, None, sights=False)
+
+def write(path):
+    clock = WallClock()
+    writer = module.RecordingWriter(Path(path), clock, "friendly")
+    flush, handed, written = writer._mcap.flush, [0], [0]
+    write_batch = writer._write_batch
+    def count(batch):
+        write_batch(batch)
+        handed[0] += len(batch)
+    def flushed():
+        flush()
+        os.write(1, b"%d\\n" % handed[0])
+    writer._write_batch, writer._mcap.flush = count, flushed
+    writer.begin(manifest, {})
+    number = 0
+    while True:
+        batch = []
+        for _ in range(20):
+            received = ReceivedMessage(WORLD, "world", payloads[number % 500], Stamp(number, number, number * 1000))
+            batch.append((number * 1000, received))
+            number += 1
+        writer.write(batch)
+        clock.sleep_until(clock.now() + 0.001)
+
+for line in sys.stdin:
+    child = os.fork()
+    if child == 0:
+        write(line.strip())
+    os.write(1, b"%d\\n" % -child)
+    os.waitpid(child, 0)
+    os.write(1, b"dead\\n")
+"""
+
+
+@pytest.mark.processes
+def test_a_recorder_that_is_killed_at_any_moment_leaves_all_that_it_had_flushed(tmp_path):
+    """A hundred writers, each killed at a random instant; what they say they flushed is what has to be there."""
+    import os
+    import signal
+    import time
+
+    rng = random.Random(11)
+    home = str(Path(__file__).parents[1])
+    nursery = subprocess.Popen(
+        [sys.executable, "-c", WRITES, home], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    assert nursery.stdin is not None and nursery.stdout is not None
+    recovered = 0
+    for number in range(KILLS):
+        part = tmp_path / f"{number}.mcap.part"
+        nursery.stdin.write(f"{tmp_path / f'{number}.mcap'}\n")
+        nursery.stdin.flush()
+        child, flushed = 0, 0
+        while child == 0 or flushed == 0:
+            said = int(nursery.stdout.readline())
+            child, flushed = (-said, flushed) if said < 0 else (child, max(flushed, said))
+        time.sleep(rng.uniform(0.0, 0.08))
+        os.kill(child, signal.SIGKILL)
+        while (line := nursery.stdout.readline()) != "dead\n":
+            flushed = max(flushed, int(line))
+        done = recover(part)
+        messages = [(message.sequence, message.sent_ns) for message in open_recording(done.path).messages("world")]
+        assert len(messages) >= flushed > 0
+        assert messages == [(n, n) for n in range(len(messages))]
+        recovered += len(messages)
+        done.path.unlink()
+    nursery.communicate("")
+    assert recovered >= 20 * KILLS  # a batch each at least

@@ -1,0 +1,54 @@
+import json
+
+from recordings.inspection.recording_facts import CUT_OFF, HEADINGS, facts_of, key_rows, summary_lines
+from recordings.reading.recording import open_recording
+
+
+def test_the_facts_are_those_that_were_written(recorded):
+    facts = facts_of(recorded)
+    assert facts.match == "friendly"
+    assert (facts.profile, facts.rules, facts.pace, facts.seed) == ("msl", "friendly", "lockstep", 7)
+    assert facts.teams == {"cyan": "Team cyan", "magenta": "Team magenta"}
+    assert (facts.tick, facts.duration) == (199, 3.98)
+    assert facts.score == {"cyan": 1, "magenta": 0}
+    assert (facts.phase, facts.ended) == ("full_time", "full_time")
+    assert (facts.messages, facts.lost, facts.events) == (6 * 200 + 3, 0, 1)
+    assert facts.size == recorded.path.stat().st_size
+    assert facts.complete
+
+
+def test_each_key_has_its_messages_rate_bytes_and_losses(rig):
+    rig.play(range(20))
+    rig.host.writers["world"]._writer._sequence += 3
+    rig.play(range(20, 51))
+    rig.leave()
+    recording = rig.read()
+
+    world = next(key for key in facts_of(recording).keys if key.key == "world")
+    assert world.messages == 51
+    assert world.rate == 50.0
+    assert world.lost == 3
+    assert world.bytes == sum(len(message.payload) for message in recording.messages("world"))
+
+
+def test_the_facts_of_a_cut_off_file_are_gathered_from_what_is_left(rig):
+    rig.play(range(20))
+    rig.host.writers["world"]._writer._sequence += 3
+    rig.play(range(20, 50))
+    rig.leave()
+    path = rig.path.with_name("cut.mcap.part")
+    data = rig.path.read_bytes()
+    path.write_bytes(data[: data.index(b"result")])
+
+    whole, left = facts_of(rig.read()), facts_of(open_recording(path))
+    assert (left.complete, left.ended) == (False, CUT_OFF)
+    assert (left.tick, left.messages, left.lost) == (whole.tick, whole.messages, 3)
+
+
+def test_the_facts_are_json_and_a_table(recorded):
+    facts = facts_of(recorded)
+    assert json.loads(json.dumps(facts.to_json()))["keys"][0]["key"] == "game/event"
+    table = key_rows(facts)
+    assert len(table) == 8
+    assert {len(row) for row in table} == {len(HEADINGS)}
+    assert dict(summary_lines(facts))["score"] == "1 : 0"

@@ -1,0 +1,156 @@
+import pytest
+from mcap.reader import make_reader
+from mcap.writer import Writer
+
+from recordings.container.manifest import MANIFEST, sealed
+from recordings.container.mcap_file import open_mcap_file
+from recordings.reading.recording import open_recording
+from schemas.errors import TouchlineError
+from schemas.messages.world import World
+from schemas.topics import COMMAND
+
+
+def cut(path, share: float):
+    data = path.read_bytes()
+    shorter = path.with_name("cut.mcap.part")
+    shorter.write_bytes(data[: round(len(data) * share)])
+    return shorter
+
+
+def test_channels_have_counts_rates_and_times(recorded):
+    channels = {channel.key: channel for channel in recorded.channels}
+    assert len(channels) == 8
+    world = channels["world"]
+    assert (world.topic, world.message, world.messages) == ("world", "World", 200)
+    assert (world.start, world.end) == (0.0, 3.98)
+    assert world.rate == pytest.approx(50.0)
+
+
+def test_messages_are_chosen_by_key_pattern_and_simulated_time(recorded):
+    chosen = list(recorded.messages(COMMAND.fill(), "world", start=1.0, end=1.1))
+    assert sorted({message.key for message in chosen}) == [
+        "robot/cyan1/command",
+        "robot/cyan2/command",
+        "robot/magenta1/command",
+        "robot/magenta2/command",
+        "world",
+    ]
+    assert {message.time for message in chosen} == {1.0, 1.02, 1.04, 1.06, 1.08}
+    assert len(chosen) == 25
+
+
+def test_messages_are_decoded_to_the_models_of_the_schemas(recorded):
+    worlds = [message for _, message in recorded.decoded("world")]
+    assert all(isinstance(world, World) for world in worlds)
+    assert [world.tick for world in worlds] == list(range(200))
+
+
+@pytest.mark.parametrize("share", [0.35, 0.6, 0.9, 0.999])
+def test_a_truncated_file_is_readable_up_to_the_cut(make_rig, share):
+    rig = make_rig()
+    rig.begin()
+    clock = rig.recorder_bus.clock
+    for tick in range(600):
+        rig.host.play(tick)
+        clock.sleep_until(clock.now() + 0.02)
+        rig.recorder.pump()
+    rig.leave()
+    whole = [message.payload for message in rig.read().messages()]
+
+    recording = open_recording(cut(rig.path, share))
+    rest = [message.payload for message in recording.messages()]
+    assert not recording.complete
+    assert recording.manifest == rig.read().manifest
+    assert 0 < len(rest) <= len(whole)
+    assert rest == whole[: len(rest)]
+    assert sum(channel.messages for channel in recording.channels) == len(rest)
+    assert len(list(recording.messages("world", start=0.2, end=0.4))) == 10
+
+
+def test_a_file_that_is_still_written_may_have_got_its_channels_since_it_was_looked_into(recorded):
+    """As seen once: the first chunk was written between the look and the reading."""
+    begun = recorded.path.with_name("begun.mcap.part")
+    data = recorded.path.read_bytes()
+    with recorded.path.open("rb") as file:
+        first = make_reader(file).get_summary().chunk_indexes[0]
+    begun.write_bytes(data[: first.chunk_start_offset])
+    recording = open_recording(begun)
+    begun.write_bytes(data[: first.chunk_start_offset + first.chunk_length])
+    assert list(recording.messages("world")) == []
+    assert len(list(open_recording(begun).messages("world"))) > 0
+
+
+def test_zeros_after_the_cut_do_no_harm(recorded):
+    whole = len(list(recorded.messages()))
+    path = cut(recorded.path, 0.97)
+    path.write_bytes(path.read_bytes() + bytes(4096))
+    recording = open_recording(path)
+    assert not recording.complete
+    assert len(list(recording.messages())) <= whole
+
+
+def test_a_truncated_file_is_refused_by_name_where_a_whole_one_is_needed(recorded):
+    with pytest.raises(TouchlineError, match="truncated file"):
+        open_recording(cut(recorded.path, 0.9), whole=True)
+
+
+def test_a_file_cut_off_before_its_manifest_says_so(recorded):
+    path = recorded.path.with_name("stump.mcap")
+    path.write_bytes(recorded.path.read_bytes()[:20])
+    with pytest.raises(TouchlineError, match="before its manifest"):
+        open_recording(path)
+
+
+@pytest.mark.parametrize("content", [b"", b"tick,x,y\n1,2,3\n", b"\x89MCAP"])
+def test_anything_else_is_not_a_recording(tmp_path, content):
+    path = tmp_path / "table.mcap"
+    path.write_bytes(content)
+    with pytest.raises(TouchlineError, match="not a recording"):
+        open_recording(path)
+
+
+def test_a_file_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(TouchlineError, match=r"gone\.mcap: No such file"):
+        open_recording(tmp_path / "gone.mcap")
+
+
+def test_somebody_elses_mcap_file_is_not_a_recording_of_a_match(tmp_path):
+    path = tmp_path / "other.mcap"
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        writer.finish()
+    with pytest.raises(TouchlineError, match="without a manifest"):
+        open_recording(path)
+
+
+def test_another_major_version_is_refused_with_both_versions(recorded, tmp_path):
+    path = tmp_path / "old.mcap"
+    metadata = open_mcap_file(recorded.path).metadata[MANIFEST]
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        writer.add_metadata("manifest", sealed({**metadata, "contract": "2.3"}))
+        writer.finish()
+    with pytest.raises(TouchlineError, match=r"version 2\.3.*speaks 1\.0"):
+        open_recording(path)
+
+
+def test_what_a_later_version_added_to_the_manifest_is_passed_over(recorded, tmp_path):
+    path = tmp_path / "newer.mcap"
+    metadata = open_mcap_file(recorded.path).metadata[MANIFEST]
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        writer.add_metadata("manifest", sealed({**metadata, "weather": "rain", "attached": "{}"}))
+        writer.finish()
+    assert open_recording(path).manifest == recorded.manifest.model_copy(update={"attached": {}})
+
+
+def test_damage_inside_a_finished_file_is_said_and_not_passed_over(recorded):
+    data = bytearray(recorded.path.read_bytes())
+    middle = data.rindex(b"zstd", 0, len(data) // 2) + 200
+    data[middle : middle + 40] = bytes(40)
+    recorded.path.write_bytes(data)
+    with pytest.raises(TouchlineError, match="damaged inside"):
+        list(open_recording(recorded.path).messages())

@@ -1,0 +1,501 @@
+from mcap.reader import make_reader
+from mcap.records import Message, Metadata
+from mcap.stream_reader import StreamReader
+
+from recordings.container.manifest import EndReason
+from recordings.reading.recording import open_recording
+from recordings.recorder.recording_writer import RecordingWriter
+from schemas.bus.contract import Bus, ReceivedMessage, Stamp
+from schemas.game import Phase, Score
+from schemas.messages.host import Health
+from schemas.messages.recorder import RecorderOperation, RecorderRequest
+from schemas.messages.world import World
+from schemas.topics import (
+    COMMAND,
+    EVENT,
+    HEALTH,
+    ORDER,
+    RECORD_BATCH,
+    RECORDER_CONTROL,
+    RECORDER_PROGRESS,
+    SIGHT,
+    WORLD,
+)
+
+
+def records(path):
+    with path.open("rb") as file:
+        return list(StreamReader(file, validate_crcs=True).records)
+
+
+def stock_messages(path):
+    with path.open("rb") as file:
+        return [(channel, message) for _, channel, message in make_reader(file).iter_messages(log_time_order=False)]
+
+
+def reports(bus: Bus):
+    return bus.subscribe(RECORDER_PROGRESS)
+
+
+def test_nothing_is_lost_and_each_key_keeps_its_order(rig):
+    rig.play(range(300), pump_every=7)
+    summary = rig.leave()
+
+    by_key: dict[str, list[bytes]] = {}
+    for recorded in rig.read().messages():
+        by_key.setdefault(recorded.key, []).append(recorded.payload)
+    assert [World.decode(payload).tick for payload in by_key["world"]] == list(range(300))
+    assert {len(payloads) for payloads in by_key.values()} == {300}
+    assert len(by_key) == 6
+    assert summary.result.messages == 1800
+    assert summary.result.lost == 0
+    assert summary.result.missed_before_start == 0
+
+
+def test_ticks_stand_one_after_another_however_seldom_the_recorder_looks(rig):
+    rig.play(range(100), pump_every=40)
+    rig.leave()
+
+    ticks = [round(recorded.time / 0.02) for recorded in rig.read().messages()]
+    assert ticks == [tick for tick in range(100) for _ in range(6)]
+
+
+def test_the_order_of_the_file_does_not_depend_on_when_the_recorder_looks(make_rig, tmp_path):
+    orders = []
+    for pump_every in (1, 13):
+        rig = make_rig(path=tmp_path / f"{pump_every}.mcap")
+        rig.begin()
+        rig.play(range(80), pump_every)
+        rig.leave()
+        orders.append([(recorded.key, recorded.sequence, recorded.log_ns) for recorded in rig.read().messages()])
+    assert orders[0] == orders[1]
+
+
+def test_the_file_opens_with_the_stock_reader_and_carries_sequence_and_times(rig):
+    rig.host.bus.clock.sleep_until(5.0)
+    rig.play(range(50))
+    rig.leave()
+
+    worlds = [message for channel, message in stock_messages(rig.path) if channel.topic == "world"]
+    assert [message.sequence for message in worlds] == list(range(50))
+    assert [message.log_time for message in worlds] == [tick * 20_000_000 for tick in range(50)]
+    assert {message.publish_time for message in worlds} == {5_000_000_000}
+
+
+def test_channels_say_what_they_carry(rig):
+    rig.play(range(3))
+    rig.leave()
+
+    channel = next(c for c, _ in stock_messages(rig.path) if c.topic == "robot/cyan1/command")
+    assert channel.message_encoding == "json"
+    assert channel.metadata == {
+        "key": "touchline/friendly/robot/cyan1/command",
+        "topic": "command",
+        "row": "robot/{robot}/command",
+        "message": "Command",
+        "version": "1.0",
+        "robot": "cyan1",
+        "side": "cyan",
+        "team": "Team cyan",
+        "model": "standard",
+    }
+
+
+def test_each_message_model_is_registered_once(rig):
+    rig.play(range(3))
+    rig.leave()
+
+    with rig.path.open("rb") as file:
+        summary = make_reader(file).get_summary()
+    assert sorted((schema.name, schema.encoding) for schema in summary.schemas.values()) == [
+        ("foxglove.FrameTransforms", "protobuf"),
+        ("foxglove.SceneUpdate", "protobuf"),
+        ("touchline.Applied", "jsonschema"),
+        ("touchline.Command", "jsonschema"),
+        ("touchline.World", "jsonschema"),
+    ]
+
+
+def test_the_manifest_stands_before_the_first_message_and_the_result_after_the_last(rig):
+    rig.play(range(100))
+    rig.leave()
+
+    found = records(rig.path)
+    named = [(index, record.name) for index, record in enumerate(found) if isinstance(record, Metadata)]
+    messages = [index for index, record in enumerate(found) if isinstance(record, Message)]
+    assert [name for _, name in named] == ["manifest", "result"]
+    assert named[0][0] < messages[0]
+    assert named[1][0] > messages[-1]
+
+
+def test_log_time_never_runs_backward_though_simulated_time_does(rig):
+    rig.play(range(50, 100))
+    rig.play(range(10))
+    rig.play(range(95, 110))
+    rig.leave()
+
+    times = [message.log_time for _, message in stock_messages(rig.path)]
+    assert times == sorted(times)
+    worlds = [message for recorded, message in rig.read().decoded("world")]
+    assert [world.tick for world in worlds] == [*range(50, 100), *range(10), *range(95, 110)]
+
+
+def test_a_robot_that_claims_to_be_far_ahead_does_not_drag_the_time_of_the_file_along(rig):
+    rig.play(range(10))
+    rig.host.robots.clock.sim_ns = 10**18
+    rig.host.writers["robot/cyan1/command"].put_payload(b"{}")
+    rig.play(range(10, 60))
+    rig.leave()
+
+    assert max(message.log_time for _, message in stock_messages(rig.path)) == 59 * 20_000_000
+
+
+def test_a_sender_without_simulated_time_is_recorded_at_the_hosts(make_rig):
+    rig = make_rig()
+    coach = rig.host.bus.medium.open_bus("friendly", type(rig.host.bus.clock)())
+    order = coach.publisher(ORDER, side="cyan")
+    rig.begin()
+    rig.play(range(50))
+    rig.recorder.pump()
+    order.put_payload(b'{"version":"1.0","sequence":1}')
+    rig.host.relay(49)
+    rig.recorder.pump()
+    rig.play(range(50, 100))
+    rig.leave()
+
+    (recorded,) = rig.read().messages("team/cyan/order")
+    assert recorded.log_ns == 49 * 20_000_000
+
+
+def test_a_gap_in_the_sequence_is_counted_on_its_key(rig):
+    rig.play(range(10))
+    world = rig.host.writers["world"]
+    world._writer._sequence += 4
+    rig.play(range(10, 20))
+    summary = rig.leave()
+
+    counts = summary.result.keys
+    assert counts["world"].lost == 4
+    assert counts["host/applied"].lost == 0
+    assert summary.result.lost == 4
+    assert rig.read().result.keys["world"].lost == 4
+
+
+def test_what_was_sent_before_the_recorder_came_is_counted_apart(rig):
+    for name in ("world", "host/applied"):
+        rig.host.writers[name]._writer._sequence = 30
+    rig.play(range(30, 40))
+    summary = rig.leave()
+
+    assert summary.result.keys["world"].missed_before_start == 30
+    assert summary.result.missed_before_start == 60
+    assert summary.result.lost == 0
+
+
+def test_a_payload_that_cannot_be_read_is_recorded_as_it_is(rig):
+    junk = b'{"answers_tick": "soon", \xff\xfe'
+    rig.play(range(5))
+    rig.host.writers["robot/cyan2/command"].put_payload(junk)
+    rig.host.writers["host/applied"].put_payload(junk)
+    rig.host.relay(4)
+    rig.recorder.pump()
+    rig.play(range(5, 10))
+    summary = rig.leave()
+
+    recording = rig.read()
+    assert junk in [recorded.payload for recorded in recording.messages("robot/cyan2/command")]
+    assert len(list(recording.decoded("robot/cyan2/command"))) == 10
+    assert recording.unreadable == {"robot/cyan2/command": 1}
+    assert summary.result.unreadable == {"host/applied": 1}
+    assert summary.result.tick == 9
+
+
+def test_a_message_without_a_stamp_is_recorded_and_counted_as_unstamped(rig):
+    rig.play(range(5))
+    for reader in rig.recorder_bus.medium.subscriptions["friendly/" + COMMAND.key]:
+        reader.deliver("robot/cyan1/command", ReceivedMessage(COMMAND, "robot/cyan1/command", b"{}", None))
+    rig.host.relay(5)
+    summary = rig.leave()
+
+    assert summary.result.keys["robot/cyan1/command"].unstamped == 1
+    assert summary.result.keys["robot/cyan1/command"].messages == 6
+
+
+def test_sights_are_recorded_on_demand_and_then_all_of_them(make_rig, tmp_path):
+    for sights, expected in ((True, 30), (False, 0)):
+        rig = make_rig(sights=sights, path=tmp_path / f"{sights}.mcap")
+        rig.begin()
+        sight = rig.host.bus.publisher(SIGHT, robot="cyan1")
+        for _ in range(30):
+            sight.put_payload(b"{}")
+        rig.leave()
+        assert len(list(rig.read().messages("robot/cyan1/sight"))) == expected
+        assert rig.read().manifest.sights is sights
+
+
+def test_the_setup_is_asked_for_again_until_the_host_answers(make_rig):
+    rig = make_rig()
+    rig.host.play(0)
+    for _ in range(20):
+        rig.recorder.pump()
+        rig.recorder_bus.clock.sleep_until(rig.recorder_bus.clock.now() + 0.1)
+    rig.host.answer()
+    rig.recorder.pump()
+    rig.leave()
+
+    recording = rig.read()
+    assert recording.manifest.setup == rig.host.setup
+    assert len(list(recording.messages("world"))) == 1
+
+
+def test_without_an_answer_the_recording_begins_all_the_same(make_rig):
+    rig = make_rig()
+    rig.play(range(10))
+    clock = rig.recorder_bus.clock
+    clock.sleep_until(30.0)
+    rig.recorder.pump()
+    rig.leave()
+
+    assert rig.read().manifest.setup is None
+    assert len(list(rig.read().messages("world"))) == 10
+
+
+def test_progress_is_reported_after_25_ticks_though_no_time_has_passed(rig):
+    heard = reports(rig.host.bus)
+    for tick in range(60):
+        rig.host.play(tick)
+        if tick in (10, 30):
+            rig.recorder.pump()
+
+    ticks = [received.message().tick for received in iter(heard.receive, None)]
+    assert ticks == [30]
+
+
+def test_progress_is_reported_when_the_host_has_fallen_silent(rig):
+    heard = reports(rig.host.bus)
+    rig.host.play(0)
+    rig.recorder.pump()
+    rig.recorder.pump()
+
+    report = heard.receive().message()
+    assert (report.tick, report.messages, report.lost) == (0, 6, 0)
+
+
+def test_progress_is_reported_every_50_ms_of_wall_time(rig):
+    heard = reports(rig.host.bus)
+    clock = rig.recorder_bus.clock
+    for _ in range(100):
+        clock.sleep_until(clock.now() + 0.01)
+        rig.recorder.pump()
+
+    count = len(list(iter(heard.receive, None)))
+    assert 16 <= count <= 21
+
+
+def test_a_recorder_that_joins_late_is_not_behind_by_what_was_before_it(rig):
+    heard = reports(rig.host.bus)
+    rig.host.batches.publisher(HEALTH).put(Health(tick=5000, time=100.0, pace="lockstep", real_time_factor=1.0))
+    rig.host.batches.send()
+    rig.recorder.pump()
+    rig.recorder.pump()
+
+    assert heard.receive().message().tick == 5000
+
+
+def look_for(rig, seconds: float) -> None:
+    """Nothing comes for so long, and the recorder looks all the while."""
+    clock = rig.recorder_bus.clock
+    for _ in range(round(seconds / 0.05)):
+        clock.sleep_until(clock.now() + 0.05)
+        rig.recorder.pump()
+
+
+class Detour:
+    """Keeps back what comes to a recorder in one topic, as a broken link does; it is fetched later."""
+
+    def __init__(self, rig, topic) -> None:
+        (self._reader,) = rig.recorder_bus.medium.subscriptions[f"friendly/{topic.key}"]
+        self._deliver, self._kept = self._reader.deliver, []
+        self._reader.deliver = lambda *message: self._kept.append(message)
+
+    def end(self) -> None:
+        self._reader.deliver = self._deliver
+        for message in self._kept:
+            self._deliver(*message)
+
+
+def play_with_sights(rig, ticks: range, pump_every: int) -> None:
+    """As `RecorderRig.play`, with a sight in each tick."""
+    if (key := "robot/cyan1/sight") not in rig.host.writers:
+        rig.host.writers[key] = rig.host.bus.publisher(SIGHT, robot="cyan1")
+    for tick in ticks:
+        rig.play(range(tick, tick + 1), pump_every=1000)
+        rig.host.writers[key].put_payload(b"{}")
+        if tick % pump_every == 0:
+            rig.recorder.pump()
+
+
+def test_a_tick_counts_as_taken_in_when_its_record_batch_has_come(make_rig):
+    """Or a host would run away from a recorder, or leave the match, while they are fetched still."""
+    rig = make_rig(sights=True)
+    rig.begin()
+    heard = reports(rig.host.bus)
+    play_with_sights(rig, range(40), pump_every=1)
+    detour = Detour(rig, RECORD_BATCH)
+    play_with_sights(rig, range(40, 80), pump_every=1)
+    look_for(rig, 0.2)
+    assert [report.message().tick for report in iter(heard.receive, None)][-1] == 39
+    detour.end()
+    look_for(rig, 0.2)
+    assert [report.message().tick for report in iter(heard.receive, None)][-1] == 79
+
+
+def test_a_host_that_stands_still_leaves_nothing_unwritten_for_long(rig):
+    rig.play(range(4), pump_every=1)
+    look_for(rig, 1.0)
+    rig.sink.abandon()
+
+    assert len(list(open_recording(rig.path.with_name("match.mcap.part")).messages("world"))) == 4
+
+
+def test_what_is_fetched_again_after_a_stall_stands_where_it_belongs(make_rig):
+    """Topics are fetched one by one: what came of the others has to wait, however long the recorder stood still."""
+    rig = make_rig(sights=True)
+    rig.begin()
+    play_with_sights(rig, range(20), pump_every=1)
+    batches, sights = Detour(rig, RECORD_BATCH), Detour(rig, SIGHT)
+    play_with_sights(rig, range(20, 31), pump_every=1000)
+    rig.host.goal(30)
+    play_with_sights(rig, range(31, 80), pump_every=1000)
+    clock = rig.recorder_bus.clock
+    clock.sleep_until(clock.now() + 3.0)
+    look_for(rig, 0.2)
+    batches.end()
+    look_for(rig, 0.6)
+    sights.end()
+    look_for(rig, 2.0)
+    rig.leave()
+
+    recording = rig.read()
+    assert (recording.result.lost, recording.result.keys["world"].messages) == (0, 80)
+    ticks = [round(recorded.time / 0.02) for recorded in recording.messages() if recorded.key != EVENT.key]
+    assert ticks == [tick for tick in range(80) for _ in range(7)]
+    assert [round(recorded.time / 0.02) for recorded in recording.messages(EVENT.key)] == [30]
+
+
+def test_a_goal_is_on_the_disk_before_the_recording_ends(rig, monkeypatch):
+    synced = []
+    monkeypatch.setattr(RecordingWriter, "sync", lambda self: synced.append(True))
+    rig.play(range(20))
+    rig.host.goal(20)
+    rig.play(range(20, 22))
+    rig.recorder.pump()
+    assert synced == []
+    rig.play(range(22, 60))
+    rig.recorder.pump()
+    rig.play(range(60, 90))
+    assert synced == [True]
+
+
+def test_the_result_of_a_match_that_was_played_to_its_end(recorded):
+    result = recorded.result
+    assert result.ended is EndReason.FULL_TIME
+    assert result.phase is Phase.FULL_TIME
+    assert result.score == Score(cyan=1)
+    assert result.events == 1
+    assert result.tick == 199
+    assert result.time == 199 * 0.02
+
+
+def test_the_recording_ends_when_the_host_leaves_early(rig):
+    rig.play(range(10))
+    assert rig.leave().result.ended is EndReason.HOST_GONE
+
+
+def test_a_recorder_polls_at_once_when_it_is_asked_something_and_when_the_match_is_over(rig):
+    """Otherwise five times a second: a look costs more than what it finds."""
+    clock, recorder, looks = rig.recorder_bus.clock, rig.recorder, []
+    pump = recorder.pump
+
+    def look() -> int:
+        looks.append(round(clock.now(), 3))
+        return pump()
+
+    def stop() -> bool:
+        now = round(clock.now(), 3)
+        if now == 0.3:
+            rig.host.bus.query(RECORDER_CONTROL, RecorderRequest(operation=RecorderOperation.STATUS), name="recorder")
+        elif now == 0.65:
+            rig.host.referee(0, Phase.FULL_TIME, Score())
+        return now >= 0.8
+
+    recorder.pump = look
+    recorder.run(stop)
+    assert looks[:7] == [0.0, 0.2, 0.3, 0.5, 0.65, 0.7, 0.75]
+
+
+def test_the_recording_ends_when_it_is_told_to(rig):
+    rig.play(range(10))
+    summary = rig.recorder.run(lambda: True)
+    assert summary.result.ended is EndReason.STOPPED
+    assert len(list(rig.read().messages("world"))) == 10
+
+
+def test_a_recorder_without_a_link_waits_for_nothing_more(rig):
+    """What had come before the link ended is taken in; with a link it waits a moment for what is on its way."""
+    clock, bus = rig.recorder_bus.clock, rig.recorder_bus
+    rig.play(range(20))
+    began = clock.now()
+    rig.recorder.drain(10.0)
+    assert clock.now() - began >= 0.25
+    for tick in range(20, 30):
+        rig.host.play(tick)
+    bus.connected = lambda: False
+    began = clock.now()
+    rig.recorder.drain(10.0)
+    assert clock.now() == began
+    rig.recorder.finish()
+    assert [World.decode(recorded.payload).tick for recorded in rig.read().messages(WORLD.key)] == list(range(30))
+
+
+def test_the_recorder_is_seen_to_be_alive(rig):
+    watch = rig.host.bus.watch_alive()
+    present = {(presence.kind, presence.name) for presence in iter(watch.receive, None)}
+    assert ("recorder", "recorder") in present
+
+
+def test_the_manifest_names_config_versions_and_mathematics(recorded):
+    manifest = recorded.manifest
+    assert manifest.config.seed == 7
+    assert manifest.setup.teams["cyan"].name == "Team cyan"
+    assert {"touchline", "python", "mcap", "numpy", "platform", "machine"} <= set(manifest.versions)
+    assert len(manifest.libm) == 16
+    assert recorded.library.startswith("touchline/")
+
+
+def test_match_file_profile_rules_and_whole_schemas_are_attached(recorded):
+    assert sorted(recorded.attachments) == [
+        "match.json",
+        "message_schemas.json",
+        "profile.json",
+        "rules.toml",
+    ]
+    assert b'"$defs"' in recorded.attachments["message_schemas.json"]
+    assert b'"seed":7' in recorded.attachments["match.json"]
+
+
+def test_a_stamp_counts_modulo_the_32_bits_of_the_file(rig):
+    rig.host.batches.add_received(ReceivedMessage(WORLD, "world", b"{}", Stamp(2**32 + 5, 1, 0)))
+    rig.leave()
+    (recorded,) = rig.read().messages("world")
+    assert recorded.sequence == 5
+
+
+def test_record_batches_that_cannot_be_read_are_counted_and_passed_over(rig):
+    rig.play(range(5))
+    odd = b'{"version":"1.0","tick":5,"entries":[{"key":"robot/cyan1/command","octets":"a"}]}'
+    rig.host.bus.publisher(RECORD_BATCH).put_payload(odd)
+    rig.play(range(5, 10))
+    summary = rig.leave()
+    assert summary.result.unreadable == {"host/record_batch": 1}
+    assert summary.result.keys["robot/cyan1/command"].messages == 10

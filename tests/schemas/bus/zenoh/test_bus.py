@@ -1,0 +1,171 @@
+"""What only the real network can show: addresses, a host that is late, gone, or back."""
+
+import os
+import socket
+import subprocess
+import sys
+import textwrap
+import time
+
+import pytest
+
+from schemas.bus.contract import BusError
+from schemas.bus.endpoint import is_loopback, parse_endpoint, with_free_port
+from schemas.bus.zenoh.bus import open_client, open_host
+from schemas.bus.zenoh.reader import ZenohReader
+from schemas.messages.command import Command
+from schemas.process.clock import WallClock
+from schemas.topic import Topic
+from schemas.topics import COMMAND, SIGHT
+
+
+def test_a_port_in_use_is_one_line_with_the_remedy() -> None:
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    with open_host("test", WallClock(), endpoint), pytest.raises(BusError) as error:
+        open_host("test", WallClock(), endpoint)
+    assert str(error.value).startswith(f"--listen {endpoint} is in use by another process; choose another port")
+    assert "\n" not in str(error.value)
+
+
+def test_a_client_without_a_host_says_so_after_its_patience() -> None:
+    with pytest.raises(BusError, match="no host answers there"):
+        open_client("test", WallClock(), with_free_port("tcp/127.0.0.1:0"), patience=0.0)
+
+
+def test_a_client_goes_on_after_its_host_was_killed_and_came_back() -> None:
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    host = open_host("test", WallClock(), endpoint)
+    with open_client("test", WallClock(), endpoint) as client:
+        writer = client.publisher(COMMAND, robot="cyan1")
+        host.close()
+        writer.put(Command(answers_tick=0))  # into the void: nothing raises
+        with open_host("test", WallClock(), endpoint) as again:
+            commands = again.subscribe(COMMAND)
+            deadline = time.monotonic() + 20.0
+            heard = None
+            while heard is None and time.monotonic() < deadline:
+                writer.put(Command(answers_tick=1))
+                heard = commands.receive(0.1)
+    assert heard is not None and heard.message().answers_tick == 1
+
+
+SAYS_MUCH = """
+import sys
+from schemas.bus.zenoh.bus import open_host
+from schemas.bus.zenoh.reader import ZenohReader
+from schemas.process.clock import WallClock
+from schemas.messages.host import Invalid
+from schemas.topics import INVALID
+with open_host("test", WallClock(), sys.argv[1]) as bus:
+    writer = bus.publisher(INVALID)
+    for tick in range(1500):
+        writer.put(Invalid(tick=tick, time=0.0, key="k" * 10_000, reason="", size=0))
+    print("said", flush=True)
+    sys.stdin.read()
+"""
+"""A host that said more than a socket swallows before anybody came, and keeps it for those who come late."""
+LATE = """
+import sys
+from schemas.bus.zenoh.bus import open_client
+from schemas.bus.zenoh.reader import ZenohReader
+from schemas.process.clock import WallClock
+from schemas.topics import INVALID
+with open_client("test", WallClock(), sys.argv[1], patience=30.0) as bus:
+    reader = bus.subscribe(INVALID)
+    numbers = [reader.receive(30.0).stamp.sequence for _ in range(1500)]
+    print(numbers == list(range(1500)))
+"""
+
+
+@pytest.mark.processes
+def test_a_reader_who_comes_late_is_sent_all_that_is_kept_and_the_host_does_not_wait_for_itself() -> None:
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen([sys.executable, "-c", SAYS_MUCH, endpoint], **pipes) as host:
+        program = [sys.executable, "-c", LATE, endpoint]
+        try:
+            assert host.stdout is not None and host.stdout.readline() == b"said\n"
+            reader = subprocess.run(program, capture_output=True, text=True, timeout=60, check=True)
+        finally:
+            host.kill()
+    assert reader.stdout.split() == ["True"]
+
+
+def test_the_threads_of_one_process_are_not_handed_on_to_those_it_launches(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("ZENOH_RUNTIME", raising=False)
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    with open_host("test", WallClock(), endpoint), open_client("test", WallClock(), endpoint):
+        assert "ZENOH_RUNTIME" not in os.environ
+
+
+def test_a_process_that_forgets_to_close_its_bus_ends_all_the_same() -> None:
+    code = f"""
+    from schemas.bus.zenoh.bus import open_host
+    from schemas.process.clock import WallClock
+    from schemas.topics import ACTION, COMMAND
+    bus = open_host("test", WallClock(), {with_free_port("tcp/127.0.0.1:0")!r})
+    bus.subscribe(COMMAND).receive(0.01)
+    bus.serve(ACTION)
+    raise SystemExit(7)
+    """
+    ended = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], timeout=60, check=False)
+    assert ended.returncode == 7
+
+
+@pytest.mark.parametrize(
+    ("endpoint", "loopback"),
+    [
+        ("tcp/127.0.0.1:7447", True),
+        ("tcp/[::1]:7447", True),
+        ("tcp/localhost:7447", True),
+        ("tcp/0.0.0.0:7447", False),
+        ("tcp/[::]:7447", False),
+        ("tcp/192.0.2.7:7447", False),
+        ("tls/simhost:7447", False),
+    ],
+)
+def test_an_endpoint_knows_whether_others_can_reach_it(endpoint: str, loopback: bool) -> None:
+    assert is_loopback(endpoint) is loopback
+
+
+@pytest.mark.parametrize("endpoint", ["7447", "tcp/127.0.0.1", "tcp/127.0.0.1:70000", "http/127.0.0.1:80", ""])
+def test_an_endpoint_that_is_none_is_named(endpoint: str) -> None:
+    with pytest.raises(BusError, match="write it as tcp/127"):
+        parse_endpoint(endpoint)
+
+
+def test_only_a_port_of_zero_is_replaced() -> None:
+    assert with_free_port("tcp/127.0.0.1:7447") == "tcp/127.0.0.1:7447"
+    assert parse_endpoint(with_free_port("tcp/127.0.0.1:0"))[2] != 0
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a port is free only at the moment it is chosen")
+def test_a_port_that_was_chosen_stays_free_for_the_host_however_long_that_takes_to_start() -> None:
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    _, host, port = parse_endpoint(endpoint)
+    with socket.socket() as other, pytest.raises(OSError, match="in use"):
+        other.bind((host, port))
+    with open_host("test", WallClock(), endpoint), open_client("test", WallClock(), endpoint) as client:
+        assert client.connected()
+
+
+@pytest.mark.parametrize("topic", [COMMAND, SIGHT], ids=["every", "newest"])
+def test_a_wake_up_that_comes_too_late_does_not_end_the_next_wait(topic: Topic) -> None:
+    with open_host("test", WallClock(), with_free_port("tcp/127.0.0.1:0")) as host:
+        reader = host.subscribe(topic, robot="cyan1")
+        assert isinstance(reader, ZenohReader)
+        reader.wake()
+        began = time.monotonic()
+        assert reader.receive(0.2) is None
+        assert time.monotonic() - began >= 0.18
+
+
+def test_a_wake_up_pushes_no_message_out() -> None:
+    with open_host("test", WallClock(), with_free_port("tcp/127.0.0.1:0")) as host:
+        reader, writer = host.subscribe(SIGHT, robot="cyan1"), host.publisher(SIGHT, robot="cyan1")
+        assert isinstance(reader, ZenohReader)
+        for number in (b"1", b"2", b"3"):
+            writer.put_payload(number)
+        reader.wake()
+        assert reader.receive_payload() == b"3"
+        assert reader.receive_payload() is None

@@ -1,0 +1,114 @@
+"""Work that can wait: done where nobody else wants a core, and all the same where there is none."""
+
+import os
+import sys
+import threading
+from collections.abc import Iterator
+
+import pytest
+
+from schemas.process import idle_time
+from schemas.process.idle_time import run_in_idle_time, start_thread
+from schemas.process.scheduling import use_batch_scheduling
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="a policy of the Linux kernel")
+
+
+@pytest.fixture(autouse=True)
+def turns() -> Iterator[None]:
+    """This program takes turns."""
+    use_batch_scheduling()
+    yield
+    use_batch_scheduling(False)
+
+
+class Work:
+    """Some steps, and who did them."""
+
+    def __init__(self, steps: int) -> None:
+        self.left = steps
+        self.by: list[tuple[int, int]] = []
+        """Thread and policy of each step."""
+
+    def step(self) -> bool:
+        self.by.append((threading.get_ident(), os.sched_getscheduler(0)))
+        self.left -= 1
+        return self.left == 0
+
+    @property
+    def policies(self) -> list[int]:
+        return [policy for _, policy in self.by]
+
+
+@pytest.fixture
+def busy(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each step has waited half a second for a core."""
+    waits = iter(range(1000))
+    monkeypatch.setattr(idle_time, "_waited_s", lambda: 0.5 * next(waits))
+
+
+def test_a_program_that_takes_turns_works_in_idle_time_and_keeps_its_own_rank():
+    work = Work(5)
+    run_in_idle_time(work.step)
+    assert work.policies == [os.SCHED_IDLE] * 5
+    assert os.sched_getscheduler(0) == os.SCHED_BATCH
+
+
+def test_a_program_that_takes_no_turns_does_it_at_once_and_itself():
+    use_batch_scheduling(False)
+    work = Work(5)
+    run_in_idle_time(work.step)
+    assert work.by == [(threading.get_ident(), os.SCHED_OTHER)] * 5
+
+
+def test_where_there_is_too_little_idle_time_the_one_who_waits_goes_on(busy):
+    work = Work(6)
+    run_in_idle_time(work.step)
+    assert work.policies == [os.SCHED_IDLE] + [os.SCHED_BATCH] * 5
+    assert {thread for thread, _ in work.by[1:]} == {threading.get_ident()}
+
+
+def test_a_machine_that_was_busy_is_tried_again(busy, monkeypatch):
+    monkeypatch.setattr(idle_time, "_RETRY_S", 0.0)
+    work = Work(3)
+    run_in_idle_time(work.step)
+    assert work.policies == [os.SCHED_IDLE, os.SCHED_BATCH, os.SCHED_IDLE]
+
+
+def test_a_kernel_that_does_not_tell_who_waits_is_not_trusted(monkeypatch):
+    monkeypatch.setattr(idle_time, "_waited_s", lambda: None)
+    monkeypatch.setattr(idle_time, "_RETRY_S", 0.0)
+    work = Work(3)
+    run_in_idle_time(work.step)
+    assert work.policies == [os.SCHED_BATCH] * 3
+
+
+def test_a_step_that_fails_ends_the_work_where_it_was_asked_for():
+    def fails() -> bool:
+        raise RuntimeError("no more")
+
+    with pytest.raises(RuntimeError, match="no more"):
+        run_in_idle_time(fails)
+
+
+def test_a_thread_started_in_idle_time_has_the_rank_of_who_asked_for_the_work():
+    born: list[int] = []
+
+    def step() -> bool:
+        thread = threading.Thread(target=lambda: born.append(os.sched_getscheduler(0)))
+        start_thread(thread)
+        thread.join()
+        return True
+
+    run_in_idle_time(step)
+    start_thread(thread := threading.Thread(target=lambda: born.append(os.sched_getscheduler(0))))
+    thread.join()
+    assert born == [os.SCHED_BATCH] * 2
+
+
+def test_what_this_thread_has_waited_for_is_told_by_the_kernel():
+    before = idle_time._waited_s()
+    after = idle_time._waited_s()
+    assert before is not None
+    assert after is not None
+    assert 0.0 <= before <= after

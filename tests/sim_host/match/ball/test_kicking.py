@@ -1,0 +1,158 @@
+"""Kicks in the world: exit speeds, lobs through air, charge and cooldown, and refusals with their reason."""
+
+import math
+
+import pytest
+from pytest import approx
+
+from schemas.messages.command import Drive, Kick, KickMode
+from schemas.messages.host import AppliedInput
+
+WAYS = ("pose", "velocity", "force")
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("speed", [1.0, 5.0, 9.5])
+def test_a_ground_kick_leaves_at_its_speed_along_the_axis_out_of_any_dribble(rig, build, tell, way, speed):
+    """Row 8; equation 3: within 1 % after one tick, allowing for one tick of rolling resistance."""
+    rig = build(rig.profile.name, dribble={"method": way})
+    rig.give("cyan1", 0, 0, 0.7)
+    rig.run(0.1, cyan1=tell(dribble=True))
+    snapshot = rig.tick(cyan1=tell(kick=("ground", speed)))
+    lost = rig.profile.ball.rolling_deceleration * rig.profile.time.tick
+    assert snapshot.kicked == "cyan1"
+    assert math.hypot(*snapshot.ball[3:5]) == approx(speed - lost, rel=0.01)
+    assert math.atan2(snapshot.ball.vy, snapshot.ball.vx) == approx(0.7, abs=1e-3)
+
+
+def height_at_the_goal(rig):
+    """Where the ball's centre crosses the goal plane, m."""
+    line, before = rig.profile.field.goal_line, rig.world.snapshot().ball
+    for _ in range(400):
+        after = rig.tick().ball
+        if after.x >= line:
+            return before.z + (line - before.x) / (after.x - before.x) * (after.z - before.z)
+        before = after
+    pytest.fail("the lob never came to the goal plane")
+
+
+@pytest.mark.parametrize("speed", [2.0, 5.0, 8.0, 12.0])
+@pytest.mark.parametrize(("d", "y", "heading"), [(1.5, 0.2, 0), (2.5, 0, 0), (5, 0.5, -0.1), (8, -1, 0.1), (12, 0, 0)])
+def test_a_lob_crosses_the_goal_plane_within_a_balls_radius_of_the_papers_point(rig, tell, d, y, heading, speed):
+    """Row 9; equations 4 to 12 with the margin of its code, drag on in `msl`: below h, by a ball's radius at most."""
+    goal_line, r = rig.profile.field.goal_line, rig.profile.ball.radius
+    rig.give("cyan1", goal_line - d, y, heading)
+    assert rig.tick(cyan1=tell(kick=("lob", speed))).kicked == "cyan1"
+    h = rig.profile.field.goal_height - r - rig.profile.kicker.lob_margin
+    assert h - r < height_at_the_goal(rig) < h + 0.005
+
+
+@pytest.mark.parametrize("drag", [0.0, 0.2, 0.43, 0.9])
+def test_a_lob_is_solved_for_the_air_there_is(build, tell, drag):
+    """The same kick in four kinds of air: within 2 cm of each other at the goal plane, 7 m away."""
+    rig = build(ball={"drag_coefficient": drag})
+    rig.give("cyan1", rig.profile.field.goal_line - 7)
+    rig.tick(cyan1=tell(kick=("lob", 8.0)))
+    assert height_at_the_goal(rig) == approx(0.85, abs=0.02 + 0.03 * drag)
+
+
+@pytest.mark.parametrize("speed", [4.0, 9.0])
+def test_a_loft_kick_rises_at_its_angle(rig, tell, speed):
+    """Row 10: 36.87°, 0.8 of the speed along the ground and 0.6 upward, less what gravity and drag take in a tick."""
+    rig.give("cyan1", 0, 0, math.pi / 2)
+    ball = rig.tick(cyan1=tell(kick=("loft", speed))).ball
+    assert ball.vy == approx(0.8 * speed, rel=0.02)
+    assert ball.vz == approx(0.6 * speed - 9.81 * rig.profile.time.tick, rel=0.02, abs=0.02)
+
+
+def test_a_kick_waits_for_cooldown_and_charge_and_says_how_long(build, tell):
+    """The profile's 0.2 s and 0.8 s, to the tick."""
+    rig = build()
+    tick, kicker = rig.profile.time.tick, rig.profile.kicker
+    again = tell(dribble=True, kick=("ground", 3.0))
+    rig.give("cyan1", 0)
+    first = rig.tick(cyan1=again)
+    assert first.kicked == "cyan1" and first.kickers_ready == (False, True, True, True)
+    said, waited = [], 0
+    while True:
+        rig.give("cyan1", 0)
+        snapshot = rig.tick(cyan1=again)
+        waited += 1
+        if snapshot.kicked:
+            break
+        said.append(rig.refused["cyan1"])
+    assert waited * tick == approx(kicker.cooldown + kicker.charge_time)
+    assert said[0] == "kick: cooling down, 0.98 s to go"
+    assert said[-1] == "kick: charging, 0.02 s to go"
+    assert sum("cooling" in reason for reason in said) == round(kicker.cooldown / tick) - 1
+
+
+def test_the_papers_kicker_is_always_ready(build, tell):
+    rig = build("paper")
+    for _ in range(3):
+        rig.give("cyan1", 0)
+        snapshot = rig.tick(cyan1=tell(dribble=True, kick=("ground", 3.0)))
+        assert snapshot.kicked == "cyan1" and all(snapshot.kickers_ready)
+
+
+def test_a_refused_kick_costs_no_charge(build, tell):
+    rig = build()
+    rig.place(cyan1=(0, 0, 0), ball=(3, 0, 0))
+    assert all(rig.tick(cyan1=tell(kick=("ground", 3.0))).kickers_ready)
+    rig.give("cyan1", 0, 0, math.pi / 2)
+    snapshot = rig.tick(cyan1=tell(kick=("lob", 8.0)))
+    assert "aimed at a goal" in rig.refused["cyan1"] and all(snapshot.kickers_ready)
+    assert snapshot.possession == "cyan1", "and the ball is still held"
+
+
+def test_every_kicker_is_charged_at_a_checkpoint_in_the_running_match_as_in_its_simulation(build, tell):
+    """Poses and velocities tell the future: two worlds with another past kick alike after it."""
+    pasts = build(), build()
+    pasts[0].give("cyan1", 0)
+    pasts[0].tick(cyan1=tell(kick=("ground", 3.0)))
+    for rig in pasts:
+        rig.give("cyan1", 0)
+        rig.world.make_checkpoint()
+    ends = [rig.tick(cyan1=tell(dribble=True, kick=("lob", 8.0))) for rig in pasts]
+    assert [end.kicked for end in ends] == ["cyan1", "cyan1"]
+    assert ends[0].ball == ends[1].ball
+
+
+@pytest.mark.parametrize(
+    ("height", "place", "reason"),
+    [
+        (0.11, 0.45, "kick: ball not held"),
+        (0.45, 0.35, "kick: ball in the air, 0.45 m high"),
+    ],
+)
+def test_a_kick_that_cannot_be_done_says_why(build, tell, height, place, reason):
+    """Rows 7 and 17."""
+    rig = build()
+    rig.place(cyan1=(0, 0, 0))
+    rig.set_ball((place, 0, height))
+    rig.tick(cyan1=tell(kick=("ground", 3.0)))
+    assert rig.refused == {"cyan1": reason}
+
+
+def test_a_kick_of_a_contested_ball_says_so(build, tell):
+    rig = build()
+    rig.place(cyan1=(-0.36, 0, 0), magenta1=(0.36, 0, math.pi), ball=(0, 0, 0))
+    rig.tick(cyan1=tell(kick=("ground", 3.0)), magenta1=tell(dribble=True))
+    assert rig.refused == {"cyan1": "kick: ball contested, another robot is as near to it"}
+
+
+def test_a_kick_against_a_touching_opponent_is_stopped_by_its_hull(rig, tell):
+    """Nothing explodes: the ball is never faster than its kick, and never inside the opponent."""
+    touching = rig.profile.robot.radius + rig.profile.ball.radius
+    for mode in KickMode:
+        rig.give("cyan1", 0)
+        rig.place(magenta1=(rig.profile.dribble.gap + touching, 0, 0))
+        told = AppliedInput(Drive(), dribble=False, kick=Kick(mode=mode, speed=10.0))
+        rig.world.make_checkpoint()
+        assert rig.tick(cyan1=told).kicked == "cyan1"
+        for _ in range(50):
+            snapshot = rig.tick()
+            other = rig.at(snapshot, "magenta1")
+            assert math.hypot(*snapshot.ball[3:]) < 12.0
+            if snapshot.ball.z < rig.profile.robot.height:
+                assert math.hypot(snapshot.ball.x - other.x, snapshot.ball.y - other.y) > touching - 0.03

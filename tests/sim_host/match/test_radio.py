@@ -1,0 +1,187 @@
+"""The radio: delay, jitter, loss and budget, the same for equal seeds (reference 13, row 27)."""
+
+import json
+import math
+from dataclasses import replace
+from typing import Any
+
+from pytest import approx
+
+from schemas.config.match_config import load_match
+from schemas.config.profile import load_profile
+from schemas.config.sections import RadioChannel
+from schemas.messages.command import Radio
+from sim_host.match.radio import RadioAir
+from sim_host.sensing.random_streams import RandomStreams
+from sim_host.snapshot import Roster
+
+ROSTER = Roster.of(load_match(None, {"teams.cyan.size": 3, "teams.magenta.size": 2}), load_profile("msl"))
+TICK = 0.02
+CLEAR = RadioChannel(delay=0.0, jitter=0.0, loss=0.0, budget=2.2e6)
+
+
+def radio(air: RadioChannel = CLEAR, seed: int = 1) -> RadioAir:
+    return RadioAir(air, ROSTER, TICK, RandomStreams(seed))
+
+
+def heard(air: RadioAir, tick: int) -> dict[str, Any]:
+    return {name: json.loads(one) for name, one in zip(ROSTER.names, air.receive(tick), strict=True)}
+
+
+def test_a_word_reaches_all_teammates_and_nobody_else() -> None:
+    air = radio()
+    assert air.send(0, "cyan1", Radio(role="keeper")) is None
+    now = heard(air, 0)
+    assert now["cyan2"]["cyan1"]["role"] == now["cyan3"]["cyan1"]["role"] == "keeper"
+    assert now["cyan1"] == now["magenta1"] == now["magenta2"] == {}
+
+
+def test_a_word_arrives_after_the_delay_with_its_age() -> None:
+    air = radio(replace(CLEAR, delay=0.06))
+    air.send(10, "cyan1", Radio(role="keeper"))
+    assert heard(air, 12)["cyan2"] == {}
+    assert heard(air, 13)["cyan2"]["cyan1"]["age"] == approx(0.06)
+    assert heard(air, 20)["cyan2"]["cyan1"]["age"] == approx(0.20)
+
+
+def test_a_delay_between_two_ticks_ends_at_the_later_one() -> None:
+    air = radio(replace(CLEAR, delay=0.05))
+    air.send(10, "cyan1", Radio(role="keeper"))
+    assert heard(air, 12)["cyan2"] == {} != heard(air, 13)["cyan2"]
+
+
+def arrivals(air: RadioAir, words: int) -> dict[str, list[tuple[int, int]]]:
+    """Listener → (tick in which a word was said, ticks until it was heard) of cyan1's words, one in every tick.
+
+    A word that another has overtaken is never heard.
+    """
+    came: dict[str, list[tuple[int, int]]] = {"cyan2": [], "cyan3": []}
+    for tick in range(words):
+        air.send(tick, "cyan1", Radio(intention=str(tick)))
+        now = heard(air, tick)
+        for name, times in came.items():
+            word = now[name].get("cyan1")
+            if word is not None and (not times or times[-1][0] != int(word["intention"])):
+                said = int(word["intention"])
+                times.append((said, tick - said))
+                assert word["age"] == approx((tick - said) * TICK)
+    return came
+
+
+def test_jitter_is_uniform_and_different_for_each_listener() -> None:
+    """Delays of 0.05 s and up to 0.2 s more, words a second apart so that none is overtaken: 3 to 13 ticks.
+
+    The exact delay is uniform in 2.5 to 12.5 ticks and ends at a whole one, so that 3 and 13 are half as frequent as
+    the rest; 3,000 words, each share within 4 standard errors.
+    """
+    air, n = radio(replace(CLEAR, delay=0.05, jitter=0.2)), 3000
+    took: dict[str, list[int]] = {"cyan2": [], "cyan3": []}
+    for second in range(n):
+        said = 50 * second
+        air.send(said, "cyan1", Radio(intention=str(second)))
+        for tick in range(said, said + 15):
+            for name, times in took.items():
+                if heard(air, tick)[name].get("cyan1", {}).get("intention") == str(second) and len(times) == second:
+                    times.append(tick - said)
+    for times in took.values():
+        assert sorted(set(times)) == list(range(3, 14))
+        for ticks in range(3, 14):
+            share = 0.05 if ticks in (3, 13) else 0.1
+            assert times.count(ticks) / n == approx(share, abs=4 * math.sqrt(share * (1 - share) / n))
+    same = sum(one == other for one, other in zip(*took.values(), strict=True)) / n
+    share = 9 * 0.1**2 + 2 * 0.05**2
+    assert same == approx(share, abs=4 * math.sqrt(share * (1 - share) / n)), "as often as by chance"
+
+
+def test_a_word_that_was_overtaken_is_not_heard_any_more() -> None:
+    """A listener keeps what was said last, and so hears ever newer words."""
+    came = arrivals(radio(replace(CLEAR, jitter=0.2)), 500)
+    for times in came.values():
+        said = [tick for tick, _ in times]
+        assert said == sorted(said) and 100 < len(said) < 400, "some were overtaken, some were not"
+
+
+def test_a_changed_air_is_that_of_all_words_from_now_on() -> None:
+    air = radio(replace(CLEAR, delay=0.2))
+    air.send(0, "cyan1", Radio(role="keeper"))
+    air.change(CLEAR)
+    air.send(1, "cyan2", Radio(role="striker"))
+    assert set(heard(air, 1)["cyan3"]) == {"cyan2"}
+    assert set(heard(air, 10)["cyan3"]) == {"cyan1", "cyan2"}, "what was under way arrives as it would have"
+    air.change(replace(CLEAR, loss=1.0))
+    air.send(11, "cyan2", Radio(role="defender"))
+    assert heard(air, 40)["cyan3"]["cyan2"]["role"] == "striker"
+    air.change(replace(CLEAR, budget=0.0))
+    assert "budget" in str(air.send(41, "cyan2", Radio(role="defender")))
+
+
+def test_teammates_who_stay_when_others_come_and_go_have_heard_what_they_heard() -> None:
+    word = Radio(intention="x" * 60)
+    size = 8 * len(word.model_dump_json(exclude_defaults=True))
+    air = radio(replace(CLEAR, delay=0.04, budget=3.0 * size))
+    for tick, name in enumerate(("cyan1", "cyan2", "cyan3")):
+        air.send(tick, name, word)
+    air.receive(2)
+    roster = Roster(("cyan2", "cyan1", "cyan9"), ROSTER.sides[:3], {}, ROSTER.models[:3])
+    heir = air.with_roster(roster)
+    now = [set(json.loads(one)) for one in heir.receive(3)]
+    assert now == [{"cyan1"}, {"cyan2"}, set()], "one word heard before, one on its way"
+    assert "budget" in str(heir.send(4, "cyan9", word)), "the team has said what it has said"
+
+
+def test_the_newest_word_of_a_teammate_replaces_the_one_before() -> None:
+    air = radio()
+    for tick, role in enumerate(("keeper", "striker")):
+        air.send(tick, "cyan1", Radio(role=role))
+    assert heard(air, 1)["cyan2"]["cyan1"]["role"] == "striker"
+
+
+def test_as_many_words_are_lost_as_the_profile_says_each_on_its_own_way() -> None:
+    """2,000 words at a loss of 0.3: within 4 standard errors of 0.3 for each listener, and not the same words."""
+    air = radio(replace(CLEAR, loss=0.3))
+    lost: dict[str, list[bool]] = {"cyan2": [], "cyan3": []}
+    for tick in range(2000):
+        air.send(tick, "cyan1", Radio(intention=str(tick)))
+        now = heard(air, tick)
+        for name, record in lost.items():
+            record.append(now[name].get("cyan1", {}).get("intention") != str(tick))
+    for record in lost.values():
+        assert sum(record) / 2000 == approx(0.3, abs=0.041)
+    assert lost["cyan2"] != lost["cyan3"]
+
+
+def test_a_word_beyond_the_teams_budget_is_refused_until_a_second_has_passed() -> None:
+    word = Radio(intention="x" * 60)
+    size = 8 * len(word.model_dump_json(exclude_defaults=True))
+    air = radio(replace(CLEAR, budget=2.5 * size))
+    assert air.send(0, "cyan1", word) is None
+    assert air.send(1, "cyan2", word) is None
+    assert "budget" in str(air.send(2, "cyan3", word))
+    assert air.send(2, "magenta1", word) is None, "the other team has a budget of its own"
+    assert air.send(50, "cyan3", word) is None
+
+
+def test_the_budget_is_counted_to_the_byte() -> None:
+    word = Radio(intention="x" * 60, role="ü")
+    size = 8 * len(word.model_dump_json(exclude_defaults=True).encode())
+    enough, short = radio(replace(CLEAR, budget=3.0 * size)), radio(replace(CLEAR, budget=3.0 * size - 1.0))
+    for air, last in ((enough, True), (short, False)):
+        assert air.send(0, "cyan1", word) is None and air.send(1, "cyan2", word) is None
+        assert (air.send(2, "cyan3", word) is None) == last
+    assert enough.send(49, "cyan1", word) is not None, "within the same second"
+    assert enough.send(50, "cyan1", word) is None, "a second after the first"
+
+
+def test_the_league_s_budget_is_the_default() -> None:
+    assert load_profile("msl").radio.budget == 2.2e6
+
+
+def test_equal_seeds_lose_equal_words() -> None:
+    def run(seed: int) -> list[bytes]:
+        air = radio(replace(CLEAR, loss=0.5), seed)
+        for tick in range(50):
+            air.send(tick, "cyan1", Radio(intention=str(tick)))
+        return air.receive(50)
+
+    assert run(1) == run(1)
+    assert [run(seed) for seed in range(5)] != [run(0)] * 5

@@ -1,0 +1,140 @@
+"""Sights as they are sent: what the sensors gave, as the message that `schemas.messages.sight` says."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+
+import pytest
+from pytest import approx
+
+from schemas.config.match_config import load_match
+from schemas.config.noise import PRESETS
+from schemas.config.obstacle import Shape, StaticObstacle
+from schemas.messages.command import Command, Drive, Radio
+from schemas.messages.sight import Sight
+from sim_host.match.simulation import Simulation
+
+
+def simulate(**overrides: object) -> Simulation:
+    return Simulation(load_match(None, {key.replace("__", "."): value for key, value in overrides.items()}))
+
+
+def sight(simulation: Simulation, robot: str) -> Sight:
+    return Sight.decode(simulation.now.sights[robot])
+
+
+def drive(simulation: Simulation, ticks: int) -> Iterator[None]:
+    for _ in range(ticks):
+        tick = simulation.now.tick
+        simulation.step(
+            {
+                name: Command(answers_tick=tick, drive=Drive(vx=place - 5.0, omega=1.0))
+                for place, name in enumerate(simulation.roster.names)
+            }
+        )
+        yield
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+@pytest.mark.parametrize("profile", ["msl", "paper"])
+def test_every_sight_of_every_preset_is_a_valid_message_and_says_how_old_it_is(preset: str, profile: str) -> None:
+    one = simulate(noise__preset=preset, profile=profile)
+    for _ in drive(one, 40):
+        for name in one.roster.names:
+            seen = sight(one, name)
+            assert 0.0 <= seen.obstacles_age < 0.07
+            assert seen.ball is None or seen.ball.age >= 0.0
+            away = [(o.x - seen.self.x) ** 2 + (o.y - seen.self.y) ** 2 for o in seen.obstacles]
+            assert all(b - a > -1.0 for a, b in pairwise(away)), "nearest first, but for own noise"
+    one.close()
+
+
+def test_with_perfect_perception_a_sight_is_the_truth() -> None:
+    one = simulate(noise__preset="perfect")
+    for _ in drive(one, 30):
+        world = one.now.world
+        for name in ("cyan2", "magenta4"):
+            sign, robot, seen = (1 if name == "cyan2" else -1), world["robots"][name], sight(one, name)
+            assert (seen.self.x, seen.self.y) == approx((sign * robot["x"], sign * robot["y"]), abs=6e-5)
+            assert seen.ball is not None and seen.ball.visible and seen.ball.age == 0.0
+            assert (seen.ball.x, seen.ball.y) == approx(
+                (sign * world["ball"]["x"], sign * world["ball"]["y"]), abs=6e-5
+            )
+            others = {other: at for other, at in world["robots"].items() if other != name}
+            assert len(seen.obstacles) == len(others)
+            for at in others.values():
+                place = sign * at["x"], sign * at["y"]
+                assert min(math.dist(place, (o.x, o.y)) for o in seen.obstacles) < 1e-4
+    one.close()
+
+
+def test_a_far_ball_is_nothing_until_a_robot_has_seen_it_and_then_stays_where_it_was() -> None:
+    one = simulate()
+    for _ in range(3):
+        one.step({})
+    assert sight(one, "cyan1").ball is None, "10.5 m away"
+    near = sight(one, "cyan2").ball
+    assert near is not None and near.visible and near.x == approx(0.0, abs=0.4)
+    one.close()
+
+
+def test_between_two_pictures_the_last_is_repeated_with_growing_age() -> None:
+    """25 Hz and 0.02 s of latency at a tick of 0.02 s: ages 0.02 and 0.04 s in turn, the same places in both."""
+    one = simulate(noise__preset="profile")
+    one.step({})
+    pairs = []
+    for _ in range(10):
+        one.step({})
+        first = sight(one, "cyan3")
+        one.step({})
+        pairs.append((first, sight(one, "cyan3")))
+    ages = {(a.obstacles_age, b.obstacles_age) for a, b in pairs}
+    assert len(ages) == 1 and sorted(ages.pop()) == approx([0.02, 0.04])
+    newer_first = pairs[0][0].obstacles_age < pairs[0][1].obstacles_age
+    if newer_first:
+        assert all(a.obstacles == b.obstacles for a, b in pairs)
+    else:
+        assert all(a[1].obstacles == b[0].obstacles for a, b in pairwise(pairs))
+    one.close()
+
+
+def test_static_obstacles_stand_in_the_sights() -> None:
+    one = simulate(noise__preset="perfect")
+    one.world.put_obstacle(
+        StaticObstacle(name="barrel", shape=Shape.CYLINDER, place=[-2.0, 3.0], radius=0.5, height=0.9)
+    )
+    one.step({})
+    for name, sign in (("cyan2", 1), ("magenta2", -1)):
+        radii = {(o.x, o.y): o.radius for o in sight(one, name).obstacles}
+        assert len(radii) == 10 and radii[(-2.0 * sign, 3.0 * sign)] == 0.5
+    one.world.remove_obstacle("barrel")
+    one.step({})
+    assert len(sight(one, "cyan2").obstacles) == 9
+    one.close()
+
+
+def test_a_word_beyond_the_budget_is_told_in_the_outcome_and_not_said() -> None:
+    one = simulate(radio__budget=100.0)
+    tick = one.step({"cyan2": Command(answers_tick=0, radio=Radio(intention="much too long for that"))})
+    assert sight(one, "cyan2").outcome.refused == ["radio: the team's budget of 0.0001 Mbit/s is used up"]
+    assert tick.beliefs == [] and tick.refused == {"cyan2": 1}
+    one.close()
+
+
+def test_what_robots_perceive_changes_nothing_in_the_world() -> None:
+    """Reference 14, defect 4: equal inputs give equal worlds under every preset, and under any other sensing."""
+    chains = []
+    for preset in PRESETS:
+        one = simulate(noise__preset=preset)
+        for _ in drive(one, 40):
+            pass
+        chains.append(one.now.applied["chain"])
+        one.close()
+    changed = simulate()
+    for tick, _ in enumerate(drive(changed, 40)):
+        if tick == 20:
+            changed._subsystems._perception.change(replace(changed.profile.sensing, ball_range=1.0, latency=0.1))
+    chains.append(changed.now.applied["chain"])
+    changed.close()
+    assert len(set(chains)) == 1

@@ -1,0 +1,256 @@
+"""A whole match without a network: sights, radio, referee and world joined, the same for equal seeds."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from pydantic_core import to_json
+from pytest import approx
+
+from schemas.config.match_config import load_match
+from schemas.config.roster import Placement
+from schemas.config.scene import SceneOperation, SceneRequest
+from schemas.errors import TouchlineError
+from schemas.game import ActionName, EventKind, Phase, RefereeAction, TeamPhase
+from schemas.message import VERSION
+from schemas.messages.coach import CoachOrder
+from schemas.messages.command import Command, Drive, Kick, KickMode, Motion, Radio
+from schemas.messages.host import Applied, Belief
+from schemas.messages.light import light_reader
+from schemas.messages.sight import Sight
+from schemas.messages.world import World
+from schemas.side import Side
+from sim_host.match.simulation import Simulation, TickResult
+
+
+def simulate(**overrides: Any) -> Simulation:
+    names = {key.replace("__", "."): value for key, value in overrides.items()}
+    return Simulation(load_match(None, {"duration": 8.0, "noise.preset": "perfect"} | names))
+
+
+@pytest.fixture
+def simulation() -> Iterator[Simulation]:
+    simulation = simulate()
+    yield simulation
+    simulation.close()
+
+
+@pytest.mark.parametrize(
+    ("place", "who"), [([-5.0, 2.3], "cyan4"), ([0.3, 0.0], "the ball"), ([10.6, 0.4], "magenta1")]
+)
+def test_an_obstacle_of_the_match_file_where_somebody_starts_is_refused(place: list[float], who: str) -> None:
+    pole = {"name": "pole", "shape": "cylinder", "place": place, "radius": 0.3, "height": 1.0}
+    with pytest.raises(TouchlineError, match=rf"{who} at .* would be 0\.\d+ m inside pole; choose another place"):
+        simulate(obstacles=[pole])
+
+
+def command(simulation: Simulation, **said: Any) -> Command:
+    return Command(answers_tick=simulation.now.tick, **said)
+
+
+def sight(tick: TickResult, robot: str) -> Sight:
+    return Sight.decode(tick.sights[robot])
+
+
+def play(simulation: Simulation, ticks: int) -> list[str]:
+    """Everybody drives and speaks; the hash chain of every tick."""
+    chains = []
+    for _ in range(ticks):
+        said = {
+            name: command(simulation, drive=Drive(vx=place - 4, omega=0.5), dribble=True, radio=Radio(role=name))
+            for place, name in enumerate(simulation.roster.names)
+        }
+        chains.append(simulation.step(said).applied["chain"])
+    return chains
+
+
+def test_every_sight_and_truth_is_a_valid_message(simulation: Simulation) -> None:
+    play(simulation, 60)
+    simulation.orders[Side.CYAN] = CoachOrder(sequence=3, tactic="press")
+    tick = simulation.step({"cyan1": command(simulation, kick=Kick(mode=KickMode.GROUND, speed=3))})
+    for name in simulation.roster.names:
+        assert sight(tick, name).robot == name
+    World.decode(to_json({"version": VERSION, **tick.world}))
+    Applied.decode(tick.applied_encoded)
+
+
+def test_the_world_says_who_touched_the_ball_and_whose_kick_was_carried_out(simulation: Simulation) -> None:
+    placements = [Placement(body="ball", x=-4.6, y=3.0), Placement(body="cyan2", x=-5.0, y=3.0)]
+    while not simulation.state.running:  # until START the referee puts the ball back to its spot
+        simulation.step({})
+    assert simulation.handle_scene(SceneRequest(operation=SceneOperation.PLACE, place=placements)).accepted
+    worlds = []
+    for number in range(40):
+        kick = Kick(mode=KickMode.GROUND, speed=6.0) if number == 30 else None
+        said = {"cyan2": command(simulation, drive=Drive(vx=0.3), dribble=True, kick=kick)}
+        worlds.append(World.model_validate(simulation.step(said).world))
+    assert worlds[0].touches == [] and worlds[0].kicked is None
+    assert worlds[29].possession == "cyan2" and worlds[29].touches == ["cyan2"]
+    assert [number for number, world in enumerate(worlds) if world.kicked == "cyan2"] == [30]
+    assert worlds[30].touches == ["cyan2"] and worlds[39].touches == []
+
+
+def test_robots_begin_in_their_own_half_facing_the_goal_they_attack(simulation: Simulation) -> None:
+    for name in simulation.roster.names:
+        own = sight(simulation.now, name).self
+        assert own.x < 0 and own.heading == approx(0, abs=1e-4)
+
+
+def test_a_sight_holds_what_the_robot_needs_and_nothing_of_the_others_names(simulation: Simulation) -> None:
+    seen = sight(simulation.now, "cyan2")
+    assert (seen.robot, seen.side, seen.tick, seen.holding) == ("cyan2", Side.CYAN, 0, False)
+    assert seen.ball is not None and (seen.ball.x, seen.ball.y) == (0, 0)
+    assert len(seen.obstacles) == 9
+    assert seen.game.phase is TeamPhase.PRE_GAME
+
+
+def test_a_word_on_the_radio_reaches_teammates_and_the_coach(simulation: Simulation) -> None:
+    tick = simulation.step({"cyan2": command(simulation, radio=Radio(role="striker", intention="shoot"))})
+    assert [(side, robot) for side, robot, _ in tick.beliefs] == [(Side.CYAN, "cyan2")]
+    for _ in range(5):
+        tick = simulation.step({})
+    assert sight(tick, "cyan3").radio["cyan2"].role == "striker"
+    assert sight(tick, "cyan3").radio["cyan2"].age == approx(0.1)
+    assert sight(tick, "magenta1").radio == {}
+
+
+def test_a_word_is_said_alike_whether_its_command_was_read_as_a_model_or_as_a_struct() -> None:
+    word = Radio(self=Motion(x=1.5, y=-0.0, heading=3e16, vx=0.0), intention="shoot", extra={"speed": 1e17, "n": 2})
+    payload = Command(answers_tick=0, radio=word).encode()
+    told = []
+    for read in (Command.decode, light_reader(Command)):
+        one = simulate(radio__delay=0.0, radio__jitter=0.0, radio__loss=0.0)
+        tick = one.step({"cyan2": read(payload)})
+        one.close()
+        told.append((tick.beliefs, tick.sights))
+    assert told[0] == told[1]
+    [(_, _, belief)] = told[0][0]
+    assert belief == Belief(tick=1, time=tick.time, robot="cyan2", radio=word).encode()
+    assert b'"radio":{"cyan2":{"self":{"x":1.5,"y":-0.0,"heading":3e+16}' in told[0][1]["cyan3"]
+
+
+def test_a_refused_kick_comes_back_in_the_outcome(simulation: Simulation) -> None:
+    said = command(simulation, kick=Kick(mode=KickMode.GROUND, speed=3))
+    tick = simulation.step({"cyan4": said})
+    outcome = sight(tick, "cyan4").outcome
+    assert (outcome.answers_tick, outcome.refused) == (0, ["kick: ball not held"])
+    assert tick.refused == {"cyan4": 1}
+    assert sight(simulation.step({}), "cyan4").outcome.refused == []
+
+
+def test_the_coachs_order_stands_in_the_sights_of_its_side_alone(simulation: Simulation) -> None:
+    simulation.orders[Side.MAGENTA] = CoachOrder(sequence=2, tactic="press")
+    tick = simulation.step({})
+    order = sight(tick, "magenta3").order
+    assert order is not None and (order.sequence, order.tactic) == (2, "press")
+    assert sight(tick, "cyan3").order is None
+
+
+def test_an_action_is_answered_in_the_tick_it_is_put(simulation: Simulation) -> None:
+    simulation.step({})
+    tick = simulation.step({}, [RefereeAction(action=ActionName.STOP), RefereeAction(action=ActionName.CORNER)])
+    assert [reply.accepted for reply in tick.replies] == [True, False]
+    assert tick.replies[1].reason
+    assert simulation.state.phase is Phase.STOPPED
+
+
+def test_a_silent_match_goes_from_kick_off_to_full_time(simulation: Simulation) -> None:
+    kinds = []
+    while not simulation.over:
+        kinds += [event.kind for event in simulation.step({}).events]
+    assert kinds[0] is EventKind.RESTART and kinds[-1] is EventKind.FULL_TIME
+    assert kinds.count(EventKind.HALF_TIME) == 1
+    assert simulation.state.clock == approx(8.0, abs=0.05)
+
+
+def test_after_half_time_cyan_attacks_the_other_way_and_still_believes_it_is_plus_x(simulation: Simulation) -> None:
+    while simulation.state.half == 1:
+        simulation.step({})
+    tick = simulation.step({})
+    assert simulation.state.cyan_attacks == -1
+    assert sight(tick, "cyan1").self.x < 0 < tick.world["robots"]["cyan1"]["x"]
+
+
+def test_equal_seeds_give_equal_matches_to_the_last_bit() -> None:
+    chains = []
+    for seed in (5, 5, 6):
+        one = simulate(seed=seed, noise__preset="profile")
+        chains.append((play(one, 80), list(one.now.sights.values())))
+        one.close()
+    assert chains[0] == chains[1]
+    assert chains[0][1] != chains[2][1], "another seed perceives otherwise"
+
+
+def test_the_order_in_which_answers_arrive_changes_nothing() -> None:
+    sights = []
+    for backwards in (False, True):
+        one = simulate(radio__budget=3000.0)
+        for _ in range(10):
+            said = {name: command(one, radio=Radio(role=name)) for name in one.roster.names}
+            one.step(dict(reversed(said.items())) if backwards else said)
+        sights.append(one.now.sights)
+        one.close()
+    assert sights[0] == sights[1]
+
+
+def test_noise_is_on_what_robots_perceive_and_never_on_the_physics() -> None:
+    """Defect 4: the seed's plugin decided from noisy data."""
+    worlds = []
+    for preset in ("perfect", "paper"):
+        one = simulate(noise__preset=preset)
+        worlds.append(play(one, 80))
+        one.close()
+    assert worlds[0] == worlds[1]
+
+
+def test_a_checkpoint_is_made_at_every_kick_off_and_recorded() -> None:
+    one = simulate()
+    marks, starts = [], []
+    while not one.over:
+        tick = one.step({})
+        marks += [tick.tick] if tick.applied["checkpoint"] else []
+        starts += [e.tick for e in tick.events if e.kind is EventKind.START and "kick-off" in e.text]
+    assert starts and marks == [tick + 1 for tick in starts]
+    one.close()
+
+
+def test_what_was_placed_is_recorded_as_an_input_of_its_tick(simulation: Simulation) -> None:
+    assert {p.body for p in simulation.now.applied["placements"]} == {*simulation.roster.names, "ball"}
+    tick = simulation.step({})
+    while not tick.applied["placements"]:
+        tick = simulation.step({})
+    assert [p.body for p in tick.applied["placements"]] == ["ball"]
+
+
+def test_the_setup_tells_everything_a_robot_must_know(simulation: Simulation) -> None:
+    setup = simulation.setup()
+    again = type(setup).decode(setup.encode())
+    assert again.pitch == simulation.profile.field and again.drive == simulation.profile.drive
+    assert again.teams[Side.CYAN].robots == ["cyan1", "cyan2", "cyan3", "cyan4", "cyan5"]
+    assert set(again.engine) == {"engine", "libm"}
+
+
+@pytest.mark.parametrize("size", [1, 3])
+def test_a_match_of_any_size_is_played(size: int) -> None:
+    one = simulate(teams__cyan__size=size, teams__magenta__size=1)
+    tick = one.step({})
+    assert len(tick.sights) == size + 1
+    assert len(sight(tick, "cyan1").obstacles) == size
+    one.close()
+
+
+def test_a_match_with_types_and_obstacles_is_told_and_played_as_its_file_says() -> None:
+    one = simulate(
+        teams__cyan__types={"cyan1": "keeper", "cyan3": "slow"},
+        obstacles=[{"name": "crate", "shape": "box", "place": [3.0, 5.0], "heading": 0.5, "size": [0.4, 0.8, 0.6]}],
+    )
+    assert [model.type for model in one.roster.models[:4]] == ["keeper", "standard", "slow", "standard"]
+    tick = one.step({"cyan3": command(one, drive=Drive(vx=9))})
+    said = World.decode(to_json({"version": VERSION, **tick.world})).obstacles["crate"]
+    assert (said.x, said.y, said.heading, said.size_x, said.size_y, said.height) == (3.0, 5.0, 0.5, 0.4, 0.8, 0.6)
+    assert one.setup().for_robot("cyan3").drive.max_speed == 2.0
+    one.close()
+
+
+def test_a_world_without_obstacles_says_nothing_of_them(simulation: Simulation) -> None:
+    assert "obstacles" not in simulation.step({}).world

@@ -1,0 +1,95 @@
+"""Where robots stand when a half begins: legally, whoever kicks off."""
+
+import itertools
+import math
+
+import pytest
+
+from schemas.config.match_config import load_match
+from schemas.config.profile import load_profile
+from schemas.config.robot_model import RobotModel
+from schemas.config.roster import Placement
+from schemas.config.rule_book import load_rule_book
+from schemas.game import Phase
+from schemas.messages.command import Drive
+from schemas.messages.host import AppliedInput
+from schemas.side import Side
+from sim_host.match.start_scene import start_poses
+from sim_host.match.world import World
+from sim_host.referee.core import Referee
+from sim_host.referee.game.referee_state import Restart
+from sim_host.referee.placement.positions import position_faults
+from sim_host.snapshot import BallState, RobotState, RobotStates, Roster, Snapshot
+
+
+def a_match(profile_name, rules, **overrides):
+    config = load_match(None, {"profile": profile_name, **overrides})
+    profile, book = load_profile(profile_name), load_rule_book(rules)
+    roster = Roster.of(config, profile)
+    starts = start_poses(roster, profile.field, book.restarts)
+    settings = {"duration": None, "kick_off": Side.CYAN, "automatic": True, "starts": starts}
+    referee = Referee(book, profile.field, profile.ball, roster, **settings)
+    robots = RobotStates(
+        RobotState(pose.x, pose.y, 0.4, pose.heading, 0.0, 0.0, 0.0, False)
+        for pose in (starts[name] for name in roster.names)
+    )
+    snapshot = Snapshot(0, 0.0, roster, robots, BallState(0, 0, 0.11, 0, 0, 0), None, ())
+    return referee, snapshot
+
+
+@pytest.mark.parametrize("taker", list(Side))
+@pytest.mark.parametrize("rules", ["friendly", "msl", "paper"])
+@pytest.mark.parametrize("profile", ["msl", "paper"])
+def test_at_the_start_all_stand_legally_for_a_kick_off_of_either_side(profile, rules, taker):
+    """Rule book 10.4: the side that does not kick off 3 m away, to the whole robot, its own side 2 m."""
+    referee, snapshot = a_match(profile, rules)
+    state = referee.begin()
+    assert position_faults(referee._match, state, Restart(Phase.KICK_OFF, taker, (0.0, 0.0)), snapshot) == ()
+
+
+def test_a_robot_with_a_wide_frame_starts_as_far_away_as_its_frame_asks_for():
+    wide = {f"cyan{number}": "keeper" for number in range(1, 6)}
+    referee, snapshot = a_match("msl", "msl", **{"teams.cyan.types": wide})
+    kick_off = Restart(Phase.KICK_OFF, Side.MAGENTA, (0.0, 0.0))
+    assert position_faults(referee._match, referee.begin(), kick_off, snapshot) == ()
+    nearest = min(math.hypot(robot.x, robot.y) for robot in snapshot.robots[:5])
+    assert nearest > 3.0 + math.hypot(0.245, 0.30)
+
+
+@pytest.mark.parametrize("profile", ["msl", "paper"])
+def test_robots_start_apart_from_each_other_and_on_the_pitch(profile):
+    _, snapshot = a_match(profile, "msl")
+    pitch, reach = load_profile(profile).field, snapshot.roster.models[0].body.reach
+    for one, other in itertools.combinations(snapshot.robots, 2):
+        assert math.hypot(one.x - other.x, one.y - other.y) > 2 * reach + 0.1
+    assert all(abs(r.x) + reach <= pitch.goal_line and abs(r.y) + reach < pitch.touch_line for r in snapshot.robots)
+
+
+@pytest.mark.parametrize("count", [2, 6, 10, 20, 100])
+def test_nothing_but_the_rules_keeps_a_side_at_five_robots_with_one_digit(count):
+    """Reference 13, row 23, and reference 14, defect 13: the seed could not name a sixth robot, nor a tenth.
+
+    A match file has five a side at most, as the rules do; start, world and referee take any number.
+    """
+    profile, book = load_profile("msl"), load_rule_book("msl")
+    pairs = [(f"{side}{number}", side) for side in Side for number in range(1, count // 2 + 1)]
+    roster = Roster(
+        names=tuple(name for name, _ in pairs),
+        sides=tuple(side for _, side in pairs),
+        keepers={side: f"{side}1" for side in Side},
+        models=(RobotModel.standard(profile),) * count,
+    )
+    starts = start_poses(roster, profile.field, book.restarts)
+    for (_, one), (_, other) in itertools.combinations(starts.items(), 2):
+        assert math.hypot(one.x - other.x, one.y - other.y) > 2 * profile.robot.radius
+    world = World(profile, roster)
+    world.place([Placement(body=name, x=at.x, y=at.y, heading=at.heading) for name, at in starts.items()])
+    told = dict.fromkeys(roster.names, AppliedInput(Drive(omega=1.0), dribble=False))
+    for _ in range(20):
+        snapshot = world.advance(told).snapshot
+    world.close()
+    assert len(snapshot.robots) == count
+    assert all(robot.omega == pytest.approx(1.0) for robot in snapshot.robots)
+    settings = {"duration": None, "kick_off": Side.CYAN, "automatic": True, "starts": starts}
+    referee = Referee(book, profile.field, profile.ball, roster, **settings)
+    assert referee.step(referee.begin(), snapshot, (), 0.02).state.phase is not Phase.PRE_GAME

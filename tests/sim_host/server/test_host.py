@@ -1,0 +1,79 @@
+"""The same match again: on the bus, without one, and with another seed."""
+
+from dataclasses import dataclass
+
+import pytest
+
+from schemas.config.match_config import MatchConfig
+from schemas.game import Phase
+from schemas.messages.world import World
+from schemas.topics import APPLIED, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
+from touchline.play import play_match
+
+SHIPPED = {
+    "duration": 2,
+    "teams": {
+        "cyan": {"brain": "robot_agent.teams.simple:Simple", "size": 3},
+        "magenta": {"brain": "robot_agent.teams.nubot:NuBot", "size": 2},
+    },
+}
+
+
+@dataclass
+class Watched:
+    """All that was published of a whole match."""
+
+    worlds: list[World]
+    chains: list[str]
+
+
+@pytest.fixture
+def watch_match(rig_of):
+    def watch(seed: int) -> Watched:
+        rig = rig_of(seed=seed, **SHIPPED)
+        worlds, applied = rig.listen(WORLD), rig.listen(APPLIED)
+        rig.join_all()
+        rig.host.run()
+        return Watched(worlds.all(), [message.chain for message in applied.all()])
+
+    return watch
+
+
+def test_the_same_seed_gives_the_same_match_tick_for_tick_on_the_bus_and_without_one(watch_match):
+    first, again = watch_match(7), watch_match(7)
+    assert [world.tick for world in first.worlds] == list(range(len(first.worlds)))
+    assert len(first.worlds) > 100
+    assert again.worlds == first.worlds
+    assert again.chains == first.chains
+    alone = []
+    played = play_match(
+        MatchConfig.model_validate({"seed": 7, **SHIPPED}), watch=lambda tick: alone.append(tick.applied["chain"])
+    )
+    assert alone == first.chains[1:]
+    assert (played.chain, played.ticks) == (first.chains[-1], len(first.worlds) - 1)
+
+
+def test_another_seed_gives_another_match(watch_match):
+    assert watch_match(8).worlds[-1] != watch_match(7).worlds[-1]
+
+
+def test_a_match_is_played_to_full_time_and_every_tick_is_told_once(rig_of):
+    rig = rig_of(duration=1)
+    worlds, states = rig.listen(WORLD), rig.listen(STATE)
+    rig.join_all()
+    rig.host.run()
+    assert [world.tick for world in worlds.all()] == list(range(rig.host.simulation.now.tick + 1))
+    assert states.all()[-1].phase is Phase.FULL_TIME
+
+
+def test_single_bodies_are_told_as_the_world_has_them_at_the_same_tick(rig_of):
+    """Reference 13, row 13: a key for each body, one message for all, one number of the tick for both."""
+    rig = rig_of(duration=2)
+    worlds, robots, balls = rig.listen(WORLD), rig.listen(WORLD_ROBOT), rig.listen(WORLD_BALL)
+    rig.join_all()
+    rig.host.run()
+    world_at = {world.tick: world for world in worlds.all()}
+    frames, ball_frames = robots.all(), balls.all()
+    assert frames and ball_frames
+    assert all(frame.robot in world_at[frame.tick].robots.values() for frame in frames)
+    assert all(frame.ball == world_at[frame.tick].ball for frame in ball_frames)

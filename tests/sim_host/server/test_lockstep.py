@@ -1,0 +1,169 @@
+"""Lockstep: what is waited for, and for how long, when messages are lost and robots are slow, silent, dead or late."""
+
+import pytest
+
+from schemas.messages.command import Drive
+from schemas.messages.host import AppliedInput
+from schemas.topics import APPLIED, WORLD
+from sim_host.server.inbox import SILENT_TICKS
+
+PATIENCE_S = 1.0
+"""How long the host waits for an answer; the match file's default."""
+REST = AppliedInput(drive=Drive(), dribble=False)
+
+
+def answered(inputs):
+    return [given.answers_tick for given in inputs]
+
+
+def test_a_lost_sight_is_sent_again_and_costs_no_tick(rig, lose):
+    tried = lose(rig.host._outbox._sights["cyan2"], {3, 7, 8})
+    rig.ticks(12)
+    assert len(tried) == 12 + 3
+    assert answered(rig.inputs("cyan2")) == list(range(12))
+    assert rig.clock.now() < PATIENCE_S
+    assert rig.host.inbox.agent_stats["cyan2"].missed == 0
+
+
+def test_a_lost_command_is_asked_for_again_and_the_brain_is_not(rig, lose):
+    runner = rig.agents["cyan2"].runner
+    lose(runner._commands, {4, 5})
+    rig.ticks(12)
+    assert answered(rig.inputs("cyan2")) == list(range(12))
+    assert (runner.answered, runner.repeated) == (12, 2)
+    assert rig.host.inbox.agent_stats["cyan2"].missed == 0
+
+
+def test_a_lost_message_does_not_change_the_match(rig_of, lose):
+    chains = []
+    for lost in (set(), {2, 3, 9}):
+        rig = rig_of()
+        applied = rig.listen(APPLIED)
+        rig.join_all()
+        lose(rig.host._outbox._sights["magenta1"], lost)
+        rig.begin()
+        rig.ticks(20)
+        chains.append([message.chain for message in applied.all()])
+    assert len(chains[0]) == 21
+    assert chains[0] == chains[1]
+
+
+def test_a_silent_robot_is_waited_for_a_few_ticks_and_then_no_more(rig):
+    rig.ticks(5)
+    rig.agents["cyan2"].frozen = True
+    began = rig.clock.now()
+    rig.ticks(SILENT_TICKS)
+    waited = rig.clock.now() - began
+    assert waited == pytest.approx(SILENT_TICKS * PATIENCE_S, abs=0.1)
+    rig.ticks(50)
+    assert rig.clock.now() - began - waited < PATIENCE_S
+    assert rig.host.pace.late_ticks == SILENT_TICKS
+
+
+def test_a_silent_robot_rests_and_is_waited_for_when_it_answers_again(rig):
+    rig.ticks(50)
+    rig.agents["cyan2"].frozen = True
+    rig.ticks(100)
+    inputs = rig.inputs("cyan2")
+    assert answered(inputs[:50]) == list(range(50))
+    assert all(given.drive == Drive(vx=1.0) for given in inputs[:60])
+    assert inputs[60:] == [REST] * 90
+    assert abs(rig.truth("cyan2")["vx"]) < 1e-3
+    assert rig.truth("cyan1")["vx"] > 0.5
+    health = rig.health().robots["cyan2"]
+    assert (health.alive, health.answering, health.missed) == (True, False, 101)
+    assert rig.silences() == ["cyan2 does not answer, its robot rests"]
+
+    rig.agents["cyan2"].frozen = False
+    rig.inputs("cyan2")
+    rig.ticks(20)
+    assert None not in answered(rig.inputs("cyan2")[2:])
+    assert rig.health().robots["cyan2"].answering
+    assert rig.silences() == ["cyan2 answers"]
+
+
+def test_a_robot_that_always_answers_too_late_does_not_hold_the_match_at_every_tick(rig):
+    rig.agents["cyan2"].thinks_s = 1.2 * PATIENCE_S
+    rig.ticks(400)
+    assert rig.clock.now() < 100 * PATIENCE_S
+    health = rig.health().robots
+    assert not health["cyan2"].answering
+    assert health["cyan1"].missed == 0
+    assert rig.silences() == ["cyan2 does not answer, its robot rests"]
+
+
+def test_a_robot_that_needs_long_but_not_too_long_is_waited_for(rig):
+    rig.agents["cyan2"].thinks_s = 0.7 * PATIENCE_S
+    rig.ticks(6)
+    assert rig.host.inbox.agent_stats["cyan2"].missed == 0
+    assert answered(rig.inputs("cyan2")) == list(range(6))
+
+
+def test_an_agent_that_dies_is_not_waited_for_and_its_successor_joins(rig):
+    rig.ticks(5)
+    rig.leave("cyan2")
+    began = rig.clock.now()
+    rig.ticks(30)
+    assert rig.clock.now() - began < PATIENCE_S
+    assert not rig.health().robots["cyan2"].alive
+    rig.join("cyan2")
+    rig.ticks(10)
+    ticks = answered(rig.inputs("cyan2"))
+    assert ticks[:5] == [0, 1, 2, 3, 4]
+    assert ticks[5:36] == [None] * 31
+    assert ticks[-9:] == list(range(37, 46))
+    assert rig.silences() == ["cyan2 does not answer, its robot rests", "cyan2 answers"]
+
+
+def test_an_agent_that_comes_late_joins(rig_of):
+    rig = rig_of(patience={"attendance": 0})
+    for robot in ("cyan1", "magenta1"):
+        rig.join(robot)
+    rig.begin()
+    rig.ticks(10)
+    rig.join("cyan2")
+    rig.ticks(10)
+    ticks = answered(rig.inputs("cyan2"))
+    assert ticks[:10] == [None] * 10
+    assert ticks[-9:] == list(range(11, 20))
+    assert rig.clock.now() < PATIENCE_S
+
+
+def test_an_agent_that_comes_while_the_host_waits_for_another_is_in_time_for_this_tick(rig):
+    rig.leave("cyan2")
+    rig.agents["cyan1"].thinks_s = 0.03
+
+    def come() -> None:
+        if "cyan2" not in rig.agents and rig.clock.now() > 0.01:
+            rig.join("cyan2")
+
+    rig.idle.append(come)
+    rig.ticks(1)
+    assert answered(rig.inputs("cyan2")) == [0]
+    assert rig.clock.now() == pytest.approx(0.03, abs=0.01)
+
+
+def test_the_first_tick_waits_for_everybody_and_for_a_recorder_where_one_is_wanted(rig_of):
+    rig = rig_of(record={"wait": True})
+    rig.join_all()
+    presence = rig.host.presence
+    presence.update()
+    assert presence.all_present(wait_for_recorder=False)
+    assert not presence.all_present(wait_for_recorder=True)
+    rig.outside.declare_alive("recorder", "recorder")
+    rig.host.wait_for_all()
+    assert presence.all_present(wait_for_recorder=True)
+    assert rig.clock.now() == 0.0
+
+
+def test_a_host_that_is_told_to_stop_waits_for_nobody_and_ends_its_tick(rig):
+    worlds, applied = rig.listen(WORLD), rig.listen(APPLIED)
+    rig.ticks(5)
+    rig.agents["cyan2"].frozen = True
+    rig.host.stop()
+    began = rig.clock.now()
+    rig.ticks(1)
+    assert rig.clock.now() - began < PATIENCE_S
+    last = applied.all()[-1]
+    assert worlds.all()[-1].tick == last.tick == 6
+    assert last.inputs["cyan2"].answers_tick is None

@@ -1,0 +1,174 @@
+"""What can be asked of a running host."""
+
+import pytest
+
+from schemas.bus.contract import NoReplyError
+from schemas.game import REFBOX, ActionName, ActionReply, Phase, RefereeAction
+from schemas.messages.coach import CoachOrder
+from schemas.messages.host import SetupRequest
+from schemas.messages.parameters import ParameterOperation, ParametersRequest
+from schemas.side import Side
+from schemas.topics import ACTION, APPLIED, EVENT, INVALID, PARAMETERS, SETUP, STATE
+
+
+def ask(rig, action, side=None) -> ActionReply:
+    """The referee's answer, given in the next tick."""
+    answer = rig.outside.query(ACTION, RefereeAction(action=action, side=side))
+    rig.ticks(1)
+    return answer.result(0.0)
+
+
+@pytest.mark.parametrize("rig_name", ["rig", "realtime_rig"])
+def test_an_action_is_answered_in_the_next_tick(rig_name, request):
+    rig = request.getfixturevalue(rig_name)
+    states = rig.listen(STATE)
+    rig.ticks(2)
+    reply = ask(rig, ActionName.STOP)
+    said = states.all()[-1]
+    assert said.phase is Phase.STOPPED
+    assert reply == ActionReply(accepted=True, tick=said.tick)
+    again = ask(rig, ActionName.STOP)
+    assert not again.accepted
+    assert "the game is stopped already" in again.reason
+    assert not ask(rig, ActionName.CORNER).accepted
+    assert ask(rig, ActionName.CORNER, Side.MAGENTA).accepted
+
+
+def test_actions_of_one_tick_are_answered_each_with_its_own_reply(rig):
+    rig.ticks(2)
+    first, second = (rig.outside.query(ACTION, RefereeAction(action=ActionName.STOP)) for _ in range(2))
+    rig.ticks(1)
+    assert (first.result(0.0).accepted, second.result(0.0).accepted) == (True, False)
+
+
+def test_while_a_referee_box_is_connected_nobody_else_may_more_than_stop_the_game(rig):
+    """Reference 8.3: manual buttons are disabled while the box is connected, and the space bar always stops."""
+    ask(rig, ActionName.STOP)
+    box = rig.seat()
+    box.declare_alive(REFBOX, "cyan")
+    by_hand, from_box = (
+        rig.outside.query(ACTION, RefereeAction(action=ActionName.CORNER, side=Side.CYAN, source=source))
+        for source in ("page", REFBOX)
+    )
+    rig.ticks(1)
+    assert "referee box is connected" in by_hand.result(0.0).reason
+    assert from_box.result(0.0).accepted
+    rig.ticks(100)
+    assert ask(rig, ActionName.STOP).accepted
+    box.withdraw_alive(REFBOX, "cyan")
+    rig.ticks(1)
+    assert ask(rig, ActionName.START).accepted
+
+
+def test_a_question_that_is_none_is_told_and_answered_with_what_is_wrong(rig):
+    told = rig.listen(INVALID)
+    answer = rig.outside.query(ACTION, CoachOrder(sequence=1))
+    rig.ticks(1)
+    with pytest.raises(NoReplyError, match="RefereeAction: "):
+        answer.result(0.0)
+    (invalid,) = told.all()
+    assert invalid.key == "game/action"
+
+
+def test_the_setup_is_told_before_the_first_tick_and_during_the_match(rig_of):
+    rig = rig_of(patience={"attendance": 0})
+    answer = rig.outside.query(SETUP, SetupRequest())
+    rig.begin()
+    rig.ticks(1)
+    setup = answer.result(0.0)
+    assert setup.teams[Side.CYAN].robots == ["cyan1", "cyan2"]
+
+
+def test_the_setup_is_told_to_a_robot_that_has_to_know_it_before_it_can_answer(rig):
+    rig.agents["cyan2"].frozen = True
+    answer = rig.outside.query(SETUP, SetupRequest())
+
+    def ask_first():
+        if rig.agents["cyan2"].frozen:
+            try:
+                answer.result(0.0)
+            except NoReplyError:
+                return
+            rig.agents["cyan2"].frozen = False
+
+    rig.idle.append(ask_first)
+    rig.ticks(1)
+    assert [given.answers_tick for given in rig.inputs("cyan2")] == [0]
+
+
+def test_a_start_begins_the_match_though_nobody_has_come(rig_of):
+    rig = rig_of()
+    answer = rig.outside.query(ACTION, RefereeAction(action=ActionName.START))
+    rig.begin()
+    rig.ticks(1)
+    assert answer.result(0.0).accepted
+    assert rig.host.simulation.state.phase is not Phase.PRE_GAME
+    assert rig.clock.now() < 1.0
+
+
+def test_an_action_after_the_match_is_refused(rig_of):
+    rig = rig_of(duration=1)
+    rig.join_all()
+    rig.begin()
+    while not rig.host.simulation.over:
+        rig.ticks(1)
+    answer = rig.outside.query(ACTION, RefereeAction(action=ActionName.START))
+    rig.host.wait_for_recorders()
+    assert answer.result(0.0) == ActionReply(accepted=False, reason="the match is over")
+
+
+def played(rig):
+    rig.join_all()
+    rig.begin()
+    while not rig.host.simulation.over:
+        rig.ticks(1)
+    return rig
+
+
+def test_after_full_time_the_host_stays_until_those_who_watch_can_have_heard_of_it(rig_of):
+    """A message that was lost shows half a second later, with the bus's heartbeat, and is fetched from the host."""
+    rig = played(rig_of(duration=1))
+    rig.seat().declare_alive("coach", "page")
+    began = rig.clock.now()
+    rig.host.wait_for_recorders()
+    assert rig.clock.now() - began > 0.5
+
+
+@pytest.mark.parametrize("watched", [False, True])
+def test_a_host_that_nobody_watches_or_that_is_told_to_stop_does_not_stay(rig_of, watched):
+    rig = played(rig_of(duration=1))
+    if watched:
+        rig.seat().declare_alive("coach", "page")
+        rig.host.stop()
+    began = rig.clock.now()
+    rig.host.wait_for_recorders()
+    assert rig.clock.now() == began
+
+
+def test_a_parameter_is_changed_between_two_ticks_recorded_and_told_to_late_comers(rig):
+    events, applied = rig.listen(EVENT), rig.listen(APPLIED)
+    rig.ticks(2)
+    values = {"drive.max_speed": 1.5}
+    answer = rig.outside.query(PARAMETERS, ParametersRequest(operation=ParameterOperation.SET, values=values))
+    late = rig.outside.query(SETUP, SetupRequest())
+    rig.ticks(1)
+    assert [(one.name, one.value) for one in answer.result(0.0).parameters] == [("drive.max_speed", 1.5)]
+    assert late.result(0.0).drive.max_speed == 1.5
+    assert [message.parameters for message in applied.all()][-2:] == [{}, values]
+    assert "operator sets drive.max_speed = 1.5" in [event.text for event in events.all()]
+
+
+def test_parameters_are_read_after_the_match_and_not_changed(rig_of):
+    rig = rig_of(duration=1)
+    rig.join_all()
+    rig.begin()
+    while not rig.host.simulation.over:
+        rig.ticks(1)
+    asked = [
+        ParametersRequest(operation=operation, names=["ball"])
+        for operation in (ParameterOperation.GET, ParameterOperation.RESET)
+    ]
+    read, changed = [rig.outside.query(PARAMETERS, request) for request in asked]
+    rig.host.wait_for_recorders()
+    assert read.result(0.0).accepted
+    assert changed.result(0.0).reason == "the match is over"

@@ -1,0 +1,142 @@
+import json
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from schemas.bus.contract import Bus
+from schemas.bus.in_process_bus import Medium
+from schemas.game import ActionName, ActionReply, GameState, Phase, RefereeAction, Score
+from schemas.messages.host import Health, RobotHealth
+from schemas.process.clock import SteppedClock
+from schemas.side import Side
+from schemas.topics import ACTION, HEALTH, STATE
+from touchline.__main__ import app
+from touchline.commands import coach
+
+
+class TalkingClock(SteppedClock):
+    """Lets the host say its piece whenever somebody waits."""
+
+    __slots__ = ("host",)
+
+    def sleep_until(self, moment: float) -> None:
+        super().sleep_until(moment)
+        self.host.speak()
+
+
+class Host:
+    """Accepts `stop` and `corner`, refuses the rest, and says what it is told to say."""
+
+    def __init__(self) -> None:
+        self.medium = Medium()
+        self.asked: list[RefereeAction] = []
+        self.says: list[GameState | Health] = []
+        self._bus = self.medium.open_bus("friendly", SteppedClock())
+        self._server = self._bus.serve(ACTION)
+        self._writers = {GameState: self._bus.publisher(STATE), Health: self._bus.publisher(HEALTH)}
+        self._thread = threading.Thread(target=self._answer)
+        self._thread.start()
+
+    def speak(self) -> None:
+        for message in self.says:
+            self._writers[type(message)].put(message)
+
+    def close(self) -> None:
+        self._bus.close()
+        self._thread.join()
+
+    def _answer(self) -> None:
+        while (query := self._server.receive(None)) is not None:
+            self.asked.append(query.message())
+            accepted = self.asked[-1].action in (ActionName.STOP, ActionName.CORNER)
+            query.reply(ActionReply(accepted=accepted, reason="" if accepted else "the game is running"))
+
+
+@pytest.fixture
+def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[Host]:
+    there = Host()
+
+    @contextmanager
+    def seat(connect: str, match: str) -> Iterator[Bus]:
+        clock = TalkingClock()
+        clock.host = there
+        with there.medium.open_bus(match, clock) as bus:
+            yield bus
+
+    monkeypatch.setattr(coach, "bus_client", seat)
+    yield there
+    there.close()
+
+
+def touchline(*words: str) -> Result:
+    return CliRunner().invoke(app, ["coach", *words], prog_name="touchline")
+
+
+def test_an_accepted_action_is_a_success(host: Host) -> None:
+    result = touchline("corner", "magenta")
+    assert (result.exit_code, result.stdout) == (0, "corner accepted\n")
+    assert [(action.action, action.side) for action in host.asked] == [(ActionName.CORNER, Side.MAGENTA)]
+
+
+def test_a_refused_action_fails_with_the_referees_reason(host: Host) -> None:
+    result = touchline("place-ball", "-3.5", "2")
+    assert (result.exit_code, result.stderr) == (1, "touchline: refused: the game is running\n")
+    assert host.asked[0].place is not None
+    assert (host.asked[0].place.x, host.asked[0].place.y) == (-3.5, 2.0)
+
+
+ABOUT = {coach.NoTarget: [], coach.SideTarget: ["cyan"], coach.RobotTarget: ["cyan1"], coach.PlaceTarget: ["-3.5", "2"]}
+
+
+@pytest.mark.parametrize("word", coach.REFEREE_COMMANDS)
+def test_every_word_of_the_referee_box_asks_for_its_own_action(host: Host, word: str) -> None:
+    """Reference 13, row 37: what the keys of the auto referee ask for."""
+    deed = coach.REFEREE_COMMANDS[word]
+    touchline(word, *ABOUT[deed.target])
+    (asked,) = host.asked
+    assert asked.action is deed.action
+    assert word.replace("-", "") == deed.action.value.replace("_", "")
+    assert asked.side == (Side.CYAN if deed.target is coach.SideTarget else None)
+    assert asked.robot == ("cyan1" if deed.target is coach.RobotTarget else None)
+    assert (asked.place is not None) == (deed.target is coach.PlaceTarget)
+
+
+def test_every_action_has_one_word() -> None:
+    assert len(coach.REFEREE_COMMANDS) == len(ActionName)
+    assert {deed.action for deed in coach.REFEREE_COMMANDS.values()} == set(ActionName)
+
+
+def test_a_name_that_no_robot_can_have_is_wrong_input(host: Host) -> None:
+    result = touchline("repair", "Cyan 1")
+    assert result.exit_code == 2 and "Cyan 1" in result.stderr
+    assert host.asked == []
+
+
+def test_an_action_in_a_match_that_nobody_plays_is_wrong_input(host: Host) -> None:
+    result = touchline("stop", "--match", "final")
+    assert result.exit_code == 2
+    assert 'match "final": nobody answers game/action' in result.stderr
+
+
+def test_the_state_is_shown_once_in_words_and_as_json(host: Host) -> None:
+    host.says = [GameState(tick=5, time=61.0, clock=61.0, phase=Phase.PLAY, score=Score(cyan=2))]
+    assert touchline("state").stdout == " 1:01.0  half 1  cyan 2 : 0 magenta  play\n"
+    shown = json.loads(touchline("state", "--json").stdout)
+    assert (shown["phase"], shown["score"]) == ("play", {"cyan": 2, "magenta": 0})
+
+
+def test_the_state_of_a_match_that_waits_for_robots_says_how_many_are_there(host: Host) -> None:
+    robots = {"cyan1": RobotHealth(alive=True), "cyan2": RobotHealth()}
+    host.says = [Health(tick=0, time=0.0, pace="lockstep", real_time_factor=0.0, robots=robots)]
+    result = touchline("state")
+    assert result.exit_code == 1
+    assert result.stderr == 'touchline: match "friendly" has not begun: 1 of 2 robots are there\n'
+
+
+def test_a_host_that_says_nothing_is_named(host: Host) -> None:
+    result = touchline("state")
+    assert result.exit_code == 2
+    assert 'match "friendly": the host says nothing of it' in result.stderr

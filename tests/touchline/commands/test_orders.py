@@ -1,0 +1,146 @@
+"""Orders from the terminal: what was typed in, and who has acknowledged it."""
+
+import json
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from schemas.bus.contract import Bus
+from schemas.bus.in_process_bus import Medium
+from schemas.config.match_config import load_match
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
+from schemas.game import Point
+from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
+from schemas.messages.command import KickMode
+from schemas.messages.host import Setup
+from schemas.process.clock import SteppedClock
+from schemas.topics import ACTIVE_ORDER, ORDER, SETUP
+from touchline.__main__ import app
+from touchline.commands import orders
+
+
+class Host:
+    """Takes orders in, and says that all but the deaf robots have acknowledged them."""
+
+    def __init__(self) -> None:
+        self.medium = Medium()
+        self.orders: list[tuple[str, CoachOrder]] = []
+        self.deaf: set[str] = set()
+        self._setup = Setup.of(load_match(None, {}), load_profile("msl"), load_rule_book("friendly"))
+        self._bus = self.medium.open_bus("friendly", SteppedClock())
+        self._questions, self._given = self._bus.serve(SETUP), self._bus.subscribe(ORDER)
+        self._thread = threading.Thread(target=self._answer)
+        self._thread.start()
+
+    def close(self) -> None:
+        self._bus.close()
+        self._thread.join()
+
+    def _answer(self) -> None:
+        while (query := self._questions.receive(None)) is not None:
+            while (received := self._given.receive()) is not None:
+                side, order = received.chunks["side"], received.message()
+                self.orders.append((side, order))
+                robots = {f"{side}{number}": f"{side}{number}" not in self.deaf for number in range(1, 6)}
+                standing = ActiveOrder(tick=1, time=0.02, order=order, acknowledged=robots)
+                self._bus.publisher(ACTIVE_ORDER, side=side).put(standing)
+            query.reply(self._setup)
+
+
+@pytest.fixture
+def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[Host]:
+    there = Host()
+
+    @contextmanager
+    def seat(connect: str, match: str) -> Iterator[Bus]:
+        with there.medium.open_bus(match, SteppedClock()) as bus:
+            yield bus
+
+    monkeypatch.setattr(orders, "bus_client", seat)
+    yield there
+    there.close()
+
+
+def coach(*words: str) -> Result:
+    return CliRunner().invoke(app, ["coach", *words], prog_name="touchline")
+
+
+def test_an_order_is_given_and_says_who_has_acknowledged_it(host: Host) -> None:
+    result = coach("order", "cyan", "--mode", "hold", "--max-speed", "1.5")
+    ((side, order),) = host.orders
+    assert (side, order.mode, order.max_speed) == ("cyan", CoachMode.HOLD, 1.5)
+    everyone = "cyan1, cyan2, cyan3, cyan4, cyan5"
+    assert result.stdout == f"order {order.sequence} to cyan: hold; acknowledged by {everyone}\n"
+    assert result.exit_code == 0
+
+
+def test_robots_that_do_not_acknowledge_are_waited_for_and_named(host: Host) -> None:
+    host.deaf = {"magenta2", "magenta4"}
+    result = coach("order", "magenta", "--wait", "1")
+    assert result.stdout.endswith("acknowledged by magenta1, magenta3, magenta5; not yet by magenta2, magenta4\n")
+    assert result.exit_code == 0
+
+
+def test_what_became_of_an_order_is_told_to_programs(host: Host) -> None:
+    host.deaf = {"cyan5"}
+    said = json.loads(coach("order", "cyan", "--json").stdout)
+    assert said == {
+        "side": "cyan",
+        "sequence": host.orders[0][1].sequence,
+        "status": "active",
+        "acknowledged": ["cyan1", "cyan2", "cyan3", "cyan4"],
+        "missing": ["cyan5"],
+    }
+
+
+def test_a_test_is_ordered_in_its_own_words(host: Host) -> None:
+    words = ["--robot", "cyan2", "--to", "cyan3", "--point-a", "-2,1.5", "--point-b", "3,-1", "--angle-a", "-0.5"]
+    result = coach("test", "cyan", "pass", *words, "--kick-speed", "4", "--avoid")
+    assert result.exit_code == 0, result.stderr
+    _, order = host.orders[0]
+    assert order == CoachOrder(
+        sequence=order.sequence,
+        mode=CoachMode.TEST,
+        test=CoachTest.PASS,
+        robot_a="cyan2",
+        robot_b="cyan3",
+        point_a=Point(x=-2.0, y=1.5),
+        point_b=Point(x=3.0, y=-1.0),
+        angle_a=-0.5,
+        kick_speed=4.0,
+        avoid=True,
+    )
+    assert f"order {order.sequence} to cyan: test pass; acknowledged by" in result.stdout
+
+
+def test_an_order_that_names_a_test_is_one(host: Host) -> None:
+    coach("order", "cyan", "--test", "shoot", "--robot-a", "cyan2", "--kick-mode", "lob")
+    _, order = host.orders[0]
+    assert (order.mode, order.test, order.kick_mode) == (CoachMode.TEST, CoachTest.SHOOT, KickMode.LOB)
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (("test", "cyan", "move", "--robot", "cyan2"), "the test move needs point_a"),
+        (("test", "cyan", "move", "--robot", "cyan2", "--point-a", "2"), "2 is no point; write x and y in m, like"),
+        (("test", "cyan", "move", "--robot", "cyan2", "--point-a", "nan,1"), "nan,1 is no point"),
+        (("test", "cyan", "juggle"), "juggle"),
+        (("order", "cyan", "--mode", "hold", "--test", "stop"), "the mode hold has no test; leave out stop"),
+        (("order", "cyan", "--angle-a", "90"), "--angle-a is 90.0"),
+        (("order", "cyan", "--kick-speed", "50"), "--kick-speed is 50.0"),
+        (("test", "cyan", "shoot", "--robot", "magenta1"), 'robot_a is "magenta1", no robot of cyan'),
+        (("order", "cyan", "--wait", "-1"), "--wait"),
+    ],
+)
+def test_what_cannot_be_meant_is_wrong_input_and_reaches_nobody(
+    host: Host, words: tuple[str, ...], reason: str
+) -> None:
+    result = coach(*words)
+    assert result.exit_code == 2 and len(result.stderr.splitlines()) == 1
+    assert reason in result.stderr
+    assert host.orders == []

@@ -1,0 +1,122 @@
+"""`touchline scene` and `touchline scenes`, against a simulation of the same process."""
+
+import json
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from pytest import approx
+from typer.testing import CliRunner, Result
+
+from schemas.bus.contract import Bus
+from schemas.bus.in_process_bus import Medium
+from schemas.config.match_config import load_match
+from schemas.config.scene import shipped_scenes
+from schemas.process.clock import SteppedClock
+from schemas.side import Side
+from schemas.topics import SCENE
+from sim_host.match.simulation import Simulation
+from touchline.__main__ import app
+from touchline.commands import scene
+from touchline.play import InProcessMatch, play_match
+
+
+@pytest.fixture
+def simulation(monkeypatch: pytest.MonkeyPatch) -> Iterator[Simulation]:
+    """Answers as a host does."""
+    simulation = Simulation(load_match(None))
+    medium = Medium()
+    bus = medium.open_bus("friendly", SteppedClock())
+    server = bus.serve(SCENE)
+
+    def answer() -> None:
+        while (query := server.receive(None)) is not None:
+            query.reply(simulation.handle_scene(query.message()))
+
+    @contextmanager
+    def seat(connect: str, match: str) -> Iterator[Bus]:
+        with medium.open_bus(match, SteppedClock()) as client:
+            yield client
+
+    monkeypatch.setattr(scene, "bus_client", seat)
+    thread = threading.Thread(target=answer)
+    thread.start()
+    yield simulation
+    bus.close()
+    thread.join()
+    simulation.close()
+
+
+def touchline(*words: str) -> Result:
+    return CliRunner().invoke(app, list(words), prog_name="touchline")
+
+
+def accepted(*words: str) -> str:
+    result = touchline("scene", *words)
+    assert result.exit_code == 0, result.stderr
+    return result.stdout
+
+
+def test_bodies_are_set_down_added_and_removed_by_hand(simulation: Simulation) -> None:
+    assert accepted("place", "ball", "-3.5", "-2", "--vx", "4") == "place accepted, episode 1\n"
+    accepted("remove", "magenta5")
+    accepted("add", "magenta6", "magenta", "5", "-5", "--type", "slow", "--still")
+    accepted("add-obstacle", "wall", "-3", "5", "--size", "0.2", "2", "0.5")
+    accepted("add-obstacle", "pole", "3", "-5", "--radius", "0.1", "--height", "1")
+    tick = simulation.step({})
+    assert (tick.world["ball"]["x"], tick.world["ball"]["y"]) == approx((-3.42, -2.0), abs=0.01)
+    assert "magenta5" not in tick.world["robots"] and tick.world["robots"]["magenta6"]["y"] == approx(-5.0)
+    assert list(tick.world["obstacles"]) == ["wall", "pole"]
+
+
+def test_scenes_are_loaded_by_name_and_by_file_and_begun_anew(simulation: Simulation, tmp_path: Path) -> None:
+    assert accepted("load", "penalty") == "load accepted, episode 2\n"
+    file = tmp_path / "mine.toml"
+    file.write_text('description = "Mine."\n[[robots]]\nname = "anna"\nside = "cyan"\nx = 1.0\ny = 2.0\n')
+    assert accepted("load", str(file)) == "load accepted, episode 3\n"
+    assert list(simulation.step({}).world["robots"]) == ["anna"]
+    assert accepted("reset", "--to-start") == "reset accepted, episode 4\n"
+    assert len(simulation.step({}).world["robots"]) == 10
+
+
+def test_a_refusal_fails_with_its_reason(simulation: Simulation) -> None:
+    result = touchline("scene", "place", "cyan9", "0", "0")
+    assert result.exit_code == 1
+    assert result.stderr.startswith("touchline: refused: cyan9 is no robot and not the ball; did you mean")
+
+
+def test_the_scenes_are_listed_with_a_sentence_each_and_shown() -> None:
+    lines = touchline("scenes").stdout.splitlines()
+    assert [line.split()[0] for line in lines] == shipped_scenes()
+    assert set(json.loads(touchline("scenes", "--json").stdout)) == set(shipped_scenes())
+    shown = touchline("scenes", "paper_static").stdout
+    assert shown.count("stands still") == 3
+    assert json.loads(touchline("scenes", "penalty", "--json").stdout)["game"]["side"] == "cyan"
+
+
+@pytest.mark.parametrize("name", shipped_scenes())
+def test_the_shipped_teams_play_every_scene(name: str) -> None:
+    """Somebody of each side that has an agent moves within two seconds."""
+    config = load_match(None, {"scene": name})
+    ways = dict.fromkeys(Side, 0.0)
+    table = InProcessMatch(config)
+    start = table.simulation.now.world["robots"]
+    for _ in range(round(2.0 / table.simulation.profile.time.tick)):
+        robots = table.step().world["robots"]
+    for side in Side:
+        for robot in config.robots(side):
+            ways[side] += abs(robots[robot]["x"] - start[robot]["x"]) + abs(robots[robot]["y"] - start[robot]["y"])
+    table.simulation.close()
+    assert all(ways[side] > 0.05 for side in Side if config.robots(side))
+
+
+def test_the_scene_says_which_profile_and_rules_unless_the_match_does() -> None:
+    assert (load_match(None, {"scene": "paper_static"}).profile, load_match(None).profile) == ("paper", "msl")
+    assert load_match(None, {"scene": "paper_static", "profile": "msl"}).profile == "msl"
+
+
+def test_a_match_in_a_scene_is_the_same_each_time() -> None:
+    config = load_match(None, {"scene": "two_on_one", "seed": 3})
+    assert play_match(config, until=3.0).chain == play_match(config, until=3.0).chain

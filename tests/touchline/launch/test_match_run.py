@@ -1,0 +1,191 @@
+"""Matches whose host, recorder and robots are small programs of this file, over a real bus on loopback."""
+
+import io
+import signal
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from schemas.bus.contract import ReceivedMessage, Stamp
+from schemas.bus.endpoint import with_free_port
+from schemas.config.match_config import load_match
+from schemas.errors import MatchFailedError, TouchlineError
+from schemas.game import EventKind, GameEvent, GameState, Phase, Score
+from schemas.process.clock import WallClock
+from schemas.topics import EVENT, STATE
+from touchline.launch import match_run
+from touchline.launch.match_run import InterruptedMatchError, MatchRun
+from touchline.launch.processes import MatchPlan, Process, ProcessKind
+from touchline.launch.result import MatchResult
+from touchline.watch.screen import PlainScreen
+
+pytestmark = pytest.mark.processes
+
+HOST = """
+import os, pathlib, signal, sys
+from schemas.bus.zenoh.bus import open_host
+from schemas.process.clock import WallClock
+from schemas.game import EventKind, GameEvent, GameState, Phase, Score
+from schemas.topics import EVENT, STATE
+
+def play(listen, seen, phase):
+    clock = WallClock()
+    with open_host("friendly", clock, listen) as bus:
+        states, events = bus.publisher(STATE), bus.publisher(EVENT)
+        while not pathlib.Path(seen).exists():
+            states.put(GameState(tick=1, time=0.02, phase=Phase.PLAY, clock=0.02))
+            clock.sleep_until(clock.now() + 0.02)
+        events.put(GameEvent(tick=20, time=0.4, clock=0.4, kind=EventKind.GOAL, rule="goal", text="goal by cyan3"))
+        states.put(GameState(tick=21, time=0.42, phase=phase, clock=0.4, score=Score(cyan=1)))
+        yield
+"""
+FULL_TIME = HOST + "\nfor _ in play(*sys.argv[1:], Phase.FULL_TIME): pass\n"
+CUT_SHORT = HOST + "\nfor _ in play(*sys.argv[1:], Phase.PLAY): pass\n"
+DIES = HOST + "\nfor _ in play(*sys.argv[1:], Phase.PLAY): sys.exit('the roof came down')\n"
+INTERRUPTED = (
+    HOST + "\nfor _ in play(*sys.argv[1:], Phase.PLAY):\n    os.kill(os.getppid(), signal.SIGINT)\n    signal.pause()\n"
+)
+WRONG = "import sys; sys.stderr.write('pybullet says hello\\ntouchline: profile is odd; mend it\\n'); sys.exit(2)"
+RESTS = "import signal; signal.pause()"
+CRASHES = "import sys; sys.exit('brain raised')"
+RECORDS = "import pathlib, sys; pathlib.Path(sys.argv[1]).write_bytes(b'recorded')"
+LOSES = "import sys; sys.exit('disk full')"
+
+
+class WatchedScreen(PlainScreen):
+    """Leaves a file for the host when play is seen and `awaited` was said, so that its next words come in time."""
+
+    def __init__(self, words: io.StringIO, clock: WallClock, seen: Path, awaited: str) -> None:
+        super().__init__(words, clock)
+        self._words = words
+        self._seen = seen
+        self._awaited = awaited
+
+    def status(self, line: str) -> None:
+        super().status(line)
+        if "  play" in line and self._awaited in self._words.getvalue():
+            self._seen.touch()
+
+
+class Stage:
+    """One match on a screen that can be read afterwards."""
+
+    def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch, host: str, agent: str, recorder: str) -> None:
+        recording = folder / "match.mcap" if recorder else None
+        self.plan = MatchPlan(load_match(None), with_free_port("tcp/127.0.0.1:0"), folder, recording)
+        self.words = io.StringIO()
+        programs = {
+            "host": (ProcessKind.HOST, host, (self.plan.listen, str(folder / "seen"))),
+            "cyan1": (ProcessKind.AGENT, agent, ()),
+            "recorder": (ProcessKind.RECORDER, recorder, (str(recording),)),
+        }
+        processes = [
+            Process(
+                name, kind, (sys.executable, "-c", code, *words), {}, restarts=3 if kind is ProcessKind.AGENT else 0
+            )
+            for name, (kind, code, words) in programs.items()
+            if code
+        ]
+        monkeypatch.setattr(match_run, "processes_of", lambda plan: processes)
+
+    def play(self, awaited: str = "", recorded: Sequence[ReceivedMessage] = ()) -> MatchResult:
+        clock = WallClock()
+        screen = WatchedScreen(self.words, clock, self.plan.folder / "seen", awaited)
+        return MatchRun(self.plan, screen, clock, lambda plan: {"world": 2}, lambda plan: recorded).play()
+
+
+def stage(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, host: str, agent: str = RESTS, recorder: str = RECORDS
+) -> Stage:
+    return Stage(folder, monkeypatch, host, agent, recorder)
+
+
+def test_a_match_that_reaches_full_time_has_score_events_and_recording(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    match = stage(tmp_path, monkeypatch, FULL_TIME)
+    result = match.play()
+    assert (result.score.cyan, result.score.magenta) == (1, 0)
+    assert (result.ticks, result.duration_s) == (21, 0.42)
+    assert [event.text for event in result.events] == ["goal by cyan3"]
+    assert result.recording == match.plan.recording
+    assert result.losses == {"world": 2}
+    assert " 0:00.4  goal: goal by cyan3" in match.words.getvalue()
+
+
+def test_a_crashing_agent_is_shown_with_its_log_and_does_not_end_the_match(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    match = stage(tmp_path, monkeypatch, FULL_TIME, agent=CRASHES, recorder="")
+    assert match.play(awaited="not started again").recording is None
+    words = [line for line in match.words.getvalue().splitlines() if "cyan1" in line]
+    outcomes = [f"started again ({count} of 3)" for count in (1, 2, 3)] + ["not started again"]
+    assert words == [
+        line for how in outcomes for line in (f"cyan1 ended with status 1; {how}", "  cyan1: brain raised")
+    ]
+
+
+def test_a_host_with_wrong_input_is_heard_in_its_own_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(TouchlineError, match=r"^profile is odd; mend it$"):
+        stage(tmp_path, monkeypatch, WRONG).play()
+
+
+def test_a_recorder_that_waits_for_a_host_who_could_not_begin_is_sent_away(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    match = stage(tmp_path, monkeypatch, WRONG, recorder=RESTS)
+    began = WallClock().now()
+    with pytest.raises(TouchlineError):
+        match.play()
+    assert WallClock().now() - began < 20.0  # not the half minute that a recorder has after a match
+
+
+def test_a_host_that_dies_ends_the_match_with_its_last_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    match = stage(tmp_path, monkeypatch, DIES)
+    with pytest.raises(
+        MatchFailedError, match=r"match abandoned: the host ended with status 1; its log is .*host\.log"
+    ):
+        match.play()
+    assert "  host: the roof came down" in match.words.getvalue()
+
+
+def test_a_host_that_was_ended_before_full_time_leaves_no_result(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with pytest.raises(MatchFailedError, match="the host was ended before full time"):
+        stage(tmp_path, monkeypatch, CUT_SHORT).play()
+
+
+def test_the_end_of_a_match_that_was_missed_in_a_stall_is_taken_from_its_recording(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    goal = GameEvent(tick=20, time=0.4, clock=0.4, kind=EventKind.GOAL, rule="goal", text="goal by cyan3")
+    end = GameEvent(tick=60, time=1.2, clock=1.2, kind=EventKind.FULL_TIME, rule="clock", text="full time")
+    over = GameState(tick=60, time=1.2, phase=Phase.FULL_TIME, clock=1.2, score=Score(cyan=1))
+    recorded = [
+        ReceivedMessage(topic, topic.key, message.encode(), Stamp(number, number, 0))
+        for number, (topic, message) in enumerate([(EVENT, goal), (EVENT, end), (STATE, over)])
+    ]
+    match = stage(tmp_path, monkeypatch, CUT_SHORT)
+    result = match.play(recorded=recorded)
+    assert (result.score.cyan, result.ticks, result.duration_s) == (1, 60, 1.2)
+    assert [event.text for event in result.events] == ["goal by cyan3", "full time"]
+    assert match.words.getvalue().count("goal by cyan3") == 1
+    assert "full time" in match.words.getvalue()
+
+
+def test_a_lost_recording_fails_the_match_that_was_to_be_recorded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with pytest.raises(MatchFailedError, match="its recording was lost: disk full"):
+        stage(tmp_path, monkeypatch, FULL_TIME, recorder=LOSES).play()
+
+
+def test_ctrl_c_ends_everybody_and_hands_the_signal_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(InterruptedMatchError) as stopped:
+        stage(tmp_path, monkeypatch, INTERRUPTED).play()
+    assert stopped.value.number == signal.SIGINT
+    assert signal.getsignal(signal.SIGINT) is before

@@ -1,0 +1,180 @@
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from recordings.container.partial_file import PartialFile
+from schemas.config.match_config import MatchConfig, load_match
+from schemas.errors import TouchlineError
+from schemas.process.clock import SteppedClock
+from schemas.side import Side
+from touchline.cli.bridge_options import BridgeOptions
+from touchline.launch.processes import (
+    PROCESSES,
+    MatchPlan,
+    PagePlan,
+    Process,
+    ProcessKind,
+    check_robot_names,
+    processes_of,
+)
+from touchline.launch.run_folder import prepare_run
+
+
+def plan(
+    recording: Path | None = Path("match.mcap"), listen: str = "tcp/127.0.0.1:7447", **overrides: object
+) -> MatchPlan:
+    return MatchPlan(load_match(None, overrides), listen, Path("runs/one"), recording)
+
+
+def by_name(plan: MatchPlan) -> dict[str, Process]:
+    return {process.name: process for process in processes_of(plan)}
+
+
+def test_a_friendly_has_a_host_a_recorder_and_ten_agents() -> None:
+    names = [process.name for process in processes_of(plan())]
+    assert names == ["host", "recorder", *(f"{side}{n}" for side in ("cyan", "magenta") for n in range(1, 6))]
+
+
+@pytest.mark.parametrize("name", ["host", "recorder", "page", "bridges"])
+def test_no_robot_is_called_as_another_process_of_the_match(name: str) -> None:
+    """The supervisor knows processes by their names: such a robot took the host's place, and nobody played."""
+    with pytest.raises(TouchlineError, match=f'a robot is named "{name}", as a process of the match is; rename it'):
+        check_robot_names(load_match(None, {"teams.magenta.robots": ["magenta1", name]}))
+    check_robot_names(load_match(None))
+
+
+def test_every_word_in_braces_is_filled_in() -> None:
+    for process in processes_of(plan()):
+        assert not any("{" in word for word in (*process.command, *process.environment.values()))
+
+
+def test_an_agent_is_told_match_robot_brain_and_side() -> None:
+    agent = by_name(plan())["magenta2"]
+    assert agent.command[1:] == (
+        *("-m", "robot_agent", "--connect", "tcp/127.0.0.1:7447", "--match", "friendly"),
+        *("--robot", "magenta2", "--brain", "robot_agent.teams.nubot:NuBot"),
+    )
+    assert agent.environment["TOUCHLINE_SIDE"] == "magenta"
+    assert agent.restarts == PROCESSES[ProcessKind.AGENT].restarts == 3
+
+
+def test_a_team_with_a_command_is_told_who_it_is_by_its_environment() -> None:
+    agent = by_name(plan(**{"teams.cyan.command": ["./robot", "--fast"], "teams.cyan.size": 1}))["cyan1"]
+    assert agent.command == ("./robot", "--fast")
+    assert {key: agent.environment[f"TOUCHLINE_{key}"] for key in ("CONNECT", "MATCH", "ROBOT", "SIDE")} == {
+        "CONNECT": "tcp/127.0.0.1:7447",
+        "MATCH": "friendly",
+        "ROBOT": "cyan1",
+        "SIDE": "cyan",
+    }
+
+
+def test_a_page_is_launched_where_one_is_wanted_with_its_tokens_in_a_file() -> None:
+    assert "page" not in by_name(plan())
+    wanted = replace(plan(), page=PagePlan("127.0.0.1", 8080, Path("runs/one/tokens.json")))
+    page = by_name(wanted)["page"]
+    assert page.command[1:] == (
+        *("-m", "coach_gateway", "--connect", "tcp/127.0.0.1:7447", "--match", "friendly", "--web"),
+        *("--listen-web", "127.0.0.1", "--port", "8080", "--tokens", "runs/one/tokens.json"),
+    )
+    assert page.restarts == 3
+
+
+def test_bridges_are_launched_where_they_are_wanted_with_the_words_they_were_asked_for_by() -> None:
+    assert "bridges" not in by_name(plan())
+    words = BridgeOptions(udp=28090, refbox_server=["cyan:28097"], refbox="10.0.0.2", team=[Side.MAGENTA])
+    bridges = by_name(replace(plan(), bridges=words.arguments()))["bridges"]
+    assert bridges.command[1:] == (
+        *("-m", "coach_gateway", "--connect", "tcp/127.0.0.1:7447", "--match", "friendly"),
+        *("--tokens", "runs/one/tokens.json", "--udp=28090", "--refbox=10.0.0.2", "--team=magenta"),
+        *("--refbox-protocol=auto", "--refbox-server=cyan:28097", "--listen-bridges=127.0.0.1"),
+    )
+    assert bridges.restarts == 3
+    assert BridgeOptions().arguments() == ()
+
+
+def test_no_recorder_is_launched_when_no_recording_is_wanted() -> None:
+    assert "recorder" not in by_name(plan(recording=None))
+
+
+def test_the_recorder_is_told_to_keep_sights_when_the_match_file_says_so() -> None:
+    assert "--sights" in by_name(plan(**{"record.sights": True}))["recorder"].command
+    assert "--sights" not in by_name(plan())["recorder"].command
+
+
+def test_the_recorder_is_told_to_draw_nothing_when_the_match_file_says_so() -> None:
+    assert "--no-viz" in by_name(plan(**{"record.viz": False}))["recorder"].command
+    assert "--no-viz" not in by_name(plan())["recorder"].command
+
+
+@pytest.mark.parametrize(
+    ("listen", "connect"),
+    [
+        ("tcp/0.0.0.0:7447", "tcp/127.0.0.1:7447"),
+        ("tcp/[::]:7447", "tcp/[::1]:7447"),
+        ("tcp/[fe80::1]:7447", "tcp/[fe80::1]:7447"),
+        ("tls/10.0.0.5:7000", "tls/10.0.0.5:7000"),
+    ],
+)
+def test_a_host_on_every_address_is_reached_by_loopback(listen: str, connect: str) -> None:
+    assert plan(listen=listen).connect == connect
+
+
+def test_two_runs_of_one_second_get_different_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    clock = SteppedClock()
+    config = load_match(None, {"seed": 7})
+    first, second = (prepare_run(config, "tcp/127.0.0.1:7447", None, clock) for _ in range(2))
+    assert [str(run.folder) for run in (first, second)] == [
+        "runs/friendly-19700101T000000Z-seed7",
+        "runs/friendly-19700101T000000Z-seed7-2",
+    ]
+    assert first.recording == first.folder / "match.mcap"
+    assert MatchConfig.model_validate_json(first.config_file.read_text()) == config
+
+
+def test_a_recording_elsewhere_gets_its_folder_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", Path("finals/a.mcap"), SteppedClock())
+    assert run.recording == Path("finals/a.mcap")
+    assert Path("finals").is_dir()
+
+
+def test_a_recording_that_cannot_be_written_goes_into_the_folder_of_the_run_and_that_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("file").write_text("")
+    for path, why in ((Path("file/a.mcap"), "File exists|Not a directory"), (tmp_path, "is a folder")):
+        run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", path, SteppedClock())
+        assert run.recording == run.folder / "match.mcap"
+        assert re.search(rf"--record .*: ({why}); the match is played, its recording goes to runs/", run.warning)
+
+
+def test_a_recording_that_another_recorder_writes_is_left_to_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    other = PartialFile(Path("a.mcap"))
+    other.file.write(b"its first bytes")
+    other.file.flush()
+    run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", Path("a.mcap"), SteppedClock())
+    assert run.recording == run.folder / "match.mcap"
+    assert "--record a.mcap: is being written by another recorder; the match is played" in run.warning
+    assert other.path.read_bytes() == b"its first bytes"
+    other.close()
+
+
+def test_the_recorder_is_told_what_the_match_file_wants(tmp_path: Path) -> None:
+    wanted = {"record.include": ["world"], "record.split_duration": 60.0, "record.keep": 3, "record.sights": True}
+    plan = MatchPlan(load_match(None, wanted), "tcp/127.0.0.1:7447", tmp_path, tmp_path / "a.mcap")
+    (recorder,) = [process for process in processes_of(plan) if process.name == "recorder"]
+    words = ["--sights", "--include=world", "--split-duration=60.0", "--keep=3"]
+    assert [word for word in recorder.command if word in words] == words
+
+
+def test_a_run_without_recording_has_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert prepare_run(load_match(None), "tcp/127.0.0.1:7447", None, SteppedClock(), recorded=False).recording is None

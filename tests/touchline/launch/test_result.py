@@ -1,0 +1,89 @@
+import io
+import json
+from dataclasses import replace
+from pathlib import Path
+
+from rich.console import Console
+
+from schemas.game import DisciplinaryRecord, EventKind, GameEvent, Score
+from schemas.side import Side
+from touchline.launch.result import MatchResult
+
+
+def event(kind: EventKind, text: str) -> GameEvent:
+    return GameEvent(
+        tick=500, time=10.0, clock=9.5, kind=kind, rule=kind.value, side=Side.CYAN, robot="cyan3", text=text
+    )
+
+
+def result(recording: Path | None = Path("runs/a/match.mcap"), losses: dict[str, int] | None = None) -> MatchResult:
+    return MatchResult(
+        score=Score(cyan=2, magenta=1),
+        duration_s=120.0,
+        ticks=6000,
+        events=(
+            event(EventKind.GOAL, "goal by cyan3"),
+            event(EventKind.STOP, "STOP; kick-off follows"),
+            event(EventKind.FULL_TIME, "half 2 ends").model_copy(update={"score": Score(cyan=2, magenta=1)}),
+        ),
+        real_time_factor=6.0,
+        wall_s=20.0,
+        recording=recording,
+        losses=losses or {},
+        effective_s=80.0,
+        robots={"cyan3": DisciplinaryRecord(yellow=1)},
+    )
+
+
+def render(shown: MatchResult) -> str:
+    out = io.StringIO()
+    Console(file=out, width=100).print(shown.render())
+    return out.getvalue()
+
+
+def test_the_json_holds_everything_a_program_asks_for() -> None:
+    content = json.loads(result().json())
+    assert content.pop("events")[0] == {
+        **{"tick": 500, "time": 10.0, "clock": 9.5, "kind": "goal", "rule": "goal", "side": "cyan"},
+        **{"robot": "cyan3", "robots": [], "place": None, "score": None, "text": "goal by cyan3"},
+        **{"measured": None, "limit": None, "unit": "", "card": None},
+    }
+    assert content == {
+        "score": {"cyan": 2, "magenta": 1},
+        "halves": [{"cyan": 2, "magenta": 1}],
+        "shoot_out": None,
+        "cards": {"cyan3": {"yellow": 1, "red": 0}},
+        "duration_s": 120.0,
+        "effective_s": 80.0,
+        "ticks": 6000,
+        "real_time_factor": 6.0,
+        "wall_s": 20.0,
+        "recording": "runs/a/match.mcap",
+        "losses": {},
+    }
+
+
+def test_a_match_without_recording_says_null() -> None:
+    assert json.loads(result(recording=None).json())["recording"] is None
+
+
+def test_the_picture_shows_score_goals_and_recording_and_leaves_stops_out() -> None:
+    shown = render(result())
+    assert "cyan 2 : 1 magenta" in shown
+    assert "halves 2:1; ball in play 80.0 s; cyan3 1 yellow" in shown
+    assert "goal by cyan3" in shown
+    assert "kick-off follows" not in shown
+    assert "recording  runs/a/match.mcap" in shown
+    assert "misses" not in shown
+
+
+def test_losses_are_shown_when_there_are_any() -> None:
+    assert "misses 3 messages" in render(result(losses={"world": 2, "game/event": 1}))
+
+
+def test_what_people_have_written_into_an_event_is_shown_as_it_is() -> None:
+    """A bracket in the name of who asked would be markup, and one that closes nothing the end of the command."""
+    asked = event(EventKind.ACTION, "[/b] asks: stop [bold]now[0.1, 0.2]")
+    shown = render(replace(result(Path("runs/[/a]/m.mcap")), events=(asked,)))
+    assert "[/b] asks: stop [bold]now[0.1, 0.2]" in shown
+    assert "runs/[/a]/m.mcap" in shown

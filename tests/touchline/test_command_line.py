@@ -1,0 +1,175 @@
+import json
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from schemas.bus.endpoint import DEFAULT_ENDPOINT
+from schemas.config.match_config import MatchConfig
+from schemas.topics import TOPICS
+from touchline.__main__ import app
+from touchline.cli import options
+
+COMMANDS = (
+    "match",
+    "host",
+    "agent",
+    "coach",
+    "record",
+    "recorder",
+    "recover",
+    "diff",
+    "filter",
+    "merge",
+    "info",
+    "stats",
+    "topics",
+    "schema",
+    "parameters",
+    "scene",
+    "scenes",
+    "drive",
+    "export",
+    "import",
+)
+NOBODY = "--connect=tcp/127.0.0.1:9"
+
+
+def touchline(*words: str, **environment: str) -> Result:
+    return CliRunner().invoke(app, list(words), prog_name="touchline", env=environment)
+
+
+def test_the_help_lists_every_command() -> None:
+    result = touchline("--help")
+    assert result.exit_code == 0
+    assert [command for command in COMMANDS if f" {command} " not in result.stdout] == []
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_has_help_with_an_example(command: str) -> None:
+    result = touchline(command, "--help")
+    assert result.exit_code == 0
+    assert f"Example: touchline {command}" in result.stdout
+
+
+WRONG: dict[str, tuple[list[str], str]] = {
+    "a command that is not known": (["mtach"], "'match'"),
+    "an option that is not known": (["match", "--sed", "3"], "--seed"),
+    "a number that is none": (["match", "--seed", "three"], "valid integer"),
+    "a negative seed": (["match", "--seed", "-3"], "seed is -3; a whole number"),
+    "a pace that is none": (["match", "--pace", "fast"], "pace is 'fast'; write \"lockstep\""),
+    "a duration below zero": (["match", "--duration", "-1"], "duration is -1"),
+    "an unknown rule book": (["match", "--rules", "freindly"], 'rules is "freindly"; did you mean "friendly"?'),
+    "an unknown profile": (["match", "--profile", "mls"], 'profile is "mls"; did you mean "msl"?'),
+    "a match file that is not there": (["match", "cup.toml"], "cup.toml: No such file"),
+    "a match name that is no key": (["host", "--match", "The Cup"], "name is 'The Cup'"),
+    "an open host without a word on it": (["host", "--listen", "tcp/0.0.0.0:0"], "add --insecure"),
+    "an open match without a word on it": (["host", "--listen", "tcp/[::]:0"], "add --insecure"),
+    "an endpoint that is none": (["host", "--listen", "localhost"], 'endpoint is "localhost"; write it as tcp/'),
+    "a foreign address to listen on": (["host", "--listen", "tcp/192.0.2.1:7447", "--insecure"], "cannot be listened"),
+    "an agent without a robot": (["agent", "--brain", "a:B"], "--robot"),
+    "a coach's endpoint that is none": (["coach", "start", "--connect", "here"], 'endpoint is "here"'),
+    "a coach's match that is no key": (["coach", "start", "--match", "a/*"], '--match is "a/*"'),
+    "a coach without a host": (["coach", "start", NOBODY], "no host answers there"),
+    "a coach's order beyond reason": (["coach", "order", "cyan", "--max-speed", "90"], "--max-speed is 90"),
+    "a side that is none": (["coach", "kickoff", "red"], "'cyan', 'magenta'"),
+    "a mode that is none": (["coach", "order", "cyan", "--mode", "run"], "'hold'"),
+    "a parameter without a value": (["parameters", "set", "ball.mass"], "write it as NAME=VALUE"),
+    "a parameter whose name is none": (["parameters", "get", "Ball"], "'Ball' is no name of a parameter"),
+    "parameters without a host": (["parameters", "list", NOBODY], "no host answers there"),
+    "a scene that is not there": (["scenes", "penlty"], 'scene is "penlty"; did you mean "penalty"?'),
+    "a match in no scene": (["match", "--scene", "penlty"], 'scene is "penlty"; did you mean "penalty"?'),
+    "a scene without a host": (["scene", "reset", NOBODY], "no host answers there"),
+    "a velocity beyond reason": (["scene", "place", "ball", "0", "0", "--vx", "nan"], "scene place: place.0.vx is"),
+    "an obstacle without a shape": (["scene", "add-obstacle", "wall", "0", "0"], "give --radius and --height"),
+    "a drive without a terminal": (["drive", "cyan2"], "drive reads keys from a terminal"),
+    "a key that is none": (["diff", "a.mcap", "b.mcap", "--include", "a//b"], '"a//b" is no key expression'),
+    "a file to recover that is not there": (["recover", "no.mcap"], "no.mcap: No such file"),
+    "a recorder without a host": (["recorder", "pause", NOBODY], "no host answers there"),
+    "many files kept of one": (["record", "--out", "a.mcap", "--keep", "0"], "--keep"),
+    "a recording that is not there": (["info", "no.mcap"], "no.mcap"),
+    "figures of a recording that is not there": (["stats", "no.mcap", "--html", "a.html"], "no.mcap"),
+    "a schema that is not there": (["schema", "sihgt"], 'did you mean "sight"?'),
+    "a topic without message": (["schema", "alive"], 'schema of "alive"'),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_wrong_input_gives_one_line_with_the_remedy_and_status_2(
+    case: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("touchline.commands.coach.PATIENCE", 0.0)
+    words, remedy = WRONG[case]
+    result = touchline(*words)
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert remedy in result.stderr
+    assert len(result.stderr.splitlines()) == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_port_that_is_in_use_is_named_before_anything_is_launched() -> None:
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        endpoint = f"tcp/127.0.0.1:{other.getsockname()[1]}"
+        result = touchline("host", "--listen", endpoint)
+    assert result.exit_code == 2
+    assert f"--listen {endpoint} cannot be listened on (Address already in use)" in result.stderr
+
+
+@pytest.mark.parametrize("command", ["match", "host"])
+def test_without_pybullet_the_pip_line_that_brings_it_is_named(command: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name, package=None: None)
+    result = touchline(command)
+    assert result.exit_code == 2
+    assert "pip install 'touchline[sim]'" in result.stderr
+
+
+def test_the_command_line_loads_nothing_heavy() -> None:
+    heavy = {"zenoh", "pybullet", "mcap", "numpy", "matplotlib"}
+    code = f"import sys, touchline.__main__; print(*{heavy} & set(sys.modules))"
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout.split() == []
+
+
+def test_the_endpoint_and_match_that_nobody_names_are_those_of_bus_and_match_file() -> None:
+    assert options.DEFAULT_ENDPOINT == DEFAULT_ENDPOINT
+    assert MatchConfig().name == options.DEFAULT_MATCH
+
+
+def test_the_topic_table_is_printed_whole() -> None:
+    lines = touchline("topics").stdout.splitlines()
+    for name, topic in TOPICS.items():
+        assert any(line.split()[:2] == [name, topic.key] for line in lines)
+
+
+def test_the_topic_table_as_json_says_who_may_read() -> None:
+    rows = {row["name"]: row for row in json.loads(touchline("topics", "--json").stdout)}
+    assert set(rows) == set(TOPICS)
+    assert rows["command"]["key"] == "robot/{robot}/command"
+    assert rows["command"]["from"] == "robot"
+    assert rows["command"]["to"] == ["host", "recorder"]
+
+
+@pytest.mark.parametrize("name", ["command", "Command"])
+def test_a_schema_is_found_by_topic_and_by_class(name: str) -> None:
+    schema = json.loads(touchline("schema", name).stdout)
+    assert schema["title"] == "Command"
+    assert "answers_tick" in schema["required"]
+
+
+def test_every_topic_with_a_message_has_a_schema() -> None:
+    for name, topic in TOPICS.items():
+        if topic.message is not None:
+            assert json.loads(touchline("schema", name).stdout)["title"] == topic.message.__name__
+
+
+def test_an_environment_variable_stands_in_for_an_option() -> None:
+    result = touchline("coach", "start", TOUCHLINE_CONNECT="nowhere")
+    assert result.exit_code == 2
+    assert 'endpoint is "nowhere"' in result.stderr

@@ -1,0 +1,47 @@
+"""The command group that turns every expected failure into one line on stderr and an exit status."""
+
+import sys
+from typing import Any
+
+import typer
+from typer.core import TyperGroup
+
+from schemas.errors import MatchFailedError, TouchlineError
+
+PREFIX = "touchline: "
+FAILED = 1
+"""The thing asked for failed."""
+WRONG = 2
+"""Wrong usage or input."""
+
+
+class ErrorReportingGroup(TyperGroup):
+    """A group whose errors are sentences; anything unexpected still shows its traceback."""
+
+    def main(self, *args: Any, **settings: Any) -> Any:
+        """Run the command line and exit with its status."""
+        settings["standalone_mode"] = False
+        try:
+            status = super().main(*args, **settings)
+        except typer.TyperException as error:
+            sentence = error.format_message()  # empty where the help itself was the answer
+            sys.exit(_print_error(_with_hint(sentence, error), WRONG) if sentence else WRONG)
+        except TouchlineError as error:
+            sys.exit(_print_error(str(error), WRONG))
+        except MatchFailedError as error:
+            sys.exit(_print_error(str(error), FAILED))
+        except typer.Abort:
+            sys.exit(FAILED)
+        sys.exit(status if isinstance(status, int) else 0)
+
+
+def _with_hint(sentence: str, error: typer.TyperException) -> str:
+    """What is wrong, and where the right words stand."""
+    context = getattr(error, "ctx", None)
+    command = context.command_path if context is not None else "touchline"
+    return f"{' '.join(sentence.replace('Value error, ', '').split())} ({command} --help lists what is there)"
+
+
+def _print_error(sentence: str, status: int) -> int:
+    typer.echo(f"{PREFIX}{sentence}", err=True)
+    return status

@@ -1,0 +1,176 @@
+"""`touchline coach`: the referee box and the coach's bench of a running match."""
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Annotated, NamedTuple
+
+import typer
+
+from schemas.errors import MatchFailedError, TouchlineError
+from schemas.game import ActionName, RefereeAction
+from touchline.cli import options
+from touchline.cli.bus_client import PATIENCE, bus_client
+from touchline.cli.messages import message_from_options
+from touchline.cli.option_groups import expand_option_groups
+from touchline.commands import orders
+from touchline.commands.bridge import bridge
+from touchline.commands.serve import serve
+
+app = typer.Typer(
+    no_args_is_help=True,
+    help="Ask the referee of a running match, order a side, or watch.\n\nExample: touchline coach kickoff magenta",
+)
+
+
+@dataclass(frozen=True)
+class NoTarget:
+    """An action that is about the game."""
+
+
+@dataclass(frozen=True)
+class SideTarget:
+    """An action that is for a side."""
+
+    side: options.ForSide
+
+
+@dataclass(frozen=True)
+class RobotTarget:
+    """An action that is about a robot."""
+
+    robot: Annotated[str, typer.Argument(metavar="ROBOT", help="The robot's name.")]
+
+
+@dataclass(frozen=True)
+class PlaceTarget:
+    """An action that is about a point of the field."""
+
+    x: Annotated[float, typer.Argument(help="m, field frame")]
+    y: Annotated[float, typer.Argument(help="m, field frame")]
+
+
+Target = NoTarget | SideTarget | RobotTarget | PlaceTarget
+
+
+class RefereeCommand(NamedTuple):
+    """One word of the referee box."""
+
+    action: ActionName
+    target: type[Target]
+    says: str
+    example: str = ""
+    """What stands behind the word."""
+
+
+REFEREE_COMMANDS: dict[str, RefereeCommand] = {
+    "start": RefereeCommand(ActionName.START, NoTarget, "Give START: begin the match, or let a restart be taken."),
+    "stop": RefereeCommand(ActionName.STOP, NoTarget, "Stop play."),
+    "kickoff": RefereeCommand(ActionName.KICK_OFF, SideTarget, "Stop play and give a side the kick-off.", "cyan"),
+    "freekick": RefereeCommand(ActionName.FREE_KICK, SideTarget, "Stop play and give a side a free kick.", "cyan"),
+    "goalkick": RefereeCommand(ActionName.GOAL_KICK, SideTarget, "Stop play and give a side a goal kick.", "cyan"),
+    "throwin": RefereeCommand(ActionName.THROW_IN, SideTarget, "Stop play and give a side a throw-in.", "cyan"),
+    "corner": RefereeCommand(ActionName.CORNER, SideTarget, "Stop play and give a side a corner.", "cyan"),
+    "penalty": RefereeCommand(ActionName.PENALTY, SideTarget, "Stop play and give a side a penalty.", "cyan"),
+    "drop-ball": RefereeCommand(ActionName.DROP_BALL, NoTarget, "Stop play and drop the ball."),
+    "place-ball": RefereeCommand(
+        ActionName.PLACE_BALL, PlaceTarget, "Set the ball down on a point of the field, at rest.", "-3.5 2"
+    ),
+    "goal": RefereeCommand(ActionName.GOAL, SideTarget, "Count a goal for a side.", "cyan"),
+    "cancel-goal": RefereeCommand(
+        ActionName.CANCEL_GOAL, SideTarget, "Take a goal from a side's score; the game goes on as it does.", "cyan"
+    ),
+    "yellow-card": RefereeCommand(ActionName.YELLOW_CARD, RobotTarget, "Show a robot the yellow card.", "cyan3"),
+    "red-card": RefereeCommand(
+        ActionName.RED_CARD, RobotTarget, "Show a robot the red card: it leaves the field.", "cyan3"
+    ),
+    "repair": RefereeCommand(
+        ActionName.REPAIR, RobotTarget, "Take a robot out for repair; it comes back at a stoppage.", "cyan3"
+    ),
+    "substitute": RefereeCommand(ActionName.SUBSTITUTE, RobotTarget, "Replace a robot, in a stoppage.", "cyan3"),
+    "park": RefereeCommand(
+        ActionName.PARK, RobotTarget, "Take a robot off the field until it is told to enter.", "cyan3"
+    ),
+    "enter": RefereeCommand(ActionName.ENTER, RobotTarget, "Have a robot come back that is off the field.", "cyan3"),
+    "confirm": RefereeCommand(ActionName.CONFIRM, NoTarget, "Decide at once what the referee proposes."),
+    "overrule": RefereeCommand(ActionName.OVERRULE, NoTarget, "Let what the referee proposes not be decided."),
+    "undo": RefereeCommand(
+        ActionName.UNDO, NoTarget, "Take the last decision back; score and cards are as before, the clock goes on."
+    ),
+    "end-half": RefereeCommand(ActionName.END_HALF, NoTarget, "End this half."),
+    "end-game": RefereeCommand(ActionName.END_GAME, NoTarget, "End the match."),
+}
+"""Command → what it asks the referee for."""
+
+
+def _command(row: RefereeCommand) -> Callable[..., None]:
+    def command(target: Target, connection: options.ConnectOptions) -> None:
+        content = asdict(target)
+        if isinstance(target, PlaceTarget):
+            content = {"place": content}
+        _send(connection, message_from_options(RefereeAction, action=row.action, **content))
+
+    command.__annotations__["target"] = row.target
+    return expand_option_groups(command)
+
+
+for _word, _row in REFEREE_COMMANDS.items():
+    app.command(
+        _word,
+        help=f"{_row.says}\n\nExample: touchline coach {_word} {_row.example}".rstrip(),
+        context_settings={"ignore_unknown_options": _row.target is PlaceTarget},  # a negative number is none
+    )(_command(_row))
+
+
+app.command("order")(orders.order)
+app.command("test")(orders.test)
+
+
+@app.command("state")
+@expand_option_groups
+def state(connection: options.ConnectOptions, json: options.Json = False) -> None:
+    """Show once how the match stands.
+
+    Example: touchline coach state --json | jq .score
+    """
+    from coach_gateway.match.follower import MatchFollower
+    from coach_gateway.match.lines import state_line
+
+    with bus_client(connection.connect, connection.match) as bus:
+        follower = MatchFollower(bus)
+        found = follower.wait_for_state(PATIENCE)
+    if found is None and follower.health is not None:
+        there = sum(robot.alive for robot in follower.health.robots.values())
+        raise MatchFailedError(
+            f'match "{connection.match}" has not begun: {there} of {len(follower.health.robots)} robots are there'
+        )
+    if found is None:
+        raise TouchlineError(
+            f'match "{connection.match}": the host says nothing of it; name the match it plays with --match'
+        )
+    typer.echo(found.model_dump_json(exclude={"version"}) if json else state_line(found))
+
+
+app.command("serve")(serve)
+app.command("bridge")(bridge)
+
+
+@app.command("watch")
+@expand_option_groups
+def watch(connection: options.ConnectOptions) -> None:
+    """Show the match as plain lines until its host goes, or until Ctrl-C.
+
+    Example: touchline coach watch --connect tcp/192.168.1.5:7447
+    """
+    from coach_gateway.__main__ import run
+
+    run(connection.connect, connection.match, PATIENCE)
+
+
+def _send(connection: options.ConnectOptions, action: RefereeAction) -> None:
+    from coach_gateway.match.host_client import HostClient
+
+    with bus_client(connection.connect, connection.match) as bus:
+        reply = HostClient(bus).act(action)
+    if not reply.accepted:
+        raise MatchFailedError(f"refused: {reply.reason}")
+    typer.echo(f"{action.action.value} accepted")

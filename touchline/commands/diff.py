@@ -1,0 +1,70 @@
+"""`touchline diff`: where two recordings differ first."""
+
+import json as json_text
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from touchline.cli import options
+from touchline.cli.errors import FAILED
+
+if TYPE_CHECKING:
+    from recordings.inspection.difference import Comparison, FieldDifference
+
+
+def diff(
+    first: Annotated[Path, typer.Argument(metavar="A", help="A recording, *.mcap.")],
+    second: Annotated[Path, typer.Argument(metavar="B", help="Another one.")],
+    include: options.Include = None,
+    exclude: options.Exclude = None,
+    everything: Annotated[
+        bool, typer.Option("--all", help="Compare what depends on wall time, too: host/health, repeated answers.")
+    ] = False,
+    json: options.Json = False,
+) -> None:
+    """Find the first message in which two recordings differ; exit status 1 if there is one.
+
+    Two lockstep runs of one match file and one seed are identical.
+
+    Example: touchline diff a.mcap b.mcap
+    """
+    from recordings.inspection.difference import compare
+    from recordings.reading.recording import open_recording
+
+    chosen = options.selection(include, exclude)
+    found = compare(open_recording(first), open_recording(second), chosen, everything=everything)
+    typer.echo(json_text.dumps(_facts(found), ensure_ascii=False) if json else _sentence(found, first, second))
+    if not found.identical:
+        raise typer.Exit(FAILED)
+
+
+def _sentence(found: "Comparison", first: Path, second: Path) -> str:
+    difference = found.first
+    if difference is None:
+        return f"identical: {found.messages} messages on {found.keys} keys"
+    where = f"{difference.key}, message {difference.number} at {difference.time:.3f} s"
+    before = f"{found.messages} messages are equal before and beside it"
+    if difference.missing_in:
+        path = first if difference.missing_in == "first" else second
+        return f"different: {where} is missing in {path}; {before}"
+    return "\n".join([f"different: {where}; {before}", *(f"  {_field(one)}" for one in difference.fields)])
+
+
+def _field(one: "FieldDifference") -> str:
+    by = f"  (by {one.by:.3g})" if one.by is not None else ""
+    return f"{one.path}: {one.first!r} – {one.second!r}{by}"
+
+
+def _facts(found: "Comparison") -> dict[str, Any]:
+    difference = found.first
+    first = None
+    if difference is not None:
+        first = {**difference._asdict(), "fields": [{**one._asdict(), "by": one.by} for one in difference.fields]}
+    return {
+        "identical": found.identical,
+        "messages": found.messages,
+        "keys": found.keys,
+        "left_out": found.left_out,
+        "first": first,
+    }

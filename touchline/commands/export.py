@@ -1,0 +1,43 @@
+"""`touchline export`: a recording in another format."""
+
+import json as json_text
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from schemas.errors import TouchlineError, did_you_mean
+from touchline.cli import options
+
+
+def export(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
+    to: Annotated[str, typer.Option(help="The format: csv, msl-log, protobuf or ros2.")],
+    out: Annotated[
+        Path | None, typer.Option(help="What to write, file or folder; by default beside the recording.")
+    ] = None,
+    json: options.Json = False,
+) -> None:
+    """Write a recording in another format: tables, ROS 2 bag, typed protobuf, or the league's log.
+
+    Example: touchline export final.mcap --to csv --out final
+    """
+    from recordings.exchange.formats import EXPORTERS
+    from recordings.reading.recording import open_recording
+
+    if to not in EXPORTERS:
+        raise TouchlineError(f'--to is "{to}"; {did_you_mean(to, EXPORTERS)}')
+    exporter = EXPORTERS[to]
+    recording = open_recording(file)
+    if not recording.complete:
+        typer.echo(f"{file}: cut off; what stands before the cut is exported", err=True)
+    exported = exporter.export(recording, out or file.with_name(file.stem + exporter.suffix))
+    if json:
+        fields = {"out": str(exported.out), "written": exported.written, "unreadable": exported.unreadable}
+        typer.echo(json_text.dumps(fields))
+        return
+    for name, count in exported.written.items():
+        typer.echo(f"{count:>9}  {name}")
+    for key, count in exported.unreadable.items():
+        typer.echo(f"{count:>9}  messages of {key} are not valid and were left out")
+    typer.echo(str(exported.out))

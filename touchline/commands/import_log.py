@@ -1,0 +1,39 @@
+"""`touchline import`: a foreign log as a recording."""
+
+import json as json_text
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from touchline.cli import options
+
+
+def import_log(
+    log: Annotated[list[Path], typer.Argument(metavar="LOG...", help="A zip, a folder, or the log's files.")],
+    out: Annotated[Path | None, typer.Option(help="The recording, *.mcap; by default beside the log.")] = None,
+    profile: Annotated[str, typer.Option(help="Whose pitch it was: msl for 22 × 14 m, paper for 18 × 12 m.")] = "msl",
+    team_a: Annotated[
+        str | None, typer.Option("--team-a", help="What the referee's signals call team A, where that is an address.")
+    ] = None,
+    json: options.Json = False,
+) -> None:
+    """Make a recording of a log of the league's referee box, so that it can be replayed and measured.
+
+    Example: touchline import 20160703_120000.TeamA-TeamB.zip --out final.mcap
+    """
+    from recordings.exchange.formats import IMPORTERS
+
+    imported = IMPORTERS["msl-log"](log, out or log[0].with_suffix(".mcap"), profile, team_a)
+    if json:
+        typer.echo(json_text.dumps(imported.to_json(), ensure_ascii=False))
+        return
+    for side, team in imported.teams.items():
+        typer.echo(f"{side.value}: {team.team or 'no name'}, {team.read} of {team.records} records read")
+    typer.echo(f"{imported.signals} signals of the referee read, {imported.kicks} kicks inferred")
+    for heading, findings in (("could not be read", imported.lost), ("not as the schema says", imported.coped)):
+        if findings:
+            typer.echo(f"{heading}:")
+        for finding in findings:
+            typer.echo(f"{finding.count:>9}  {finding.what} (first: {finding.first})")
+    typer.echo(f"{imported.out}: {imported.result.time:.2f} s, {imported.result.messages} messages")

@@ -1,0 +1,42 @@
+"""`touchline info`: what is in a recording."""
+
+import json as json_text
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from touchline.cli import options
+
+
+def info(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
+    json: options.Json = False,
+) -> None:
+    """Show what is in a recording: match, result, keys and losses.
+
+    Example: touchline info runs/friendly-20260101T120000Z-seed1/match.mcap
+    """
+    from recordings.inspection.recording_facts import HEADINGS, facts_of, key_rows, summary_lines
+    from recordings.reading.recording import open_recording
+
+    facts = facts_of(open_recording(file))
+    if json:
+        typer.echo(json_text.dumps(facts.to_json(), ensure_ascii=False))
+        return
+    from rich.table import Table
+
+    from touchline.cli.console import console as new_console
+
+    console = new_console()
+    about = Table.grid(padding=(0, 2))
+    for name, value in summary_lines(facts):
+        about.add_row(name, value)
+    table = Table(*HEADINGS, box=None, pad_edge=False)
+    for column in table.columns[2:]:
+        column.justify = "right"
+    for row in key_rows(facts):
+        table.add_row(*row)
+    console.print(about)
+    console.print()
+    console.print(table)

@@ -1,0 +1,166 @@
+"""`touchline match`: a whole match on this machine, from its file to its result."""
+
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from coach_gateway.web.settings import DEFAULT_PORT, LOOPBACK
+from touchline.cli import options
+from touchline.cli.bridge_options import NO_BRIDGES, BridgeOptions
+from touchline.cli.option_groups import expand_option_groups
+from touchline.cli.record_options import RecordOptions
+
+if TYPE_CHECKING:
+    from schemas.bus.contract import ReceivedMessage
+    from schemas.config.match_config import MatchConfig
+    from schemas.process.clock import Clock
+    from touchline.launch.processes import MatchPlan, PagePlan
+    from touchline.launch.result import MatchResult
+
+
+@expand_option_groups
+def match(
+    match_options: options.MatchOptions,
+    record: Annotated[
+        Path | None, typer.Option(help="Where the recording goes; by default into the run's folder.")
+    ] = None,
+    no_record: Annotated[bool, typer.Option("--no-record", help="Leave no recording.")] = False,
+    ghost: Annotated[
+        list[str] | None, typer.Option(help="A side played by its recorded commands: magenta=RECORDING.mcap.")
+    ] = None,
+    web: options.Web = False,
+    web_port: options.WebPort = DEFAULT_PORT,
+    listen_web: options.ListenWeb = LOOPBACK,
+    bridges: BridgeOptions = NO_BRIDGES,
+    json: options.Json = False,
+    *,
+    recording: RecordOptions,
+) -> None:
+    """Play a match: launch host, recorder and robots, show it, and leave a recording and a result.
+
+    Logs and recording go to ./runs/. Ctrl-C ends everything; the recording stays readable.
+    With --web people watch and command in their browsers; with --udp, --refbox and --refbox-server coach programs,
+    league's boxes and team software take part. Such a match is played in real time unless --pace says else, and one by
+    a league's box with a referee that leaves it to the box unless --referee says else.
+
+    Example: touchline match --seed 7 --duration 60 --pace realtime
+    """
+    from schemas.process.clock import WallClock
+    from touchline.launch.check_brains import check_teams
+    from touchline.launch.processes import check_robot_names
+    from touchline.launch.run_folder import prepare_run
+
+    teams = _teams_of(ghost) if ghost else {}
+    bridged = bridges.arguments()
+    if bridged:
+        bridges.bridges().try_ports()
+    if (web or bridged) and match_options.pace is None:
+        match_options = replace(match_options, pace="realtime")
+    if bridges.refbox is not None and match_options.referee is None:
+        match_options = replace(match_options, referee="manual")  # the league's box decides
+    config = match_options.read(
+        **{f"teams__{side}": team for side, team in teams.items()},
+        **recording.flags(),
+        record__wait=not no_record,
+    )
+    if ghost:
+        _check_ghosts(config, ghost)
+    check_robot_names(config)
+    check_teams(config)
+    endpoint = match_options.endpoint()
+    clock = WallClock()
+    port = _page_port(listen_web, web_port) if web else None
+    plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
+    if port is not None:
+        plan = replace(plan, page=_page(plan, listen_web, port, err=json))
+    if bridged:
+        plan = replace(plan, bridges=bridged)
+        typer.echo(f"bridges: {plan.folder / 'bridges.log'}; the coaches' tokens: {plan.tokens}", err=json)
+    if plan.warning:
+        typer.echo(f"touchline: {plan.warning}", err=True)
+    result = _play(plan, clock, quiet=json)
+    if json:
+        typer.echo(result.json())
+    else:
+        from touchline.cli.console import console
+
+        console().print(result.render())
+
+
+# What a plain match has no use for is imported when it is asked for: nothing is launched before the imports are done.
+
+
+def _teams_of(ghosts: list[str]) -> dict[str, dict[str, Any]]:
+    from touchline.replay.ghost import teams_of
+
+    return teams_of(ghosts)
+
+
+def _check_ghosts(config: "MatchConfig", ghosts: list[str]) -> None:
+    from touchline.replay.ghost import check_ghosts
+
+    check_ghosts(config, ghosts)
+
+
+def _page_port(address: str, port: int) -> int:
+    from touchline.launch.page import page_port
+
+    return page_port(address, port)
+
+
+def _page(plan: "MatchPlan", address: str, port: int, *, err: bool) -> "PagePlan":
+    """The match's page; whoever reads is told where it is."""
+    from touchline.launch.page import address_lines, page_with_tokens
+
+    page = page_with_tokens(plan.folder, address, port)
+    for line in address_lines(page):
+        typer.echo(line, err=err)
+    return page
+
+
+def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> "MatchResult":
+    """Play it on the screen that suits: stdout is kept for the result when that is for programs."""
+    from touchline.launch.match_run import InterruptedMatchError, MatchRun
+    from touchline.watch.screen import screen_for
+
+    try:
+        with screen_for(sys.stderr if quiet else sys.stdout, clock) as screen:
+            return MatchRun(plan, screen, clock, _losses, _recorded).play()
+    except InterruptedMatchError as stopped:
+        left = plan.recording is not None and plan.recording.exists()
+        typer.echo(
+            f"touchline: match ended by hand; {plan.recording if left else plan.folder} is what it left", err=True
+        )
+        raise typer.Exit(128 + stopped.number) from None
+
+
+def _recorded(plan: "MatchPlan") -> "Iterator[ReceivedMessage]":
+    """Events and states of the game as the recording has them; nothing where it is of some seconds alone, or lost."""
+    if plan.config.record.snapshot is not None:
+        return
+    from recordings.reading.recording import open_recording
+    from schemas.errors import TouchlineError
+    from schemas.topics import EVENT, STATE
+
+    for file in plan.recording_files:
+        with suppress(TouchlineError):  # a recording that cannot be read tells no more
+            yield from (recorded.received() for recorded in open_recording(file).messages(EVENT.key, STATE.key))
+
+
+def _losses(plan: "MatchPlan") -> dict[str, int]:
+    """Key → messages that the recording lacks; those without loss are left out."""
+    if plan.recording is None:
+        return {}
+    from recordings.inspection.recording_facts import facts_of
+    from recordings.reading.recording import open_recording
+
+    losses: Counter[str] = Counter()
+    for file in plan.recording_files:
+        losses.update({key.key: key.lost for key in facts_of(open_recording(file)).keys if key.lost})
+    return dict(losses)

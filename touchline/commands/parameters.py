@@ -1,0 +1,167 @@
+"""`touchline parameters`: the numbers of a running match, read and changed."""
+
+import json as json_text
+import math
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from schemas.errors import MatchFailedError, TouchlineError
+from touchline.cli import options
+from touchline.cli.bus_client import bus_client
+from touchline.cli.option_groups import expand_option_groups
+
+if TYPE_CHECKING:
+    from schemas.messages.parameters import Parameter, ParametersReply, ParametersRequest, Value
+
+app = typer.Typer(
+    no_args_is_help=True,
+    help="Read and change the numbers of a running match: ball, limits, noise, radio.\n\n"
+    "Example: touchline parameters set ball.rolling_deceleration=1.2",
+)
+
+Names = Annotated[list[str], typer.Argument(metavar="NAME...", help="Parameters, or sections: ball, radio.loss.")]
+
+
+@app.command("list")
+@expand_option_groups
+def list_all(
+    json: options.Json = False,
+    *,
+    connection: options.ConnectOptions,
+) -> None:
+    """List every parameter: value, unit, range, what it means, and whether it can be changed.
+
+    Example: touchline parameters list --json | jq '.[] | select(.live).name'
+    """
+    from schemas.messages.parameters import ParameterOperation, ParametersRequest
+
+    _show(_query(connection, ParametersRequest(operation=ParameterOperation.LIST)), json=json)
+
+
+@app.command("get")
+@expand_option_groups
+def get(
+    names: Names,
+    json: options.Json = False,
+    *,
+    connection: options.ConnectOptions,
+) -> None:
+    """Show some parameters, or whole sections.
+
+    Example: touchline parameters get ball radio.loss
+    """
+    from schemas.messages.parameters import ParameterOperation
+
+    _show(_query(connection, _request(operation=ParameterOperation.GET, names=names)), json=json)
+
+
+@app.command("set")
+@expand_option_groups
+def set_values(
+    settings: Annotated[list[str], typer.Argument(metavar="NAME=VALUE...", help="In the parameter's own unit.")],
+    json: options.Json = False,
+    *,
+    connection: options.ConnectOptions,
+) -> None:
+    """Change parameters between two ticks: all that are named, or none.
+
+    Example: touchline parameters set radio.loss=0.3 noise.preset=perfect
+    """
+    from schemas.messages.parameters import ParameterOperation
+
+    _show(
+        _query(connection, _request(operation=ParameterOperation.SET, values=dict(map(_setting, settings)))), json=json
+    )
+
+
+@app.command("reset")
+@expand_option_groups
+def reset(
+    names: Annotated[
+        list[str] | None, typer.Argument(metavar="[NAME...]", help="Parameters or sections; none for all.")
+    ] = None,
+    json: options.Json = False,
+    *,
+    connection: options.ConnectOptions,
+) -> None:
+    """Bring parameters back to what the match began with.
+
+    Example: touchline parameters reset ball
+    """
+    from schemas.messages.parameters import ParameterOperation
+
+    _show(_query(connection, _request(operation=ParameterOperation.RESET, names=names or [])), json=json)
+
+
+def _setting(word: str) -> "tuple[str, Value]":
+    name, equals, text = word.partition("=")
+    if not equals:
+        raise TouchlineError(f'"{word}" sets nothing; write it as NAME=VALUE, like ball.rolling_deceleration=1.2')
+    return name.strip(), _value(text.strip())
+
+
+def _value(text: str) -> "Value":
+    """A number or a list of numbers where the text is one, else the word itself."""
+    try:
+        value = json_text.loads(text)
+    except ValueError:
+        return text
+    items = value if isinstance(value, list) else [value]
+    are_numbers = all(isinstance(item, int | float) and not isinstance(item, bool) for item in items)
+    return value if are_numbers and all(math.isfinite(item) for item in items) else text
+
+
+def _request(**content: object) -> "ParametersRequest":
+    from pydantic import ValidationError
+
+    from schemas.messages.parameters import ParametersRequest
+
+    try:
+        return ParametersRequest.model_validate(content)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        raise TouchlineError(
+            f"{first['input']!r} is no name of a parameter; touchline parameters list shows them"
+        ) from None
+
+
+def _query(connection: options.ConnectOptions, request: "ParametersRequest") -> "ParametersReply":
+    from coach_gateway.match.host_client import HostClient
+
+    with bus_client(connection.connect, connection.match) as bus:
+        reply = HostClient(bus).parameters(request)
+    if not reply.accepted:
+        raise MatchFailedError(f"refused: {reply.reason}")
+    return reply
+
+
+def _show(reply: "ParametersReply", *, json: bool) -> None:
+    if json:
+        fields = [parameter.model_dump(mode="json") for parameter in reply.parameters]
+        typer.echo(json_text.dumps(fields, ensure_ascii=False, indent=2))
+        return
+    lines = [_line(parameter) for parameter in reply.parameters]
+    widths = [max(len(line[place]) for line in lines) for place in range(4)]
+    for line in lines:
+        cells = [cell.ljust(width) for cell, width in zip(line, widths, strict=False)]
+        typer.echo("  ".join([*cells, line[4]]).rstrip())
+
+
+def _line(parameter: "Parameter") -> tuple[str, str, str, str, str]:
+    """Name, value with unit, range, what it was, what it means."""
+    unit = "" if parameter.unit in ("", "1") else f" {parameter.unit}"
+    limits = (
+        ", ".join(parameter.options) if parameter.options else f"{_bound(parameter.low)} to {_bound(parameter.high)}"
+    )
+    before = "" if parameter.value == parameter.initial else f"was {_value_text(parameter.initial)}"
+    description = parameter.description if parameter.live else f"{parameter.description} (fixed)"
+    return parameter.name, f"{_value_text(parameter.value)}{unit}", limits, before, description
+
+
+def _value_text(value: "Value") -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _bound(limit: float | None) -> str:
+    return "any" if limit is None else f"{limit:g}"

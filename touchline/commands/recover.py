@@ -1,0 +1,48 @@
+"""`touchline recover`: repairs recordings in place."""
+
+import json as json_text
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from touchline.cli import options
+
+if TYPE_CHECKING:
+    from recordings.editing.recovery import RecoverySummary
+
+
+def recover(
+    files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings: *.mcap or *.mcap.part.")],
+    json: options.Json = False,
+) -> None:
+    """Repair recordings in place: those that were cut off, and those that are damaged.
+
+    All that is whole stays as it is. A *.mcap.part loses its suffix when it is repaired.
+
+    Example: touchline recover final.mcap.part
+    """
+    from recordings.editing.recovery import recover
+    from recordings.reading.recording import open_recording
+
+    done = []
+    for file in files:
+        done.append(recover(file))
+        open_recording(done[-1].path)  # says so when what is left is no recording
+        if not json:
+            typer.echo(_sentence(done[-1]))
+    if json:
+        facts = [{**asdict(one), "path": str(one.path), "rest": str(one.rest) if one.rest else None} for one in done]
+        typer.echo(json_text.dumps(facts))
+
+
+def _sentence(done: "RecoverySummary") -> str:
+    if not done.repaired:
+        return f"{done.path}: is whole, {done.messages} messages"
+    parts = [f"{done.path}: repaired, {done.messages} messages", f"{done.cut} bytes cut off at the end"]
+    if done.damaged:
+        parts.append(f"{done.damaged} damaged records left out")
+    if done.rest is not None:
+        parts.append(f"what was cut off is in {done.rest}")
+    return ", ".join(parts)

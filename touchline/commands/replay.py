@@ -1,0 +1,217 @@
+"""`touchline replay`: a recording back onto the bus."""
+
+import json as json_text
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, nullcontext
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from coach_gateway.web.settings import DEFAULT_PORT, LOOPBACK
+from schemas.bus.endpoint import local_endpoint, parse_endpoint
+from schemas.errors import TouchlineError
+from touchline.cli import options
+
+if TYPE_CHECKING:
+    from recordings.reading.recording import RecordedMessage
+    from recordings.replay.live_view import LiveView
+    from recordings.replay.player import Player
+    from recordings.replay.replay import Replay
+    from schemas.bus.contract import Bus
+    from schemas.process.clock import Clock
+    from touchline.launch.match_run import StopSignals
+    from touchline.launch.supervisor import Notice
+
+
+def replay(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
+    rate: Annotated[float, typer.Option(min=0.001, help="Simulated seconds per second.")] = 1.0,
+    fast: Annotated[bool, typer.Option("--fast", help="As fast as possible; recorders are waited for.")] = False,
+    start: Annotated[
+        str | None, typer.Option("--from", help="Where to begin: seconds, or an event as in goal:2 or goal:2-5.")
+    ] = None,
+    end: Annotated[str | None, typer.Option("--to", help="Where to end, likewise; that moment is played.")] = None,
+    loop: Annotated[bool, typer.Option("--loop", help="Begin again at the end.")] = False,
+    paused: Annotated[bool, typer.Option("--paused", help="Stand still at the beginning.")] = False,
+    stay: Annotated[bool, typer.Option("--stay", help="Stand still at the end instead of leaving.")] = False,
+    include: Annotated[
+        list[str] | None, typer.Option(help="Keys to play, as key expressions: world, robot/*/command, team/**.")
+    ] = None,
+    exclude: Annotated[list[str] | None, typer.Option(help="Keys to leave out, likewise.")] = None,
+    follow: Annotated[
+        bool, typer.Option("--follow", help="The file is still being written: go on with what is added.")
+    ] = False,
+    behind: Annotated[
+        float, typer.Option(min=0.0, help="With --follow: s of simulated time behind to begin at.")
+    ] = 5.0,
+    listen: options.Listen = options.DEFAULT_ENDPOINT,
+    insecure: options.Insecure = False,
+    connect: Annotated[
+        str | None, typer.Option(help="Endpoint of a running host to replay beside it, in place of --listen.")
+    ] = None,
+    match: options.MatchName = None,
+    prefix: Annotated[str, typer.Option(help="Put before the name of the match: replay_.")] = "",
+    agent: Annotated[
+        str | None, typer.Option(help="Show a brain what a robot saw, and compare: cyan2=module:Class; no bus.")
+    ] = None,
+    web: options.Web = False,
+    web_port: options.WebPort = DEFAULT_PORT,
+    listen_web: options.ListenWeb = LOOPBACK,
+    foxglove: Annotated[
+        bool, typer.Option("--foxglove", help="Serve a live view for Foxglove and Lichtblick, and say where.")
+    ] = False,
+    foxglove_port: Annotated[int, typer.Option(help="Port of the live view; 0 takes a free one.")] = 8765,
+    json: options.Json = False,
+) -> None:
+    """Replay a recording on the bus, with the keys, order and spacing of the match.
+
+    Space pauses, "." steps, arrows wind and change the rate, n and b go from event to event, q leaves; from elsewhere,
+    `touchline player` does the same. With --web a page in the browser does, with --foxglove
+    these viewers do, and the replay stays at its end.
+
+    Example: touchline replay runs/friendly-20260101T120000Z-seed1/match.mcap --from goal:1-5 --rate 2
+    """
+    if agent is not None:
+        _compare(file, agent, json=json)
+        return
+    from recordings.container.key_selection import KeySelection
+    from recordings.replay.replay import Replay, ReplaySettings
+    from schemas.process.clock import WallClock
+    from touchline.launch.match_run import StopSignals
+    from touchline.launch.page import page_port, serve_page_beside
+
+    port = page_port(listen_web, web_port) if web else None
+    settings = ReplaySettings(
+        file,
+        start=start,
+        end=end,
+        rate=None if fast else rate,
+        loop=loop,
+        paused=paused,
+        stay=stay or web or foxglove,
+        selection=KeySelection(tuple(include or ()), tuple(exclude or ())),
+        follow=follow,
+        behind=behind,
+    )
+    opened = Replay(settings)
+    clock = WallClock()
+    name = options.match_name(prefix + (match or opened.recording.manifest.match))
+    endpoint = connect or options.listening(listen, insecure=insecure)
+    with ExitStack() as stack:
+        bus = stack.enter_context(_open_bus(name, clock, endpoint, is_host=connect is None))
+        stop = stack.enter_context(StopSignals())  # from before it is told where to look at it
+        look_after: Callable[[], list[Notice]] = list
+        if port is not None:
+            log = partial(typer.echo, err=True)
+            look_after = stack.enter_context(
+                serve_page_beside(name, local_endpoint(endpoint), listen_web, port, clock, log)
+            )
+        view = stack.enter_context(_live_view(opened, foxglove_port)) if foxglove else None
+        began = clock.now()
+        player = _play(opened, bus, clock, stop, look_after, view, quiet=json)
+        wall = clock.now() - began
+    status = player.status()
+    if json:
+        fields = {**status.model_dump(include={"time", "start", "end", "messages"}), "wall_s": round(wall, 3)}
+        typer.echo(json_text.dumps(fields))
+
+
+def _compare(file: Path, agent: str, *, json: bool) -> None:
+    """Say where a brain's commands differ from the recorded ones; exit status 1 where they do."""
+    robot, _, brain = agent.partition("=")
+    if not brain:
+        raise TouchlineError(f'--agent is "{agent}"; write it as cyan2=module:Class')
+    from recordings.reading.recording import open_recording
+    from touchline.verify.compare_brain import compare_brain
+
+    verdict = compare_brain(open_recording(file), robot, brain)
+    typer.echo(json_text.dumps(verdict.to_json()) if json else verdict.sentence())
+    if verdict.first is not None:
+        raise typer.Exit(1)
+
+
+@contextmanager
+def _open_bus(match: str, clock: "Clock", endpoint: str, *, is_host: bool) -> "Iterator[Bus]":
+    """The host's bus, or a client's beside a running host."""
+    from schemas.bus.zenoh.bus import open_client, open_host
+
+    parse_endpoint(endpoint)
+    with open_host(match, clock, endpoint) if is_host else open_client(match, clock, endpoint) as bus:
+        typer.echo(f'match "{match}" {"on" if is_host else "at"} {endpoint}', err=True)
+        yield bus
+
+
+def _live_view(opened: "Replay", port: int) -> "LiveView":
+    """A view of the whole recording; of one that grows it cannot be said how far that goes."""
+    from recordings.replay.live_view import LiveView
+
+    manifest = opened.recording.manifest
+    extent = None if opened.settings.follow else (opened.cursor.start_ns, opened.cursor.end_ns)
+    view = LiveView(f"Touchline: {manifest.match}", manifest.setup, extent, port)
+    typer.echo(f"Foxglove, Lichtblick: open the connection {view.address}", err=True)
+    return view
+
+
+def _play(
+    opened: "Replay",
+    bus: "Bus",
+    clock: "Clock",
+    stop: "StopSignals",
+    look_after: "Callable[[], list[Notice]]",
+    view: "LiveView | None",
+    *,
+    quiet: bool,
+) -> "Player":
+    """Play it on the screen that suits, by keys where there is a terminal, until its end or a signal to stop."""
+    from recordings.replay.host import ReplayHost
+    from schemas.messages.replay import ReplayOperation, ReplayRequest
+    from touchline.cli.terminal import terminal
+    from touchline.replay.keys import key_requests, legend
+    from touchline.replay.progress import progress_on
+
+    by_keys = sys.stdin.isatty() and not quiet
+    seek_targets = opened.seek_targets() if by_keys else []
+    keyboard = terminal("replay") if by_keys else nullcontext(_no_keys)
+    stream = sys.stderr if quiet else sys.stdout
+
+    def make_player(publish: "Callable[[RecordedMessage], None]", can_publish: Callable[[], bool]) -> "Player":
+        def publish_and_show(recorded: "RecordedMessage") -> None:
+            publish(recorded)
+            if view is not None:
+                view.publish(recorded)
+
+        return opened.player(clock, publish=publish_and_show, can_publish=can_publish)
+
+    host = ReplayHost(bus, opened.recording.manifest.setup, make_player)
+    with keyboard as keys, progress_on(stream, clock) as show:
+        if by_keys:
+            typer.echo(legend())
+
+        def meanwhile(player: "Player") -> None:
+            for request in key_requests(keys(0.0)):
+                player.control(request(player.status(), seek_targets))
+            if stop.received is not None:
+                player.control(ReplayRequest(operation=ReplayOperation.LEAVE))
+            show(player.status())
+            if view is not None:
+                view.update(player)
+            for notice in look_after():
+                typer.echo(f"touchline: {notice.sentence}", err=True)
+
+        host.run(meanwhile)
+    if host.unknown_keys:
+        typer.echo(
+            f"touchline: {host.unknown_keys} messages on keys that their topics do not have were left out", err=True
+        )
+    if stop.received is not None:
+        raise typer.Exit(128 + stop.received)
+    return host.player
+
+
+def _no_keys(timeout: float) -> str:
+    """Nobody types."""
+    del timeout
+    return ""

@@ -1,0 +1,165 @@
+"""`touchline scene`: sets up the pitch of a running match."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from schemas.errors import MatchFailedError, TouchlineError
+from schemas.side import Side
+from touchline.cli import options
+from touchline.cli.bus_client import bus_client
+from touchline.cli.option_groups import expand_option_groups
+
+if TYPE_CHECKING:
+    from schemas.config.scene import SceneRequest
+
+app = typer.Typer(
+    no_args_is_help=True,
+    help="Set up the pitch of a running match: load a scene, place, add or remove bodies, begin anew.\n\n"
+    "Example: touchline scene load penalty",
+)
+
+_NUMBERS: Any = {"ignore_unknown_options": True}
+"""A negative number is no option."""
+
+X = Annotated[float, typer.Argument(help="m, field frame")]
+Y = Annotated[float, typer.Argument(help="m, field frame")]
+Heading = Annotated[float, typer.Option(help="rad, field frame.")]
+Vx = Annotated[float, typer.Option(help="m/s, field frame.")]
+Vy = Annotated[float, typer.Option(help="m/s, field frame.")]
+Omega = Annotated[float, typer.Option(help="rad/s; of a robot.")]
+
+
+@app.command("load")
+@expand_option_groups
+def load(
+    name: Annotated[str, typer.Argument(help="A scene that ships, or the path of a .toml file.")],
+    connection: options.ConnectOptions,
+) -> None:
+    """Begin another episode with a scene: its robots, its ball, its game.
+
+    Example: touchline scene load two_on_one
+    """
+    from schemas.config.scene import load_scene
+
+    content = {"scene": load_scene(name).model_dump(mode="json")} if Path(name).suffix == ".toml" else {"load": name}
+    _send(connection, operation="load", **content)
+
+
+@app.command("place", context_settings=_NUMBERS)
+@expand_option_groups
+def place(
+    body: Annotated[str, typer.Argument(help="A robot's name, or ball.")],
+    x: X,
+    y: Y,
+    heading: Heading = 0.0,
+    vx: Vx = 0.0,
+    vy: Vy = 0.0,
+    omega: Omega = 0.0,
+    z: Annotated[float | None, typer.Option(help="m, height of the ball's centre.")] = None,
+    vz: Annotated[float, typer.Option(help="m/s; of the ball.")] = 0.0,
+    *,
+    connection: options.ConnectOptions,
+) -> None:
+    """Set a robot or the ball down, at rest or moving.
+
+    Example: touchline scene place ball -3.5 2 --vx 4
+    """
+    at = {"body": body, "x": x, "y": y, "heading": heading, "z": z, "vx": vx, "vy": vy, "vz": vz, "omega": omega}
+    _send(connection, operation="place", place=[at])
+
+
+@app.command("add", context_settings=_NUMBERS)
+@expand_option_groups
+def add(
+    name: Annotated[str, typer.Argument(help="Name of the new robot.")],
+    side: Annotated[Side, typer.Argument(help="cyan or magenta")],
+    x: X,
+    y: Y,
+    heading: Heading = 0.0,
+    type_: Annotated[str, typer.Option("--type", help="Type of robot, as the profile names it.")] = "standard",
+    still: Annotated[bool, typer.Option("--still", help="It stands still, and needs no agent.")] = False,
+    *,
+    connection: options.ConnectOptions,
+) -> None:
+    """Add a robot; an agent that connects later moves it, and until then it rests.
+
+    Example: touchline scene add magenta6 magenta 5 -2 --type slow
+    """
+    robot = {"name": name, "side": side, "x": x, "y": y, "heading": heading, "type": type_, "agent": not still}
+    _send(connection, operation="add", robots=[robot])
+
+
+@app.command("add-obstacle", context_settings=_NUMBERS)
+@expand_option_groups
+def add_obstacle(
+    name: Annotated[str, typer.Argument(help="Name of the new obstacle.")],
+    x: X,
+    y: Y,
+    radius: Annotated[float | None, typer.Option(help="m; of a cylinder.")] = None,
+    height: Annotated[float | None, typer.Option(help="m; of a cylinder.")] = None,
+    size: Annotated[tuple[float, float, float] | None, typer.Option(metavar="X Y Z", help="m; of a box.")] = None,
+    heading: Heading = 0.0,
+    *,
+    connection: options.ConnectOptions,
+) -> None:
+    """Put up a cylinder or a box that nothing moves.
+
+    Example: touchline scene add-obstacle wall 3 -2 --size 0.2 2 0.5
+    """
+    if (size is None) == (radius is None or height is None):
+        raise TouchlineError(f"{name} has no shape; give --radius and --height of a cylinder, or --size of a box")
+    shape, box = ("cylinder", None) if size is None else ("box", list(size))
+    body = {"name": name, "shape": shape, "place": [x, y], "heading": heading, "radius": radius, "height": height}
+    _send(connection, operation="add", obstacles=[body | {"size": box}])
+
+
+@app.command("remove")
+@expand_option_groups
+def remove(
+    names: Annotated[list[str], typer.Argument(metavar="NAME...", help="Robots and obstacles.")],
+    connection: options.ConnectOptions,
+) -> None:
+    """Take robots or obstacles off the pitch; a robot's agent gets no sights until it is put back.
+
+    Example: touchline scene remove cyan4 magenta4
+    """
+    _send(connection, operation="remove", remove=names)
+
+
+@app.command("reset")
+@expand_option_groups
+def reset(
+    to_start: Annotated[bool, typer.Option("--to-start", help="To the start of the match, not of the scene.")] = False,
+    *,
+    connection: options.ConnectOptions,
+) -> None:
+    """Begin another episode: the scene that was loaded last, or the match, from its start.
+
+    Example: touchline scene reset
+    """
+    _send(connection, operation="reset", to_match=to_start)
+
+
+def _send(connection: options.ConnectOptions, **content: Any) -> None:
+    from coach_gateway.match.host_client import HostClient
+
+    request = _request(**content)
+    with bus_client(connection.connect, connection.match) as bus:
+        reply = HostClient(bus).scene(request)
+    if not reply.accepted:
+        raise MatchFailedError(f"refused: {reply.reason}")
+    typer.echo(f"{request.operation.value} accepted, episode {reply.episode}")
+
+
+def _request(**content: Any) -> "SceneRequest":
+    """The message of what was typed in.
+
+    Raises:
+        TouchlineError: a value that it may not have.
+    """
+    from schemas.config.scene import REMEDIES, SceneRequest
+    from schemas.config.toml_file import validate_tables
+
+    return validate_tables(SceneRequest, content, f"scene {content['operation']}", REMEDIES)

@@ -1,0 +1,36 @@
+"""`touchline schema`: the JSON Schema of a message, for teams in any language."""
+
+import json
+from typing import Annotated
+
+import typer
+
+from schemas.errors import TouchlineError, did_you_mean
+from schemas.message import Part
+from schemas.topics import TOPICS
+
+
+def schema(
+    name: Annotated[str, typer.Argument(help="A topic as `touchline topics` names it, or a message's class name.")],
+) -> None:
+    """Print the JSON Schema of a message.
+
+    Example: touchline schema command
+    """
+    models = known()
+    if name not in models:
+        raise TouchlineError(f'schema of "{name}": no such topic or message; {did_you_mean(name, models)}')
+    typer.echo(json.dumps(models[name].model_json_schema(by_alias=True), ensure_ascii=False, indent=2))
+
+
+def known() -> dict[str, type[Part]]:
+    """Topic and class name → message, answers to questions and the match file included."""
+    from schemas.config.match_config import MatchConfig
+
+    models: dict[str, type[Part]] = {"MatchConfig": MatchConfig}
+    for topic, row in TOPICS.items():
+        if row.message is not None:
+            models |= {topic: row.message, row.message.__name__: row.message}
+        if row.reply is not None:
+            models[row.reply.__name__] = row.reply
+    return models

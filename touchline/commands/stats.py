@@ -1,0 +1,66 @@
+"""`touchline stats`: a match in figures, and as a page to look at."""
+
+import json as json_text
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from touchline.cli import options
+
+if TYPE_CHECKING:
+    from recordings.stats.figures import MatchFigures
+
+
+def stats(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
+    json: options.Json = False,
+    html: Annotated[
+        Path | None, typer.Option(metavar="PAGE.html", help="Write the match as one page that opens from disk.")
+    ] = None,
+) -> None:
+    """Measure a match: score, possession, passes, shots, saves, distance, speed, fouls, restarts.
+
+    Example: touchline stats match.mcap --html match.html
+    """
+    from recordings.reading.recording import open_recording
+    from recordings.stats.match_statistics import figures_of_recording
+    from recordings.stats.page import page_of, write_page
+
+    recording = open_recording(file)
+    if html is not None:
+        figures, text = page_of(recording)
+        write_page(html, text)
+    else:
+        figures = figures_of_recording(recording)
+    if json:
+        typer.echo(json_text.dumps(figures.to_json(), ensure_ascii=False))
+        return
+    _show(figures)
+    if html is not None:
+        typer.echo(f"page  {html}")
+
+
+def _show(figures: "MatchFigures") -> None:
+    from rich.table import Table
+
+    from recordings.stats.table import ROBOT_HEADINGS, headline, remarks, robot_rows, side_rows
+    from schemas.side import Side
+    from touchline.cli.console import console as new_console
+
+    console = new_console()
+    sides = Table("", *Side, box=None, pad_edge=False)
+    robots = Table(*ROBOT_HEADINGS, box=None, pad_edge=False)
+    for table, rows in ((sides, side_rows(figures)), (robots, robot_rows(figures))):
+        for column in table.columns[1:]:
+            column.justify = "right"
+        table.columns[0].no_wrap = True
+        for row in rows:
+            table.add_row(*row)
+    console.print(headline(figures), style="bold")
+    console.print()
+    console.print(sides)
+    console.print()
+    console.print(robots)
+    for remark in remarks(figures):
+        console.print(remark, style="yellow")

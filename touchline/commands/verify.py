@@ -1,0 +1,95 @@
+"""`touchline verify`: simulates a recorded match again and compares every tick."""
+
+import json as json_text
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from schemas.errors import TouchlineError
+from touchline.cli import options
+from touchline.cli.errors import FAILED
+
+if TYPE_CHECKING:
+    from touchline.verify.resimulate import Detail, Discrepancy, Verdict
+
+_DETAILS = 6
+"""Lines on what differs; the rest is counted."""
+_UNITS = {"x": "m", "y": "m", "z": "m", "heading": "rad", "vx": "m/s", "vy": "m/s", "vz": "m/s", "omega": "rad/s"}
+
+
+def verify(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
+    from_kickoff: Annotated[
+        int | None, typer.Option("--from-kickoff", help="Begin at this kick-off, counted from 1, not at the start.")
+    ] = None,
+    jobs: Annotated[int, typer.Option(help="Processes at once; 0 for one on each core.")] = 0,
+    json: options.Json = False,
+) -> None:
+    """Simulate a recorded match again and compare every tick: identical, or the first tick that differs.
+
+    Example: touchline verify final.mcap --from-kickoff 2
+    """
+    options.need_pybullet()
+    from touchline.verify.resimulate import verify as verified
+
+    if jobs < 0:
+        raise TouchlineError(f"--jobs is {jobs}; give a number of processes, or 0 for one on each core")
+    verdict = verified(file, from_kickoff, jobs or len(os.sched_getaffinity(0)))
+    if json:
+        typer.echo(json_text.dumps(verdict.to_json(), ensure_ascii=False))
+    else:
+        for line in _lines(verdict):
+            typer.echo(line)
+    raise typer.Exit(0 if verdict.identical else FAILED)
+
+
+def _lines(verdict: "Verdict") -> list[str]:
+    """The verdict in words; another machine comes first, since it may explain the rest."""
+    lines = [
+        f"{part} differs from that of the recording: {theirs} there, {ours} here; the same may not come out"
+        for part, (theirs, ours) in verdict.other_machine.items()
+    ]
+    if verdict.difference is not None:
+        lines += _of_difference(verdict.difference)
+        lines.append(f"identical before that: {verdict.ticks} ticks")
+    else:
+        lines.append(
+            f"{'identical' if verdict.identical else 'identical where it could be compared'}, {verdict.ticks} ticks"
+        )
+    lines += [_LEFT_OUT[one.why].format(_range(one.first, one.last)) for one in verdict.left_out]
+    if verdict.without_world:
+        lines.append(f"of {verdict.without_world} ticks no world was recorded; their hash chain was compared")
+    rate = verdict.seconds / verdict.took
+    how = "one process" if verdict.processes == 1 else f"{verdict.processes} processes"
+    lines.append(
+        f"{verdict.seconds:.1f} s of the match simulated again in {verdict.took:.1f} s by {how}, ×{rate:.0f}; "
+        f"kick-offs to begin with: {verdict.kick_offs}"
+    )
+    return lines
+
+
+_LEFT_OUT = {
+    "before": "{} are older than the recording",
+    "missing": "{} are missing in the recording: nothing can be said of them",
+    "no_start": "{} stand before the first tick that a simulation can begin with: nothing can be said of them",
+}
+
+
+def _range(first: int, last: int) -> str:
+    return f"ticks {first} to {last}" if last > first else f"tick {first}"
+
+
+def _of_difference(one: "Discrepancy") -> list[str]:
+    lines = [f"tick {one.tick} ({one.time:.2f} s) is the first that differs: {one.why}"]
+    lines += [f"  {_of_detail(detail)}" for detail in one.details[:_DETAILS]]
+    if len(one.details) > _DETAILS:
+        lines.append(f"  and {len(one.details) - _DETAILS} more")
+    return lines
+
+
+def _of_detail(one: "Detail") -> str:
+    other = "its command says" if one.of.startswith("input") else "simulated again"
+    by = f", {one.by:.3g} {_UNITS.get(one.field.split('.')[-1], '')}".rstrip() + " apart" if one.by is not None else ""
+    return f"{one.of}: {one.field} is {one.recorded} recorded, {one.simulated} {other}{by}"

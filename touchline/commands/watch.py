@@ -1,0 +1,76 @@
+"""`touchline watch`: a running match, or a replay, drawn in the terminal."""
+
+import sys
+from typing import TYPE_CHECKING
+
+import typer
+
+from touchline.cli import options
+from touchline.cli.bus_client import PATIENCE, bus_client
+from touchline.cli.option_groups import expand_option_groups
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from schemas.bus.contract import Bus
+
+_EVERY = 0.1
+"""s of wall time between two pictures."""
+
+
+@expand_option_groups
+def watch(connection: options.ConnectOptions) -> None:
+    """Watch a match in the terminal until its host goes, or until Ctrl-C: pitch, score, robots, events.
+
+    Where the output is no terminal, the match is told in plain lines. A replay is watched in the same way.
+
+    Example: touchline watch --match friendly
+    """
+    if not sys.stdout.isatty():
+        from coach_gateway.__main__ import run
+
+        run(connection.connect, connection.match, PATIENCE)
+        return
+    from touchline.cli.console import console
+
+    with bus_client(connection.connect, connection.match) as bus:
+        try:
+            watch_on(bus, console())
+        except KeyboardInterrupt:
+            return
+    typer.echo("the host is gone", err=True)
+
+
+def watch_on(bus: "Bus", console: "Console") -> None:
+    """Draw until the host goes; the last picture stays, where the terminal was.
+
+    Raises:
+        TouchlineError: no host plays this match.
+    """
+    from rich.console import Group
+    from rich.live import Live
+
+    from coach_gateway.match.detailed_follower import DetailedFollower
+    from coach_gateway.match.host_client import HostClient
+    from coach_gateway.match.host_presence import HostPresence
+    from touchline.watch.drawing import draw_match
+
+    client, host = HostClient(bus, PATIENCE), HostPresence(bus)
+    setup = client.setup()
+    host.wait(PATIENCE)
+    bus.declare_alive("coach", "watch")
+    seen, episode = DetailedFollower(bus), 0
+    last = Group()
+    try:
+        with Live(console=console, auto_refresh=False, screen=True) as live:
+            going = True
+            while going:
+                going = not host.gone()  # looked at first, so that the last messages are still seen
+                seen.update()
+                if going and seen.world is not None and seen.world.episode != episode:
+                    setup, episode = client.setup(), seen.world.episode  # others may take part
+                last = Group(*draw_match(seen, setup, console.width, console.height - 1))
+                live.update(last, refresh=True)
+                bus.clock.sleep_until(bus.clock.now() + _EVERY)
+    finally:
+        console.print(last)

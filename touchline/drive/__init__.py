@@ -1,0 +1,1 @@
+"""One robot driven by keys in place of its brain."""

@@ -1,0 +1,1 @@
+"""The processes of a match: planned, launched, supervised and ended, and the result they leave."""

@@ -1,0 +1,94 @@
+"""One launched process: a group of its own, a log of its own, and an end at the latest with its supervisor."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+from abc import ABC, abstractmethod
+from pathlib import Path
+
+from touchline.launch import leash
+from touchline.launch.processes import Process
+
+_TAIL_BYTES = 8192
+
+
+class ProcessHandle(ABC):
+    """A process of this one that runs, or has run; it leads a group of its own."""
+
+    def __init__(self, process: Process, log: Path, log_start: int) -> None:
+        """What it writes goes to the end of `log`, which is `log_start` bytes long before."""
+        self.process = process
+        self.log = log
+        self._log_start = log_start
+        self._status: int | None = None
+
+    @property
+    @abstractmethod
+    def pid(self) -> int:
+        """Process id, which is also the id of its group."""
+
+    @abstractmethod
+    def _poll(self) -> int | None:
+        """Exit status, negative for a signal; nothing while it runs. Not asked again when it has ended."""
+
+    def status(self) -> int | None:
+        """Exit status, negative for the signal that ended it; nothing while it runs."""
+        if self._status is None:
+            self._status = self._poll()
+            if self._status is not None:
+                self._signal_group(signal.SIGKILL)  # whatever it started goes with it
+        return self._status
+
+    def send(self, number: signal.Signals) -> None:
+        """Send a signal to the program and all it started, unless it has ended."""
+        if self._status is None:
+            self._signal_group(number)
+
+    def last_lines(self, count: int = 5) -> list[str]:
+        """The end of what it wrote to its log, without empty lines; what an earlier one wrote there is left out."""
+        with self.log.open("rb") as log:
+            log.seek(max(self._log_start, self.log.stat().st_size - _TAIL_BYTES))
+            text = log.read().decode("utf-8", "replace")
+        return [line for line in text.splitlines() if line.strip()][-count:]
+
+    def _signal_group(self, number: signal.Signals) -> None:
+        try:
+            os.killpg(self.pid, number)
+        except ProcessLookupError:
+            return  # nobody of it is left
+
+
+class ChildProcess(ProcessHandle):
+    """A program, launched by its command line."""
+
+    def __init__(self, process: Process, log: Path, stdin: socket.socket | None = None) -> None:
+        """It reads from `stdin`, or nothing."""
+        command = [sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), *process.command]
+        with log.open("ab") as out:
+            super().__init__(process, log, out.tell())
+            self._popen = subprocess.Popen(
+                command,
+                stdin=stdin.fileno() if stdin is not None else subprocess.DEVNULL,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+                env={**os.environ, **process.environment},
+                process_group=0,
+            )
+
+    @property
+    def pid(self) -> int:
+        """Process id, which is also the id of its group."""
+        return self._popen.pid
+
+    def end(self, patience: float) -> None:
+        """Wait until it has ended by itself, for so many s of wall time, and no longer."""
+        try:
+            self._popen.wait(patience)
+        except subprocess.TimeoutExpired:
+            self.send(signal.SIGKILL)
+            self._popen.wait()
+
+    def _poll(self) -> int | None:
+        return self._popen.poll()

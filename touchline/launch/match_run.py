@@ -1,0 +1,180 @@
+"""A whole match: its processes launched, watched and ended, and what came of it."""
+
+import signal
+from collections.abc import Callable, Iterable
+from types import FrameType, TracebackType
+from typing import Self
+
+from coach_gateway.match.follower import MatchFollower
+from coach_gateway.match.lines import event_line
+from schemas.bus.contract import Bus, BusError, ReceivedMessage
+from schemas.bus.zenoh.bus import open_client
+from schemas.errors import MatchFailedError, TouchlineError
+from schemas.game import GameEvent, GameState
+from schemas.messages.host import Health
+from schemas.process.clock import Clock
+from schemas.side import Side
+from touchline.launch.child_process import ProcessHandle
+from touchline.launch.fork_server import ForkServer
+from touchline.launch.processes import MatchPlan, Process, processes_of
+from touchline.launch.result import NOTABLE, MatchResult
+from touchline.launch.supervisor import AFTER_THE_MATCH, AT_ONCE, Supervisor
+from touchline.watch.screen import Screen
+from touchline.watch.status_line import status_line
+
+_POLL = 0.05
+"""s of wall time between looks at processes and bus."""
+_LAST_MESSAGES = 5.0
+"""s of wall time for the host's last messages to arrive after its process has ended: they are all here when its link
+ends, which it does with the process, so that only a machine with no time for us takes long."""
+_WRONG_INPUT = 2
+
+
+class InterruptedMatchError(Exception):
+    """Somebody ended the match with a signal, whose number this carries."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+class StopSignals:
+    """While entered, SIGINT and SIGTERM are noted instead of raised."""
+
+    def __init__(self) -> None:
+        self.received: int | None = None
+        self._before: dict[int, object] = {}
+
+    def __enter__(self) -> Self:
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self._before[number] = signal.signal(number, self._note)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        for number, handler in self._before.items():
+            signal.signal(number, handler)  # type: ignore[arg-type]
+
+    def _note(self, number: int, frame: FrameType | None) -> None:
+        del frame
+        self.received = self.received or number
+
+
+class MatchRun:
+    """One match from launch to result."""
+
+    def __init__(
+        self,
+        plan: MatchPlan,
+        screen: Screen,
+        clock: Clock,
+        losses: Callable[[MatchPlan], dict[str, int]],
+        recorded: Callable[[MatchPlan], Iterable[ReceivedMessage]],
+    ) -> None:
+        """`losses` tells what a finished recording lacks, `recorded` what it has of the game's events and states."""
+        self._plan = plan
+        self._screen = screen
+        self._clock = clock
+        self._losses = losses
+        self._recorded = recorded
+        self._robots = sum(len(plan.config.robots(side)) for side in Side)
+        self._fork_server = ForkServer(plan.folder / "fork_server.log")
+        self._supervisor = Supervisor(processes_of(plan), self._launch, clock)
+
+    def play(self) -> MatchResult:
+        """Play it.
+
+        Raises:
+            InterruptedMatchError: SIGINT or SIGTERM came; everything is ended and the recording finished.
+            MatchFailedError: the host ended before full time, or the recording was lost.
+            TouchlineError: the host could not begin, and says why.
+        """
+        with StopSignals() as stop:
+            try:
+                try:
+                    self._supervisor.start()
+                finally:
+                    self._fork_server.close()  # who is started again begins from nothing
+                follower = self._follow(stop)
+            except BaseException:
+                self._supervisor.end(AT_ONCE)
+                raise
+            if follower is not None:  # of a host that was never met there is nothing to record
+                self._supervisor.end(AFTER_THE_MATCH, hurried=lambda: stop.received is not None)
+            self._supervisor.end(AT_ONCE)  # whoever is left when somebody is in a hurry
+        if stop.received is not None:
+            raise InterruptedMatchError(stop.received)
+        return self._outcome(follower)
+
+    def _launch(self, process: Process) -> ProcessHandle:
+        return self._fork_server.launch(process, self._plan.folder / f"{process.name}.log")
+
+    def _follow(self, stop: StopSignals) -> MatchFollower | None:
+        """Watch until the host has ended or a signal came; nothing when the host was never met."""
+        bus = self._connect(stop)
+        if bus is None:
+            return None
+        with bus:
+            follower = MatchFollower(bus)
+            while self._is_going(stop):
+                self._show(follower)
+                self._clock.sleep_until(self._clock.now() + _POLL)
+            deadline = self._clock.now() + _LAST_MESSAGES
+            while stop.received is None and bus.connected() and self._clock.now() < deadline:
+                self._clock.sleep_until(self._clock.now() + _POLL / 10)
+            self._show(follower)
+        return follower
+
+    def _connect(self, stop: StopSignals) -> Bus | None:
+        while self._is_going(stop):
+            self._screen.status("waiting for the host")
+            try:
+                return open_client(self._plan.config.name, self._clock, self._plan.connect, patience=0.0)
+            except BusError:
+                self._clock.sleep_until(self._clock.now() + _POLL)
+        return None
+
+    def _is_going(self, stop: StopSignals) -> bool:
+        for notice in self._supervisor.check():
+            self._screen.warn(notice.sentence)
+            for line in notice.log:
+                self._screen.warn(f"  {notice.name}: {line}")
+        return self._supervisor.host_status is None and stop.received is None
+
+    def _show(self, follower: MatchFollower) -> None:
+        self._report(follower, follower.update())
+
+    def _report(self, follower: MatchFollower, news: list[GameEvent | GameState | Health]) -> None:
+        for message in news:
+            if isinstance(message, GameEvent):
+                self._screen.event(event_line(message), notable=message.kind in NOTABLE)
+        self._screen.status(status_line(follower, self._robots))
+
+    def _outcome(self, follower: MatchFollower | None) -> MatchResult:
+        """The result, or the reason why there is none."""
+        status = self._supervisor.host_status
+        if status == 0 and follower is not None and not follower.finished:
+            # whoever stood still for the last second has not heard the end, and the recorder, who is waited for, has
+            self._report(follower, follower.complete(self._recorded(self._plan)))
+        if status == 0 and follower is not None and follower.finished:
+            return self._result(follower)
+        log = self._supervisor.last_lines("host")
+        if status == _WRONG_INPUT and log:
+            raise TouchlineError(log[-1].removeprefix("touchline: "))
+        for line in log:
+            self._screen.warn(f"  host: {line}")
+        how = "was ended before full time" if status == 0 else f"ended with status {status}"
+        raise MatchFailedError(f"match abandoned: the host {how}; its log is {self._plan.folder / 'host.log'}")
+
+    def _result(self, follower: MatchFollower) -> MatchResult:
+        recording = self._plan.recording
+        snapshots = self._plan.config.record.snapshot is not None  # a match without a goal leaves none
+        missing = not snapshots and not self._plan.recording_files
+        if recording is not None and (self._supervisor.ended.get("recorder") != 0 or missing):
+            log = self._supervisor.last_lines("recorder")
+            raise MatchFailedError(
+                f"the match was played but its recording was lost: {log[-1] if log else 'the recorder says nothing'}; "
+                f"its log is {self._plan.folder / 'recorder.log'}"
+            )
+        return MatchResult.of(follower, recording, self._losses(self._plan))

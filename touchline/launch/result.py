@@ -1,0 +1,131 @@
+"""What a match came to: as one JSON object for programs, as score and table for people."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from coach_gateway.match.follower import MatchFollower
+from coach_gateway.match.lines import clock_text
+from schemas.game import DisciplinaryRecord, EventKind, GameEvent, Score
+
+NOTABLE = frozenset(
+    {
+        EventKind.GOAL,
+        EventKind.NO_GOAL,
+        EventKind.SHOT,
+        EventKind.CARD,
+        EventKind.OFF_FIELD,
+        EventKind.ON_FIELD,
+        EventKind.PROPOSAL,
+        EventKind.FORFEIT,
+        EventKind.HALF_TIME,
+        EventKind.FULL_TIME,
+        EventKind.ACTION,
+        EventKind.AGENT,
+        EventKind.STALL,
+        EventKind.PARAMETERS,
+        EventKind.SCENE,
+    }
+)
+"""Events that people read about afterwards; stops and restarts are in the recording."""
+
+
+@dataclass(frozen=True, slots=True)
+class MatchResult:
+    """The outcome of one match."""
+
+    score: Score
+    duration_s: float
+    """Simulated time in s."""
+    ticks: int
+    events: tuple[GameEvent, ...]
+    real_time_factor: float
+    """Simulated seconds per wall second of play."""
+    wall_s: float
+    """Wall time of play in s."""
+    recording: Path | None
+    losses: dict[str, int]
+    """Key → messages that the recorder missed; empty when it missed none."""
+    effective_s: float = 0.0
+    """Simulated time in s that the ball was in play."""
+    robots: Mapping[str, DisciplinaryRecord] = field(default_factory=dict)
+    """Robots that ended with a card or off the field."""
+    shoot_out: Score | None = None
+    """Goals of the penalty shoot-out, if there was one."""
+
+    @classmethod
+    def of(cls, follower: MatchFollower, recording: Path | None, losses: dict[str, int]) -> "MatchResult":
+        """The outcome of what was seen."""
+        return cls(
+            score=follower.state.score if follower.state is not None else Score(),
+            duration_s=follower.last.time if follower.last is not None else 0.0,
+            ticks=follower.last.tick if follower.last is not None else 0,
+            events=tuple(follower.events),
+            real_time_factor=follower.real_time_factor,
+            wall_s=follower.wall_s,
+            recording=recording,
+            losses=losses,
+            effective_s=follower.state.effective if follower.state is not None else 0.0,
+            robots=follower.state.robots if follower.state is not None else {},
+            shoot_out=follower.state.shoot_out if follower.state is not None else None,
+        )
+
+    @property
+    def halves(self) -> list[Score]:
+        """The score at the end of each half."""
+        ends = [event for event in self.events if event.kind in (EventKind.HALF_TIME, EventKind.FULL_TIME)]
+        return [event.score for event in ends if event.score is not None]
+
+    def json(self) -> str:
+        """One JSON object."""
+        content = {
+            "score": self.score.model_dump(),
+            "halves": [score.model_dump() for score in self.halves],
+            "shoot_out": self.shoot_out.model_dump() if self.shoot_out is not None else None,
+            "cards": {name: {"yellow": one.yellow, "red": one.red} for name, one in self.robots.items()},
+            "duration_s": round(self.duration_s, 6),
+            "effective_s": round(self.effective_s, 6),
+            "ticks": self.ticks,
+            "events": [event.model_dump(mode="json", exclude={"version"}) for event in self.events],
+            "real_time_factor": round(self.real_time_factor, 3),
+            "wall_s": round(self.wall_s, 3),
+            "recording": str(self.recording) if self.recording is not None else None,
+            "losses": self.losses,
+        }
+        return json.dumps(content, ensure_ascii=False)
+
+    def render(self) -> RenderableType:
+        """Score, events and recording, for a console."""
+        headline = Text(f"\ncyan {self.score.cyan} : {self.score.magenta} magenta", style="bold")
+        headline.append(
+            f"   {self.duration_s:.1f} s played in {self.wall_s:.1f} s (×{self.real_time_factor:.1f})", style="not bold"
+        )
+        parts: list[RenderableType] = [headline, Text(self._summary()), self._table()]
+        if self.recording is not None:
+            parts.append(Text(f"recording  {self.recording}", no_wrap=True, overflow="ignore"))
+        if self.losses:
+            parts.append(Text(f"recording misses {sum(self.losses.values())} messages: {self.losses}", style="yellow"))
+        return Group(*parts)
+
+    def _summary(self) -> str:
+        """Score by halves, penalties, ball in play, and who ended with which card."""
+        parts = ["halves " + ", ".join(f"{score.cyan}:{score.magenta}" for score in self.halves)]
+        if self.shoot_out is not None:
+            parts.append(f"penalties {self.shoot_out.cyan}:{self.shoot_out.magenta}")
+        parts.append(f"ball in play {self.effective_s:.1f} s")
+        for name, one in self.robots.items():
+            parts += [f"{name} {count} {card}" for card, count in (("yellow", one.yellow), ("red", one.red)) if count]
+        return "; ".join(parts)
+
+    def _table(self) -> Table:
+        table = Table("clock", "event", "robot", "what", box=None, pad_edge=False)
+        for event in self.events:
+            if event.kind in NOTABLE:
+                kind = event.kind.value.replace("_", " ")
+                table.add_row(clock_text(event.clock), kind, event.robot or "", Text(event.text))
+        return table

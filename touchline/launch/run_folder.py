@@ -1,0 +1,67 @@
+"""Where a match leaves its files: a folder of its own under `runs/`, named after match, moment and seed."""
+
+from datetime import UTC, datetime
+from pathlib import Path
+
+from schemas.config.match_config import MatchConfig
+from schemas.errors import TouchlineError
+from schemas.process.clock import Clock
+from touchline.launch.processes import MatchPlan
+
+RUNS = Path("runs")
+RECORDING = "match.mcap"
+
+
+def prepare_run(
+    config: MatchConfig, listen: str, recording: Path | None, clock: Clock, *, recorded: bool = True
+) -> MatchPlan:
+    """Make the folder of a run and write the match into it.
+
+    `recording` is where the recording goes, by default into the folder; `recorded` false leaves it out.
+
+    A recording that cannot be written there goes into the folder, and the plan says so: a match that many machines
+    wait for is played all the same.
+
+    Raises:
+        TouchlineError: the folder cannot be made or written.
+    """
+    moment = datetime.fromtimestamp(clock.unix_ns() / 1e9, UTC)
+    stem = f"{config.name}-{moment:%Y%m%dT%H%M%SZ}-seed{config.seed}"
+    try:
+        folder = _new_folder(stem)
+        out = (recording or folder / RECORDING) if recorded else None
+        refusal = _refusal(out) if out is not None else ""
+        if refusal:
+            refusal = f"--record {out}: {refusal}; the match is played, its recording goes to {folder / RECORDING}"
+            out = folder / RECORDING
+        plan = MatchPlan(config, listen, folder, out, refusal)
+        plan.config_file.write_text(config.model_dump_json(indent=2), "utf-8")
+    except OSError as error:
+        raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its logs under ./{RUNS}") from None
+    return plan
+
+
+def _refusal(out: Path) -> str:
+    """Why no file can be written there; empty where one can."""
+    from recordings.container.partial_file import NotWritableError, PartialFile
+
+    try:
+        PartialFile(out).discard()
+    except NotWritableError as error:
+        return error.reason
+    except OSError as error:
+        return error.strerror or "cannot be written"
+    return ""
+
+
+def _new_folder(stem: str) -> Path:
+    """A folder that was not there: two matches of one second get different ones."""
+    number = 1
+    while True:
+        folder = RUNS / (stem if number == 1 else f"{stem}-{number}")
+        try:
+            folder.mkdir(parents=True)
+        except FileExistsError:
+            number += 1
+        else:
+            return folder

@@ -1,0 +1,141 @@
+"""A ghost: a robot that is played by what was recorded of it, and does not see what happens now.
+
+    python -m touchline.replay.ghost RECORDING.mcap
+
+Endpoint, match and robot come from the environment, as for every program that moves a robot.
+"""
+
+import os
+import signal
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+from recordings.reading.recording import Recording, open_recording
+from robot_agent.runner import serve
+from schemas.bus.zenoh.bus import open_client
+from schemas.config.match_config import LOCKSTEP, MatchConfig
+from schemas.errors import TouchlineError
+from schemas.messages.command import Command
+from schemas.messages.host import Applied, Setup
+from schemas.messages.sight import Sight
+from schemas.process.clock import WallClock
+from schemas.process.scheduling import use_batch_scheduling
+from schemas.side import Side
+from schemas.topics import APPLIED
+
+_PATIENCE_S = 10.0
+"""Wall time to wait for a host that is not there."""
+
+
+class Ghost:
+    """Answers the sight of tick k with the recorded input of tick k + 1; rests where nothing is recorded."""
+
+    def __init__(self, robot: str, recorded: Iterable[Applied]) -> None:
+        """`recorded` are the inputs of a match, in order; they are read as far as they are needed."""
+        self._robot = robot
+        self._recorded = iter(recorded)
+        self._next = next(self._recorded, None)
+
+    def act(self, sight: Sight) -> Command:
+        """What this robot was told at the tick that the answer is for."""
+        wanted = sight.tick + 1
+        while self._next is not None and self._next.tick < wanted:
+            self._next = next(self._recorded, None)
+        recorded_input = (
+            self._next.inputs.get(self._robot) if self._next is not None and self._next.tick == wanted else None
+        )
+        if recorded_input is None:
+            return Command(answers_tick=sight.tick)
+        return Command(
+            answers_tick=sight.tick,
+            drive=recorded_input.drive,
+            dribble=recorded_input.dribble,
+            kick=recorded_input.kick,
+        )
+
+
+def inputs_of(recording: Recording) -> Iterator[Applied]:
+    """The inputs of a recorded match, tick by tick."""
+    return (applied for _, applied in recording.decoded(APPLIED.key))
+
+
+def teams_of(ghosts: Iterable[str]) -> dict[str, dict[str, Any]]:
+    """What `magenta=FILE` means for a match file: side → its team, with the robots that were recorded.
+
+    Raises:
+        TouchlineError: not a side and a recording, or one that does not say who played.
+    """
+    teams: dict[str, dict[str, Any]] = {}
+    for ghost in ghosts:
+        word, _, file = ghost.partition("=")
+        if word not in list(Side) or not file:
+            raise TouchlineError(f'--ghost is "{ghost}"; write it as magenta=RECORDING.mcap')
+        setup = open_recording(Path(file)).manifest.setup
+        if setup is None:
+            raise TouchlineError(f"--ghost {ghost}: the recording does not say who played")
+        team = setup.teams[Side(word)]
+        teams[word] = {
+            "name": f"{team.name}, recorded",
+            "command": [sys.executable, "-m", "touchline.replay.ghost", str(Path(file).resolve())],
+            "size": max(1, len(team.robots)),
+            "robots": team.robots,
+            "types": team.types,
+        }
+    return teams
+
+
+def check_ghosts(config: MatchConfig, ghosts: Iterable[str]) -> None:
+    """Make sure that what was recorded can be played in this match.
+
+    Raises:
+        TouchlineError: the ticks have another length, or others play on that side.
+    """
+    tick = config.load_profile().time.tick
+    for ghost in ghosts:
+        word, _, file = ghost.partition("=")
+        setup = open_recording(Path(file)).manifest.setup
+        if setup is not None and setup.time.tick != tick:
+            raise TouchlineError(
+                f"--ghost {ghost}: its ticks last {setup.time.tick:g} s, those of this match {tick:g} s; "
+                f"play it with --profile {setup.profile}"
+            )
+        robots = setup.teams[Side(word)].robots if setup is not None else []
+        strangers = [name for name in config.robots(Side(word)) if name not in robots]
+        if strangers:
+            raise TouchlineError(f"--ghost {ghost}: {', '.join(strangers)} did not play there; name another recording")
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Play one robot's ghost; the exit status of the process."""
+    signal.signal(signal.SIGTERM, _end)
+    (file,) = sys.argv[1:] if arguments is None else arguments
+    robot = os.environ["TOUCHLINE_ROBOT"]
+    try:
+        recording = open_recording(Path(file))
+
+        def build(setup: Setup) -> Ghost:
+            use_batch_scheduling(setup.pace == LOCKSTEP)
+            return Ghost(robot, inputs_of(recording))
+
+        with open_client(
+            os.environ["TOUCHLINE_MATCH"], WallClock(), os.environ["TOUCHLINE_CONNECT"], _PATIENCE_S
+        ) as bus:
+            return serve(bus, build, robot, _PATIENCE_S)
+    except TouchlineError as error:
+        sys.stderr.write(f"{error}\n")
+        return 2
+    except KeyboardInterrupt:
+        return 0
+
+
+def _end(number: int, frame: FrameType | None) -> None:
+    """A polite end, from a supervisor as from a keyboard."""
+    del number, frame
+    raise KeyboardInterrupt
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,75 @@
+"""Where a replay is shown: a progress bar on a terminal, a plain line now and then everywhere else."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Protocol, TextIO
+
+from rich.progress import BarColumn, Progress, TextColumn
+
+from schemas.messages.replay import ReplayReply
+from schemas.process.clock import Clock
+from touchline.cli.console import console
+
+LINE_EVERY = 5.0
+"""s of wall time between lines where nothing can be overwritten."""
+_BAR_EVERY = 0.1
+"""s of wall time between two pictures of the bar."""
+
+
+class ProgressDisplay(Protocol):
+    """Shows how a replay stands."""
+
+    def __call__(self, status: ReplayReply) -> None:
+        """It stands like this; may be shown or not."""
+
+
+def status_text(status: ReplayReply) -> str:
+    """`0:24.7 of 0:28.0  ×2  paused  loop`."""
+    speed = "as fast as possible" if status.rate is None else f"×{status.rate:g}"
+    parts = [f"{_minutes(status.time)} of {_minutes(status.end)}", speed]
+    return "  ".join([*parts, *(word for word, holds in (("paused", status.paused), ("loop", status.loop)) if holds)])
+
+
+def _minutes(seconds: float) -> str:
+    minutes, rest = divmod(max(0.0, round(seconds, 1)), 60)
+    return f"{int(minutes)}:{rest:04.1f}"
+
+
+@contextmanager
+def progress_on(stream: TextIO, clock: Clock) -> Iterator[ProgressDisplay]:
+    """The screen that suits a stream."""
+    if not stream.isatty():
+        yield _lines(stream, clock)
+        return
+    columns = (BarColumn(bar_width=None), TextColumn("{task.description}", markup=False))
+    with Progress(*columns, console=console(stream), auto_refresh=False) as bar:
+        yield _bar(bar, clock)
+
+
+def _bar(bar: Progress, clock: Clock) -> ProgressDisplay:
+    task = bar.add_task("", total=1.0)
+    shown_at = -_BAR_EVERY
+
+    def show(status: ReplayReply) -> None:
+        nonlocal shown_at
+        if clock.now() - shown_at >= _BAR_EVERY:
+            shown_at = clock.now()
+            total = max(status.end - status.start, 1e-9)
+            bar.update(
+                task, total=total, completed=status.time - status.start, description=status_text(status), refresh=True
+            )
+
+    return show
+
+
+def _lines(stream: TextIO, clock: Clock) -> ProgressDisplay:
+    shown_at = -LINE_EVERY
+
+    def show(status: ReplayReply) -> None:
+        nonlocal shown_at
+        if clock.now() - shown_at >= LINE_EVERY:
+            shown_at = clock.now()
+            stream.write(status_text(status) + "\n")
+            stream.flush()
+
+    return show

@@ -1,0 +1,95 @@
+"""The sights of a recorded match that were not recorded: the match is simulated again, with sensors and referee.
+
+Everything that a robot perceives follows from the match file, the commands and the orders. What people asked the
+referee or did to the pitch is not in them: from there on sights are not what they were, and none are given.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from recordings.reading.recording import Recording
+from robot_agent.contract import read_sight
+from schemas.errors import TouchlineError
+from schemas.messages.coach import CoachOrder
+from schemas.messages.command import Command
+from schemas.messages.host import Applied
+from schemas.messages.parameters import ParameterOperation, ParametersRequest
+from schemas.messages.sight import Sight
+from schemas.side import Side
+from schemas.topics import APPLIED, ORDER
+from sim_host.match.simulation import Simulation
+from touchline.verify.resim_start import config_of, need_scene
+
+
+@dataclass
+class RegeneratedSights:
+    """Simulates a recorded match again and gives one robot's sights, as long as the world is the recorded one."""
+
+    recording: Recording
+    robot: str
+    commands: Mapping[str, Mapping[int, Command]]
+    """Robot → tick of the sight → what it answered."""
+    until: str = field(default="", init=False)
+    """Why there were no more sights before the end of the recording; nothing when there was no such reason."""
+
+    def __iter__(self) -> Iterator[Sight]:
+        """Sight by sight.
+
+        Raises:
+            TouchlineError: the recording does not hold its match file or its scene, or does not begin at tick 0.
+        """
+        config = config_of(self.recording)
+        if config is None:
+            raise TouchlineError(
+                f"{self.recording.path}: it has neither sights nor its match file; record with touchline match --sights"
+            )
+        need_scene(self.recording)
+        simulation = Simulation(config)
+        try:
+            yield from self._sights(simulation, config.speed is None)
+        finally:
+            simulation.close()
+
+    def _sights(self, simulation: Simulation, lockstep: bool) -> Iterator[Sight]:
+        orders = [(recorded.time, recorded.key, order) for recorded, order in self.recording.decoded(ORDER.fill())]
+        for _, applied in self.recording.decoded(APPLIED.key):
+            if applied.tick > 0:
+                if applied.tick != simulation.now.tick + 1:
+                    self.until = f"tick {simulation.now.tick + 1} is not in the recording"
+                    return
+                if applied.robots is not None or applied.obstacles is not None:
+                    self.until = f"at tick {applied.tick} people changed who or what is on the pitch"
+                    return
+                self._give_orders(simulation, orders)
+                self._step(simulation, applied, lockstep)
+            if simulation.now.applied["chain"] != applied.chain:
+                self.until = f"at tick {applied.tick} the world is not the recorded one any more"
+                return
+            if self.robot in simulation.now.sights:
+                yield read_sight(simulation.now.sights[self.robot])
+
+    def _step(self, simulation: Simulation, applied: Applied, lockstep: bool) -> None:
+        values = {name: value for name, value in applied.parameters.items() if value is not None}
+        if values:
+            simulation.handle_parameters(ParametersRequest(operation=ParameterOperation.SET, values=values))
+        names = [name for name in applied.parameters if name not in values]
+        if names:
+            simulation.handle_parameters(ParametersRequest(operation=ParameterOperation.RESET, names=names))
+        commands = {}
+        for name, applied_input in applied.inputs.items():
+            answered = (
+                applied_input.answers_tick
+                if applied_input.answers_tick is not None or not lockstep
+                else applied.tick - 1
+            )
+            command = self.commands.get(name, {}).get(answered) if answered is not None else None
+            if command is not None:
+                commands[name] = command
+        simulation.step(commands)
+
+    def _give_orders(self, simulation: Simulation, orders: list[tuple[float, str, CoachOrder]]) -> None:
+        while orders and orders[0][0] <= simulation.now.time:
+            _, key, order = orders.pop(0)
+            side = Side(key.split("/")[1])
+            if not order.refusal_after(simulation.orders.get(side)):
+                simulation.orders[side] = order

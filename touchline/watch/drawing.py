@@ -1,0 +1,43 @@
+"""One picture of a match, as large as the terminal: pitch, robots, events."""
+
+from rich.text import Text
+
+from coach_gateway.match.detailed_follower import DetailedFollower
+from schemas.messages.host import Setup
+from touchline.watch import panel
+from touchline.watch.pitch import field, rows_for
+
+LEAST_PITCH = 40
+"""Cells; a narrower pitch has the robots below it, not beside it."""
+LEAST_EVENTS = 3
+"""Rows that are kept for what happened."""
+
+
+def draw_match(seen: DetailedFollower, setup: Setup, width: int, height: int) -> list[Text]:
+    """At most `height` rows of at most `width` cells."""
+    follower = seen.match
+    is_beside = width >= LEAST_PITCH + 2 + panel.WIDTH
+    pitch_width = width - panel.WIDTH - 2 if is_beside else width
+    room = max(1, height - 2 - LEAST_EVENTS)
+    robots = panel.robots(setup, seen.world, seen.radios, follower.state, follower.health)
+    robots += panel.orders(seen.orders.book)
+    rows = field(setup, seen.world, follower.state, pitch_width, min(room, rows_for(setup.pitch, pitch_width)))
+    if is_beside:
+        rows = _beside(rows, pitch_width, robots)[:room]
+    elif len(rows) + len(robots) <= room:
+        rows = [*rows, *robots]
+    happened = panel.events(follower, height - 2 - len(rows))
+    rows = [panel.head(setup, follower.state), *rows, *happened, panel.foot(follower)][:height]
+    for row in rows:
+        row.truncate(width, overflow="ellipsis")
+    return rows
+
+
+def _beside(left: list[Text], width: int, right: list[Text]) -> list[Text]:
+    """Two columns, the first of them `width` cells wide."""
+    rows = []
+    for place in range(max(len(left), len(right))):
+        row = left[place].copy() if place < len(left) else Text()
+        row.pad_right(width + 2 - row.cell_len)
+        rows.append(row + right[place] if place < len(right) else row)
+    return rows

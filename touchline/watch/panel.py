@@ -1,0 +1,152 @@
+"""What stands beside the pitch: score, every robot, orders, what happened last, and how the host is radio."""
+
+import math
+from collections.abc import Iterator, Mapping
+
+from rich.style import Style
+from rich.text import Text
+
+from coach_gateway.match.follower import MatchFollower
+from coach_gateway.match.lines import clock_text, event_line, half_text, phase_text, printable
+from coach_gateway.match.orders import OrderBook
+from schemas.game import DisciplinaryRecord, EventKind, GameState
+from schemas.messages.coach import CoachOrder
+from schemas.messages.command import Radio
+from schemas.messages.host import Health, Setup
+from schemas.messages.world import RobotTruth, World
+from schemas.side import Side
+from touchline.watch.pitch import SIDES, arrow
+from touchline.watch.status_line import losses_text, robots_text
+
+QUIET = Style(dim=True)
+TROUBLE = Style(color="yellow", bold=True)
+LOUD = {
+    EventKind.GOAL: Style(bold=True),
+    EventKind.CARD: TROUBLE,
+    EventKind.FOUL: Style(color="yellow"),
+}
+"""Events that are seen from afar."""
+WIDTH = 64
+"""Cells of a robot's row."""
+
+_ACTIVITY = 26
+"""Cells of it that say what it does."""
+
+
+def head(setup: Setup, state: GameState | None) -> Text:
+    """Teams and score, clock, half and phase, what is proposed."""
+    names = {side: setup.teams[side].name for side in Side}
+    if state is None:
+        return Text(f"{names[Side.CYAN]} – {names[Side.MAGENTA]}  waiting for everybody")
+    line = Text.assemble(
+        (f" {names[Side.CYAN]} ", SIDES[Side.CYAN]),
+        (f" {state.score.cyan} : {state.score.magenta} ", Style(bold=True)),
+        (f" {names[Side.MAGENTA]} ", SIDES[Side.MAGENTA]),
+        f"  {clock_text(state.clock)}  {half_text(state)}  ",
+        (phase_text(state), Style(bold=True)),
+    )
+    if state.proposal is not None:
+        line.append(f"  proposed: {state.proposal}", TROUBLE)
+    return line
+
+
+def robots(
+    setup: Setup,
+    world: World | None,
+    radios: Mapping[str, Radio],
+    state: GameState | None,
+    health: Health | None,
+) -> list[Text]:
+    """One row for each robot: number and heading, what it does, place, speed, ball, and what is wrong with it."""
+    rows = []
+    for side, name, number in _everybody(setup):
+        robot = world.robots.get(name) if world is not None else None
+        row = Text.assemble((f"{number}{arrow(robot) if robot is not None else ' '}", SIDES[side]), " ")
+        radio = radios.get(name)
+        activity = Text(_activity(radio))
+        activity.truncate(_ACTIVITY, overflow="ellipsis", pad=True)
+        row.append(activity).append(" ")
+        if robot is not None:
+            speed = math.hypot(robot.vx, robot.vy)
+            row.append(f"{robot.x:6.1f} {robot.y:5.1f} {speed:4.1f} m/s ")
+            row.append("● " if robot.holding else "  ", Style(color="bright_yellow"))
+        discipline = state.robots.get(name) if state is not None else None
+        row.append(", ".join(_troubles(name, robot, discipline, health, setup.time.tick)), TROUBLE)
+        rows.append(row)
+    return rows
+
+
+def _everybody(setup: Setup) -> Iterator[tuple[Side, str, int]]:
+    for side, team in setup.teams.items():
+        for number, name in enumerate(team.robots, start=1):
+            yield side, name, number
+
+
+def _activity(radio: Radio | None) -> str:
+    """`striker: get the ball`; empty while it has said nothing."""
+    return printable(": ".join(part for part in (radio.role, radio.intention) if part)) if radio is not None else ""
+
+
+def _troubles(
+    name: str, robot: RobotTruth | None, discipline: DisciplinaryRecord | None, health: Health | None, tick: float
+) -> Iterator[str]:
+    """What keeps a robot from playing, and what it was shown."""
+    if discipline is not None:
+        left = "" if discipline.left is None else f" {discipline.left:.0f} s"
+        if discipline.off_field is not None:
+            yield f"{discipline.off_field.value.replace('_', ' ')}{left}"
+        yield from (
+            f"{count} {card}" for card, count in (("yellow", discipline.yellow), ("red", discipline.red)) if count
+        )
+    if robot is not None and robot.stuck:
+        yield "stuck"
+    agent = health.robots.get(name) if health is not None else None
+    if agent is None or agent.still or health is None:
+        return
+    if not (agent.answering if health.tick > 0 else agent.alive):
+        yield "silent" if health.tick > 0 else "missing"
+    elif agent.latency_ms is not None and agent.latency_ms * 1e-3 >= tick:
+        yield f"answers after {agent.latency_ms:.0f} ms"
+
+
+def orders(book: OrderBook) -> list[Text]:
+    """One row for each order that stands: what it says, and who has not taken it in."""
+    rows = []
+    for side in Side:
+        active = book.active(side)
+        if active is None:
+            continue
+        missing = book.receipt(side, active.order.sequence).missing
+        row = Text.assemble((f" {side.value} ", SIDES[side]), f" {_order_text(active.order)}")
+        if missing:
+            row.append(f"  not heard by {', '.join(missing)}", TROUBLE)
+        rows.append(row)
+    return rows
+
+
+def _order_text(order: CoachOrder) -> str:
+    """`hold`, `test pass, cyan2, cyan3`, `play: press`."""
+    words = [f"test {order.test.value}" if order.test is not None else order.mode.value]
+    words += [name for name in (order.robot_a, order.robot_b) if name is not None]
+    return ", ".join(words) + (f": {order.tactic}" if order.tactic else "")
+
+
+def events(follower: MatchFollower, count: int) -> list[Text]:
+    """The last things that happened, the newest last."""
+    last = follower.events[-count:] if count > 0 else []
+    return [Text(event_line(event), style=LOUD.get(event.kind, QUIET)) for event in last]
+
+
+def foot(follower: MatchFollower) -> Text:
+    """Speed, late ticks, who answers, what recorders miss."""
+    health = follower.health
+    if health is None:
+        return Text("the host has not said how it is radio", style=QUIET)
+    behind = f"  recorder {max(health.recorders.values())} ticks behind" if health.recorders else "  no recorder"
+    total = sum(not robot.still for robot in health.robots.values())
+    words = f"×{health.real_time_factor:.2f} {health.pace}  late {health.late_ticks}  {robots_text(health, total)}"
+    line = Text(f"{words}{behind}", style=QUIET)
+    losses = losses_text(follower)
+    if losses:
+        line.append(f"  {losses}", TROUBLE)
+    return line

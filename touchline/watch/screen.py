@@ -1,0 +1,111 @@
+"""Where a running match is shown: one live line on a terminal, plain lines everywhere else."""
+
+from types import TracebackType
+from typing import Protocol, Self, TextIO
+
+from rich.live import Live
+from rich.text import Text
+
+from schemas.process.clock import Clock
+from touchline.cli.console import console
+
+STATUS_EVERY = 5.0
+"""s of wall time between status lines where nothing can be overwritten."""
+REFRESH_EVERY = 0.1
+"""s of wall time between refreshes of the live line."""
+
+
+class Screen(Protocol):
+    """Shows a match."""
+
+    def status(self, line: str) -> None:
+        """How the match stands just now; may be shown or not."""
+
+    def event(self, line: str, *, notable: bool) -> None:
+        """Something that happened in the match."""
+
+    def warn(self, line: str) -> None:
+        """Something that went wrong."""
+
+    def __enter__(self) -> Self: ...
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None: ...
+
+
+def screen_for(stream: TextIO, clock: Clock) -> "Screen":
+    """The screen that suits a stream."""
+    return LiveScreen(stream, clock) if stream.isatty() else PlainScreen(stream, clock)
+
+
+class PlainScreen:
+    """Lines for logs and pipes."""
+
+    def __init__(self, stream: TextIO, clock: Clock) -> None:
+        self._stream = stream
+        self._clock = clock
+        self._shown_at = -STATUS_EVERY
+
+    def status(self, line: str) -> None:
+        """At most one line in `STATUS_EVERY` seconds."""
+        now = self._clock.now()
+        if now - self._shown_at >= STATUS_EVERY:
+            self._shown_at = now
+            self._write(line)
+
+    def event(self, line: str, *, notable: bool) -> None:
+        """Every event."""
+        del notable
+        self._write(line)
+
+    def warn(self, line: str) -> None:
+        """Every warning."""
+        self._write(line)
+
+    def _write(self, line: str) -> None:
+        self._stream.write(line + "\n")
+        self._stream.flush()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        return None
+
+
+class LiveScreen:
+    """One line that is rewritten in place; goals and warnings scroll above it."""
+
+    def __init__(self, stream: TextIO, clock: Clock) -> None:
+        self._console = console(stream)
+        self._live = Live(console=self._console, auto_refresh=False, transient=True)
+        self._clock = clock
+        self._shown_at = -REFRESH_EVERY
+
+    def status(self, line: str) -> None:
+        """Rewrite the line."""
+        now = self._clock.now()
+        if now - self._shown_at >= REFRESH_EVERY:
+            self._shown_at = now
+            self._live.update(Text(line, no_wrap=True, overflow="ellipsis"), refresh=True)
+
+    def event(self, line: str, *, notable: bool) -> None:
+        """What people cheer at; the rest is seen in the line itself."""
+        if notable:
+            self._console.print(Text(line))
+
+    def warn(self, line: str) -> None:
+        """Above the line, in yellow."""
+        self._console.print(Text(line, style="yellow"))
+
+    def __enter__(self) -> Self:
+        self._live.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._live.stop()

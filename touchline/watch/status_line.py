@@ -1,0 +1,54 @@
+"""How a running match stands, in one line."""
+
+from collections import Counter
+
+from coach_gateway.match.follower import MatchFollower
+from coach_gateway.match.lines import state_line
+from schemas.messages.host import Health
+
+_NAMED = 4
+"""So many silent robots are named; more are counted."""
+
+
+def status_line(follower: MatchFollower, total: int) -> str:
+    """Clock, score, phase, speed, and how many of `total` robots answer."""
+    if follower.state is None and follower.health is None:
+        return "waiting for the host"
+    parts = [state_line(follower.state) if follower.state is not None else "waiting for everybody"]
+    if follower.health is not None:
+        if follower.health.tick > 0:
+            parts.append(f"×{follower.health.real_time_factor:.1f}")
+        parts.append(robots_text(follower.health, total))
+    losses = losses_text(follower)
+    if losses:
+        parts.append(losses)
+    return "  ".join(parts)
+
+
+def robots_text(health: Health, total: int) -> str:
+    """`robots 9/10 (silent: magenta3)`: who answers, or who is there while there is nothing to answer yet.
+
+    Robots that stand still in the scene that is played have nobody who could answer.
+    """
+    playing = health.tick > 0
+    moving = {name: robot for name, robot in health.robots.items() if not robot.still}
+    silent = [name for name, robot in moving.items() if not (robot.answering if playing else robot.alive)]
+    words = f"robots {len(moving) - len(silent)}/{total}"
+    if not silent:
+        return words
+    return f"{words} ({'silent' if playing else 'missing'}: {', '.join(_abbreviated(silent))})"
+
+
+def losses_text(follower: MatchFollower) -> str:
+    """`lost 12 (world 10, robot/cyan1/command 2)`: what the recorders miss, by key; empty where nothing is."""
+    losses: Counter[str] = Counter()
+    for progress in follower.recorders.values():
+        losses.update(progress.losses)
+    if not losses:
+        return ""
+    keys = [f"{key} {count}" for key, count in losses.most_common()]
+    return f"lost {losses.total()} ({', '.join(_abbreviated(keys))})"
+
+
+def _abbreviated(names: list[str]) -> list[str]:
+    return names if len(names) <= _NAMED else [*names[:_NAMED], f"{len(names) - _NAMED} more"]
