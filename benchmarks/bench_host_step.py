@@ -13,7 +13,7 @@ from collections.abc import Callable
 from schemas.config.match_config import load_match
 from schemas.message import VERSION
 from schemas.messages.command import BallBelief, Command, Drive, Motion, Radio
-from schemas.messages.light import light_encode_exactly, light_reader
+from schemas.struct import encode
 from sim_host.match.simulation import Simulation
 from sim_host.physics.engine import Engine
 
@@ -22,7 +22,6 @@ TURNS = 5
 """In a round: each has its share of what is drawn at random for hundreds of ticks at once."""
 TICKS = 100
 """In a turn: no longer, or the raw bodies, which drive straight on, are at the boards."""
-read_command = light_reader(Command)
 
 
 def timed(body: Callable[[], None]) -> float:
@@ -38,7 +37,7 @@ def commands(simulation: Simulation, tick: int) -> dict[str, Command]:
     """
     word = Radio(self=Motion(x=1, y=2, heading=0.1), ball=BallBelief(x=1, y=2), role="striker", intention="shoot")
     return {
-        name: read_command(
+        name: Command.decode(
             Command(
                 answers_tick=tick,
                 drive=Drive(vx=math.cos(place), vy=math.sin(place), omega=3.0),
@@ -59,7 +58,7 @@ def main() -> None:
     def host() -> None:
         for commanded in inputs:
             tick = simulation.step(commanded)  # sights, beliefs and inputs leave it encoded
-            light_encode_exactly({"version": VERSION, **tick.world})  # as `Publisher.put_fields` does
+            encode({"version": VERSION, **tick.world})  # as `Publisher.put_fields` does
 
     raw = Engine(simulation.profile, simulation.roster)
     drives = [(math.cos(place), math.sin(place), 0.3) for place in range(len(raw.robots))]

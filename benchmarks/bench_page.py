@@ -54,7 +54,7 @@ def main() -> None:
             browser = playwright.chromium.launch(executable_path=chromium, args=root)
             page = browser.new_page(viewport={"width": 1440, "height": 900})
             page.goto(f"{address}#token={json.loads(tokens.read_text())['referee']}")
-            _until(page, "window.touchline?.match.role === 'referee' && window.touchline.stage.world !== null")
+            _until(page, "window.touchline?.match.role === 'referee' && window.touchline.pitchCanvas.world !== null")
             rate = _rate(page)
             reached = [_stop(page, bus, config) for _ in range(STOPS)]
             browser.close()
@@ -77,9 +77,9 @@ def _address(gateway: subprocess.Popen[str]) -> str:
 
 
 def _rate(page: Page) -> float:
-    began, drawn = time.perf_counter(), page.evaluate("window.touchline.stage.drawn")
+    began, drawn = time.perf_counter(), page.evaluate("window.touchline.pitchCanvas.drawn")
     page.wait_for_timeout(1000 * SECONDS)
-    return float((page.evaluate("window.touchline.stage.drawn") - drawn) / (time.perf_counter() - began))
+    return float((page.evaluate("window.touchline.pitchCanvas.drawn") - drawn) / (time.perf_counter() - began))
 
 
 def _stop(page: Page, bus: Bus, config: MatchConfig) -> float:

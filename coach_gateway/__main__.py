@@ -144,11 +144,12 @@ def _parser() -> argparse.ArgumentParser:
     page.add_argument(
         "--pages-per-address", type=int, default=DEFAULT_PAGES_EACH, help="how many of them from one other address"
     )
-    _add_bridges(parser.add_argument_group("bridges"))
+    _add_bridges(parser)
     return parser
 
 
-def _add_bridges(bridges: argparse._ArgumentGroup) -> None:
+def _add_bridges(parser: argparse.ArgumentParser) -> None:
+    bridges = parser.add_argument_group("bridges")
     bridges.add_argument("--udp", type=int, metavar="PORT", help="hear coach programs over UDP; 0 takes a free port")
     bridges.add_argument("--refbox", metavar="HOST[:PORT]", help="be a base station at a league's referee box")
     bridges.add_argument(

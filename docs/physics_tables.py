@@ -28,7 +28,7 @@ def table(section: str) -> str:
     for name, meaning in meanings(SECTIONS[section]).items():
         values = [_value(getattr(getattr(profile, section), name)) for profile in profiles]
         unit = meaning.unit if isinstance(meaning, Quantity) else "word"
-        lines.append(f"| `{name}` | {unit} | {' | '.join(values)} | {meaning.description} |")
+        lines.append(f"| `{name}` | {unit} | {' | '.join(values)} | {meaning.meaning} |")
     return "\n".join(lines)
 
 

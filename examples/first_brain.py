@@ -2,7 +2,7 @@
 
 import math
 
-from robot_agent.bodies import Body, DriveLimits
+from robot_agent.bodies import DriveLimits
 from robot_agent.contract import Briefing
 from robot_agent.skills.dribble_to import dribble_to
 from robot_agent.skills.go_to import go_to
@@ -17,11 +17,11 @@ class FirstBrain:
         self.pitch, self.limits = briefing.setup.pitch, DriveLimits.of(briefing.setup)
 
     def act(self, sight: Sight) -> Command:
-        me, goal = Body(**dict(sight.self)), self.pitch.goal_line
+        me, goal = sight.self, self.pitch.goal_line
         ball = sight.ball or sight.game.spot  # before it is seen, where the referee has put it
         drive, kick = Drive(), None
         if sight.holding and me.x > goal - 5.0:
-            aim, _ = best_place(me[:2], [(other.x, other.y) for other in sight.obstacles], self.pitch)
+            aim, _ = best_place((me.x, me.y), [(other.x, other.y) for other in sight.obstacles], self.pitch)
             drive, kick = kick_at(me, (goal, aim), 8.0, 0.2, self.limits)
         elif sight.holding:
             drive = dribble_to(me, goal, 0.0, 0.0, [], self.limits)

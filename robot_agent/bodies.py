@@ -1,9 +1,26 @@
 """What moves on the pitch as plain numbers in the team frame, and where it will be a moment later."""
 
 import math
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from schemas.messages.host import Setup
+
+
+class Moving(Protocol):
+    """A robot as skills take it, `Body` or `schemas.messages.command.Motion`: m, rad, m/s, rad/s."""
+
+    @property
+    def x(self) -> float: ...
+    @property
+    def y(self) -> float: ...
+    @property
+    def heading(self) -> float: ...
+    @property
+    def vx(self) -> float: ...
+    @property
+    def vy(self) -> float: ...
+    @property
+    def omega(self) -> float: ...
 
 
 class Body(NamedTuple):

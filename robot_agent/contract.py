@@ -14,21 +14,8 @@ from typing import Any, Protocol
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.command import Command
 from schemas.messages.host import Setup
-from schemas.messages.light import light_form, light_reader
 from schemas.messages.sight import Sight
 from schemas.side import Side
-
-read_sight = light_reader(Sight)
-"""A sight as brains get it, from its payload: plain structs with the fields of `Sight`.
-
-Raises `BadMessageError` for one that is none.
-"""
-
-LightCommand = light_form(Command)
-"""A command of parts that were validated when they were made: with the fields of `Command`, encoded as one, and no
-instance of it. `Command.model_validate` makes a model of it."""
-COMMANDS = (Command, LightCommand)
-"""What a brain may answer with."""
 
 
 class Brain(Protocol):

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from robot_agent.bodies import Body
+from robot_agent.bodies import Moving
 from schemas.frames import wrap
 
 
@@ -14,13 +14,13 @@ class Polar(NamedTuple):
     bearing: float
 
 
-def polar(me: Body, x: float, y: float) -> Polar:
+def polar(me: Moving, x: float, y: float) -> Polar:
     """A point of the team frame from a robot's point of view."""
     dx, dy = x - me.x, y - me.y
     return Polar(math.hypot(dx, dy), wrap(math.atan2(dy, dx) - me.heading))
 
 
-def point(me: Body, seen: Polar) -> tuple[float, float]:
+def point(me: Moving, seen: Polar) -> tuple[float, float]:
     """The way back: what a robot sees in polar coordinates as a point of the team frame, m."""
     direction = me.heading + seen.bearing
     return me.x + seen.distance * math.cos(direction), me.y + seen.distance * math.sin(direction)

@@ -5,10 +5,11 @@ import sys
 import traceback
 from collections.abc import Callable
 
-from robot_agent.contract import COMMANDS, Brain, read_sight
+from robot_agent.contract import Brain
 from schemas.bus.contract import Bus, NoReplyError
 from schemas.errors import TouchlineError
 from schemas.message import BadMessageError
+from schemas.messages.command import Command
 from schemas.messages.host import Setup, SetupRequest
 from schemas.messages.sight import Sight
 from schemas.topics import COMMAND, SETUP, SIGHT
@@ -70,7 +71,7 @@ class Runner:
         if payload is None:
             return None
         try:
-            return read_sight(payload)
+            return Sight.decode(payload)
         except BadMessageError as error:
             self._count_invalid(error)
             return None
@@ -100,7 +101,7 @@ class Runner:
             command = self.brain.act(sight)
         except Exception as error:
             raise BrainError(f"act raised at tick {sight.tick}") from error
-        if not isinstance(command, COMMANDS):
+        if not isinstance(command, Command):
             raise BrainError(f"act returned {command!r} at tick {sight.tick}; return a Command")
         return command.encode()
 

@@ -3,10 +3,14 @@
 from enum import StrEnum
 from typing import Annotated
 
+import msgspec
+from msgspec import Meta
 from pydantic import Field
 
 from schemas.message import Message, Name, Part, Source
 from schemas.side import Side
+from schemas.struct import Struct
+from schemas.units import Metres, Seconds
 
 
 class Phase(StrEnum):
@@ -109,18 +113,20 @@ class TeamPhase(StrEnum):
         return self.startswith("their_")
 
 
-class Point(Part):
+class Point(Struct, frozen=True, kw_only=True):
     """A point on the ground in m, in the frame its owner names."""
 
-    x: float
-    y: float
+    x: Metres
+    y: Metres
 
 
 class Score(Part):
     """Goals."""
 
     cyan: Annotated[int, Field(ge=0)] = 0
+    """Goals of cyan."""
     magenta: Annotated[int, Field(ge=0)] = 0
+    """Goals of magenta."""
 
     def of(self, side: Side) -> int:
         """The goals of one side."""
@@ -132,15 +138,15 @@ class Score(Part):
         return Score(**{other.value: self.of(other) for other in Side} | added)
 
 
-class DisciplinaryRecord(Part):
+class DisciplinaryRecord(Struct, frozen=True, kw_only=True):
     """How one robot stands with the referee."""
 
-    yellow: Annotated[int, Field(ge=0)] = 0
+    yellow: Annotated[int, Meta(ge=0)] = 0
     """Yellow cards that count toward the next punishment."""
-    red: Annotated[int, Field(ge=0)] = 0
+    red: Annotated[int, Meta(ge=0)] = 0
     off_field: OffField | None = None
     """Why it does not take part, or nothing."""
-    left: float | None = None
+    left: Seconds | None = None
     """Off the field: s until it may come back, at the next stoppage; nothing when no time brings it back."""
 
 
@@ -148,50 +154,56 @@ class GameState(Message):
     """The game as the referee sees it, in the field frame."""
 
     tick: int
+    """Control ticks since the match began."""
     time: float
+    """Simulated time in s: tick × control tick."""
     phase: Phase
+    """What is being played; a restart belongs to `side`."""
     side: Side | None = None
-    """Who takes the restart."""
+    """The side that takes the restart; None where no side does."""
     running: bool = False
     """START was given; before that, robots take their positions and nobody may play the ball."""
     half: Annotated[int, Field(ge=1)] = 1
     """Counts on through extra time."""
     stage: GameStage = GameStage.REGULAR
+    """Regular time, extra time, or the penalty shoot-out."""
     clock: float = 0.0
     """Game clock in s: playing time of this half and those before it."""
     effective: float = 0.0
     """Effective playing time in s: how long the ball has been in play."""
     score: Score = Score()
+    """Goals without those of a penalty shoot-out."""
     shoot_out: Score | None = None
-    """Goals of the penalty shoot-out, while there is one and after it."""
+    """Goals of the penalty shoot-out, during and after it; None without one."""
     cyan_attacks: Annotated[int, Field(ge=-1, le=1)] = 1
     """Sign of the x direction that cyan attacks."""
     spot: Point | None = None
-    """Where the ball is placed for the restart."""
+    """Where the ball is placed for the restart, in the field frame; None where nothing says."""
     left: float | None = None
-    """s until the limit of what is going on: START, ball in play, end of a break or of a shoot-out's attempt."""
+    """Time in s until the limit of what is going on (START, ball in play, end of a break or of a shoot-out's
+    attempt); None without one."""
     robots: dict[Name, DisciplinaryRecord] = Field(default_factory=dict)
-    """Robots with a card, or off the field; all others are there and unpunished."""
+    """Robot → its cards, and why it is off the field; robots without either are left out."""
     proposal: str | None = None
-    """Mixed officiating: what the referee has proposed and not yet carried out."""
+    """Mixed officiating: what the referee has proposed and not yet carried out; None without a proposal."""
     episode: int = 1
     """Counts the starts: the match's own, each scene that is loaded, each reset."""
 
 
-class GameView(Part):
+class GameView(Struct, frozen=True, kw_only=True):
     """The game as one team sees it; `spot` in the team frame."""
 
     phase: TeamPhase
     running: bool
     half: int = 1
-    clock: float
+    clock: Seconds
     our_score: int
     their_score: int
     spot: Point | None = None
     stage: GameStage = GameStage.REGULAR
-    left: float | None = None
+    left: Seconds | None = None
     """s until the limit of what is going on: START, ball in play, end of a break or of a shoot-out's attempt."""
-    robots: dict[Name, DisciplinaryRecord] = Field(default_factory=dict)
+    robots: dict[Name, DisciplinaryRecord] = msgspec.field(default_factory=dict)
     """Our robots with a card, or off the field; all others are there and unpunished."""
     episode: int = 1
     """Another number than before: the world was set up anew, and what was believed of it is void."""
@@ -228,24 +240,33 @@ class GameEvent(Message):
     """Something that happened, with its rule, place, robots and measured quantity."""
 
     tick: int
+    """Control ticks since the match began."""
     time: float
+    """Simulated time in s: tick × control tick."""
     clock: float
+    """Game clock in s."""
     kind: EventKind
+    """What happened."""
     rule: str
-    """The rule or action that decided, by its file name."""
+    """The rule or action that decided, by the name of its file."""
     side: Side | None = None
+    """The side that it is about; None where it is about neither or both."""
     robot: Name | None = None
     """Who did it: the scorer, the last to touch the ball, the offender."""
     robots: list[Name] = Field(default_factory=list)
     """All robots that it is about, where there are more than one."""
     place: Point | None = None
+    """Where it happened, in the field frame; None where it has no place."""
     score: Score | None = None
+    """The score after it, where it changed that."""
     measured: float | None = None
-    """The quantity that broke the rule, in `unit`."""
+    """The quantity that broke the rule, in `unit`; None where nothing was measured."""
     limit: float | None = None
-    """What the rule allows or asks, in the same unit."""
+    """What the rule allows or requires, in `unit`; None where nothing was measured."""
     unit: str = ""
+    """Unit of `measured` and `limit`; empty without them."""
     card: Card | None = None
+    """The card that was shown; None without one."""
     text: str
     """One sentence for people, with the measured quantity where there is one."""
 
@@ -286,7 +307,9 @@ class RefereeAction(Message):
     """A request to the referee; accepted, or refused with the reason."""
 
     action: ActionName
+    """What the referee is asked to do."""
     side: Side | None = None
+    """The side that it is for; None for actions that are for neither."""
     robot: Name | None = None
     """Who scored, for a goal; whom a card, a repair, a substitution or the parking is for."""
     place: Point | None = None
@@ -299,7 +322,9 @@ class ActionReply(Message):
     """The referee's answer to an action."""
 
     accepted: bool
+    """The action was carried out."""
     reason: str = ""
     """Why it was refused."""
     tick: int | None = None
-    """Tick that the referee judged it in, whose state the host tells before it answers; none where he was not asked."""
+    """Tick that the referee judged the action in; its state is published before the reply. None where the referee
+    was not asked."""

@@ -1,43 +1,58 @@
-"""The base of every wire message: frozen, closed, finite, and versioned."""
+"""The base of every wire message: frozen, closed, finite, and versioned.
 
-from typing import Annotated, Any, ClassVar, Self
+There are two kinds of classes, and each message is of one of them: pydantic models, and the msgspec structs of
+`schemas.struct` for what is written and read in every tick. `WireMessage` is what both offer.
+"""
 
+import re
+from collections.abc import Callable
+from typing import Annotated, Any, ClassVar, Protocol, Self, TypeVar
+
+from msgspec import Meta
 from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
+from pydantic_core import from_json, to_json
+
+from schemas.described import Described
+from schemas.faults import Fault, fault_of
+from schemas.json_schema import with_definitions
 
 VERSION = "1.0"
 """Version of the contract that this code speaks, "major.minor"."""
 
-Name = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_]*$", max_length=32)]
+Name = Annotated[
+    str,
+    StringConstraints(pattern=r"^[a-z][a-z0-9_]*$", max_length=32),
+    Meta(
+        pattern=r"^[a-z][a-z0-9_]*\Z",  # Python's `$` also stands before a last line break
+        max_length=32,
+        description="lower-case letters, digits and _, a letter first, at most 32 characters",
+    ),
+]
 """A key chunk: the name of a robot, a match, a process."""
 
 
 Source = Annotated[str, StringConstraints(pattern=r"^[^\x00-\x1f\x7f-\x9f]*$", max_length=80)]
 """Who asks, in words that are shown to people: one line without control characters, which a terminal would obey."""
 
+M = TypeVar("M", bound="WireMessage")
+
 
 class BadMessageError(ValueError):
     """A payload that is not a valid message; the sentence says why."""
 
 
-class Part(BaseModel):
-    """A part of a message: no extra fields, no NaN or infinity, never changed after it was made."""
+class WireMessage(Protocol):
+    """What every message offers, model or struct."""
 
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True, from_attributes=True
-    )
-
-
-class Message(Part):
-    """A whole message; carries the version of the contract."""
-
-    max_bytes: ClassVar[int] = 65_536
+    max_bytes: ClassVar[int]
     """A payload longer than this is refused unread."""
 
-    version: str = VERSION
+    @property
+    def version(self) -> str:
+        """The version of the contract that it was written in."""
 
     def encode(self) -> bytes:
         """The message as UTF-8 JSON; floats keep every bit."""
-        return self.__pydantic_serializer__.to_json(self, by_alias=True)
 
     @classmethod
     def decode(cls, payload: bytes) -> Self:
@@ -46,49 +61,94 @@ class Message(Part):
         Raises:
             BadMessageError: too long, not JSON, not this message, or of another major version.
         """
-        if len(payload) > cls.max_bytes:
-            raise BadMessageError(f"{cls.__name__}: {len(payload)} bytes, at most {cls.max_bytes}")
-        try:
-            message = cls.__pydantic_validator__.validate_json(payload)
-        except ValidationError as error:
-            raise BadMessageError(_why(cls.__name__, payload, error)) from None
-        if message.version != VERSION and message.version.split(".")[0] != _MAJOR:
-            raise BadMessageError(_versions(cls.__name__, message.version))
-        return message  # type: ignore[no-any-return]
+
+    def plain(self) -> dict[str, Any]:
+        """The fields as JSON has them: objects, lists, texts and numbers."""
+
+    @classmethod
+    def json_schema(cls) -> dict[str, Any]:
+        """The JSON Schema of the message as it is written, whole."""
 
 
-def reason_of(error: ValidationError) -> str:
-    """What is wrong with the content of a message, in one phrase: a field that is wrong, or two that do not agree."""
-    first = error.errors(include_url=False)[0]
-    reason = first["msg"].removeprefix("Value error, ")
-    where = ".".join(str(step) for step in first["loc"])
-    return f"{where} is {first['input']!r:.60}: {reason[0].lower()}{reason[1:]}" if where else reason
+class Part(Described, BaseModel):
+    """A part of a message: no extra fields, no NaN or infinity, never changed after it was made."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True)
+
+    def plain(self) -> dict[str, Any]:
+        """The fields as JSON has them: objects, lists, texts and numbers."""
+        return self.model_dump(mode="json", by_alias=True)
+
+    @classmethod
+    def json_schema(cls) -> dict[str, Any]:
+        """The JSON Schema of the part as it is written, whole."""
+        return with_definitions(cls.model_json_schema(by_alias=True, mode="serialization"))
+
+
+class Message(Part):
+    """A whole message; carries the version of the contract. See `WireMessage`."""
+
+    max_bytes: ClassVar[int] = 65_536
+
+    version: str = VERSION
+    """Version of the contract that the sender implements, "major.minor"."""
+
+    def encode(self) -> bytes:
+        """The message as UTF-8 JSON; floats keep every bit."""
+        return to_json(self, by_alias=True)
+
+    @classmethod
+    def decode(cls, payload: bytes) -> Self:
+        """The message in a payload.
+
+        Raises:
+            BadMessageError: too long, not JSON, not this message, or of another major version.
+        """
+        return decoded(cls, payload, cls.model_validate_json, _fault)
+
+
+def decoded(
+    kind: type[M],
+    payload: bytes,
+    read: Callable[[bytes], M],
+    explain: Callable[[type[M], bytes, Exception], Fault],
+) -> M:
+    """The message that `read` finds in a payload; what it refuses, `explain` names the fault of.
+
+    Raises:
+        BadMessageError: too long, not JSON, not this message, or of another major version.
+    """
+    if len(payload) > kind.max_bytes:
+        raise BadMessageError(f"{kind.__name__}: {len(payload)} bytes, at most {kind.max_bytes}")
+    try:
+        message = read(payload)
+    except (ValueError, RecursionError) as error:
+        reason = _of_another_version(payload) or explain(kind, payload, error).sentence()
+        raise BadMessageError(f"{kind.__name__}: {reason}") from None
+    if message.version != VERSION and message.version.split(".")[0] != _MAJOR:
+        raise BadMessageError(f"{kind.__name__}: {_versions(message.version)}")
+    return message
 
 
 _MAJOR = VERSION.split(".")[0]
+_PLAIN_VERSION = re.compile(r"[0-9.]{1,20}")
 
 
-def _versions(name: str, theirs: str) -> str:
-    return f"{name}: version {theirs} is not spoken here, this side speaks {VERSION}; update the older side"
+def _fault(kind: type[Message], _payload: bytes, error: Exception) -> Fault:
+    assert isinstance(error, ValidationError)
+    return fault_of(error, kind)
 
 
-def _why(name: str, payload: bytes, error: ValidationError) -> str:
-    """One line for a payload that did not validate: another major version explains more than its first odd field."""
-    theirs = _version_of(payload)
-    if theirs is not None and theirs.split(".")[0] != _MAJOR:
-        return _versions(name, theirs)
-    first = error.errors(include_url=False)[0]
-    where = ".".join(str(step) for step in first["loc"]) or "payload"
-    value = repr(first["input"])
-    return f"{name}: {where} is {value[:60]}: {first['msg']}"
+def _versions(theirs: str) -> str:
+    shown = theirs if _PLAIN_VERSION.fullmatch(theirs) else repr(theirs[:20])
+    return f"version {shown} is not spoken here, this side speaks {VERSION}; update the older side"
 
 
-def _version_of(payload: bytes) -> str | None:
-    from pydantic_core import from_json
-
+def _of_another_version(payload: bytes) -> str:
+    """That a payload is of another major version, which explains more than its first odd field; else nothing."""
     try:
         content: Any = from_json(payload)
     except ValueError:
-        return None
+        return ""
     version = content.get("version") if isinstance(content, dict) else None
-    return version if isinstance(version, str) else None
+    return _versions(version) if isinstance(version, str) and version.split(".")[0] != _MAJOR else ""

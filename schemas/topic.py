@@ -6,7 +6,7 @@ from enum import StrEnum
 from functools import cache
 
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.message import Message
+from schemas.message import WireMessage
 
 
 class Party(StrEnum):
@@ -44,14 +44,14 @@ class Topic:
     """One row of the table."""
 
     key: str
-    message: type[Message] | None
+    message: type[WireMessage] | None
     writer: Party
     readers: tuple[Party, ...]
     rate: str
     delivery: Delivery
     recorded: bool
     description: str
-    reply: type[Message] | None = None
+    reply: type[WireMessage] | None = None
     cache_size: int = 1500
     """Messages of a `recovered` topic that a writer keeps of a key: 30 s of ticks in real time."""
 

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, settings
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_host
 from schemas.config.match_config import MatchConfig
-from schemas.messages.host import Applied, without_chain
+from schemas.messages.host import Applied, chained_part_of
 from schemas.process.clock import WallClock
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.resimulation import Conditions, Resimulation
@@ -36,7 +36,7 @@ def simulated_again() -> Callable[[MatchConfig, Sequence[bytes]], list[str]]:
 
     def simulate(config: MatchConfig, recorded: Sequence[bytes]) -> list[str]:
         again = Resimulation(Conditions(LiveParameters.of(config)))
-        chains = [again.step(Applied.decode(payload), without_chain(payload)).chain for payload in recorded]
+        chains = [again.step(Applied.decode(payload), chained_part_of(payload)).chain for payload in recorded]
         again.close()
         return chains
 

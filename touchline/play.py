@@ -7,10 +7,11 @@ lockstep from the same seed are the same, tick for tick.
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from robot_agent.contract import Brain, Briefing, load_brain, read_sight
+from robot_agent.contract import Brain, Briefing, load_brain
 from schemas.config.match_config import MatchConfig
 from schemas.game import GameEvent, RefereeAction, Score
 from schemas.messages.command import Command
+from schemas.messages.sight import Sight
 from schemas.side import Side
 from sim_host.match.simulation import Simulation, TickResult
 
@@ -50,7 +51,7 @@ class InProcessMatch:
         """Let every brain answer, then one tick."""
         sights = self.simulation.now.sights
         commands = {
-            name: Command.decode(brain.act(read_sight(sights[name])).encode()) for name, brain in self.brains.items()
+            name: Command.decode(brain.act(Sight.decode(sights[name])).encode()) for name, brain in self.brains.items()
         }
         return self.simulation.step(commands, actions)
 

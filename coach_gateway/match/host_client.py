@@ -2,14 +2,13 @@
 
 from typing import Any
 
-from pydantic import ValidationError
-
 from coach_gateway.match.orders import OrderFollower, Receipt
 from schemas.bus.contract import Bus, NoReplyError, Publisher
 from schemas.config.scene import SceneReply, SceneRequest
 from schemas.errors import TouchlineError, did_you_mean
+from schemas.faults import FaultError, validated
 from schemas.game import ActionReply, RefereeAction
-from schemas.message import BadMessageError, Message, reason_of
+from schemas.message import BadMessageError, WireMessage
 from schemas.messages.coach import CoachOrder
 from schemas.messages.host import Setup, SetupRequest
 from schemas.messages.parameters import ParametersReply, ParametersRequest
@@ -100,9 +99,9 @@ class HostClient:
                 raise TouchlineError(f'{key} is "{name}", no robot of {side.value}; {did_you_mean(name, robots)}')
         self._sequence = self._next_number(side, setup)
         try:
-            order = CoachOrder.model_validate({**content, "sequence": self._sequence})
-        except ValidationError as error:
-            raise TouchlineError(f"the order cannot be given: {reason_of(error)}") from None
+            order = validated(CoachOrder, {**content, "sequence": self._sequence})
+        except FaultError as error:
+            raise TouchlineError(f"the order cannot be given: {error}") from None
         if side not in self._orders:
             self._orders[side] = self._bus.publisher(ORDER, side=side.value)
         self._orders[side].put(order)
@@ -130,7 +129,7 @@ class HostClient:
         after = max(active.order.sequence if active is not None else 0, setup.orders.get(side, 0))
         return max(self._sequence + 1, after + 1, self._bus.clock.unix_ns() // 1_000_000)
 
-    def _ask(self, topic: Topic, request: Message) -> Any:
+    def _ask(self, topic: Topic, request: WireMessage) -> Any:
         try:
             return self._bus.query(topic, request, self._patience).result(self._patience)
         except NoReplyError as error:

@@ -26,8 +26,8 @@ from coach_gateway.udp.protocol import (
 )
 from coach_gateway.udp.session import AT_ONCE, PER_SECOND, SequenceStatus, Session
 from coach_gateway.web.protocol import OrderContent, PageAction, PageOrder, Role
+from schemas.faults import fault_of
 from schemas.game import ActionName, RefereeAction
-from schemas.message import reason_of
 from schemas.messages.coach import CoachMode
 from schemas.side import Side
 
@@ -186,7 +186,7 @@ def _read(data: bytes) -> Any:
             sequence=number if isinstance(number, int) and not isinstance(number, bool) else None,
             of=kind if isinstance(kind, str) and len(kind) <= 20 else "",
             accepted=False,
-            reason=reason_of(error)[:300],
+            reason=fault_of(error).sentence()[:300],
         )
 
 
@@ -224,7 +224,7 @@ def _order(session: Session, ask: ProgramOrder, address: Address, robots: Mappin
     why = rights.refusal(session.role, PageOrder(id=0, deed="order", side=side, order=OrderContent()), robots)
     if why is not None:
         return why
-    content = ask.order.model_dump(exclude={"sequence", "version"})
+    content = ask.order.content()
     if ask.test_mode is not None:
         tested = TEST_MODES.get(ask.test_mode)
         if tested is None:

@@ -11,6 +11,7 @@ What the host says is handed on whole, below the word that names it: an event ha
 from enum import StrEnum
 from typing import Annotated, Any, Literal
 
+from msgspec import Meta
 from pydantic import Field, StringConstraints, TypeAdapter
 
 from schemas.config.scene import SceneRequest
@@ -194,11 +195,15 @@ class PageAction(_PageRequest):
     action: RefereeAction
 
 
-class OrderContent(CoachOrder):
+class OrderContent(CoachOrder, frozen=True, kw_only=True):
     """An order that the server numbers."""
 
-    sequence: Annotated[int, Field(ge=1)] = 1
+    sequence: Annotated[int, Meta(ge=1)] = 1
     """Filled in by the server."""
+
+    def content(self) -> dict[str, Any]:
+        """The fields that say what the robots shall do."""
+        return {name: getattr(self, name) for name in self.__struct_fields__ if name not in ("version", "sequence")}
 
 
 class PageOrder(_PageRequest):

@@ -20,7 +20,7 @@ from coach_gateway.web.protocol import (
 from schemas.bus.contract import Bus, Publisher
 from schemas.errors import TouchlineError
 from schemas.game import ActionName
-from schemas.message import Message
+from schemas.message import WireMessage
 from schemas.messages.coach import CoachOrder
 from schemas.side import Side
 from schemas.topics import MANUAL
@@ -86,8 +86,7 @@ class RequestHandler:
         raise TypeError(f"{request.deed} is no question to the match")
 
     def _order(self, request: PageOrder) -> CoachOrder:
-        content = request.order.model_dump(exclude={"version", "sequence"}, exclude_unset=True)
-        return self._order_clients[request.side].order(request.side, **content)
+        return self._order_clients[request.side].order(request.side, **request.order.content())
 
 
 def is_stop(request: PageRequest) -> bool:
@@ -100,9 +99,9 @@ async def _in_thread(threads: ThreadPoolExecutor, request: Callable[[], Any]) ->
 
 
 def _accepted(request: PageRequest, order: CoachOrder) -> Reply:
-    return Reply(id=request.id, accepted=True, answer=order.model_dump(mode="json", exclude={"version"}))
+    return Reply(id=request.id, accepted=True, answer=_content(order))
 
 
-def _content(reply: Message) -> dict[str, Any] | None:
+def _content(reply: WireMessage) -> dict[str, Any] | None:
     """What was said beside yes or no."""
-    return reply.model_dump(mode="json", exclude=set(_IN_EVERY_REPLY)) or None
+    return {name: value for name, value in reply.plain().items() if name not in _IN_EVERY_REPLY} or None

@@ -25,6 +25,7 @@ from coach_gateway.web.protocol import (
     Role,
 )
 from coach_gateway.web.requests import RequestHandler, is_stop
+from schemas.faults import fault_of
 from schemas.process.clock import Clock
 
 _MOST_PENDING = 8
@@ -126,7 +127,7 @@ class SocketEndpoint:
             try:
                 return PAGE_REQUEST.validate_json(text)
             except ValidationError as error:
-                number, why = _number(text), _why(error)
+                number, why = _number(text), fault_of(error).sentence()
         self._pages.counts["bad"] += 1
         page.note_bad()
         _reply(page, Reply(id=number, accepted=False, reason=why))
@@ -199,10 +200,3 @@ def _number(text: str) -> int | None:
         return None
     number = content.get("id") if isinstance(content, dict) else None
     return number if isinstance(number, int) and not isinstance(number, bool) and number >= 0 else None
-
-
-def _why(error: ValidationError) -> str:
-    """What is wrong with a message, in one line."""
-    first = error.errors(include_url=False)[0]
-    where = ".".join(str(step) for step in first["loc"])
-    return f"{where or 'the message'}: {first['msg']}"

@@ -11,7 +11,7 @@ from recordings.container.manifest import Manifest
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import profile_tables
 from schemas.config.rule_book import rule_book_text
-from schemas.message import VERSION, Message
+from schemas.message import VERSION, WireMessage
 from schemas.messages.host import Setup
 from schemas.process.clock import Clock
 from schemas.topic import Delivery
@@ -51,7 +51,7 @@ def make_manifest(
 
 def make_attachments(config: MatchConfig | None) -> dict[str, bytes]:
     """What goes into the file beside the messages: their whole schemas, the match file, profile and rule book."""
-    models: dict[str, type[Message]] = {
+    models: dict[str, type[WireMessage]] = {
         topic.message.__name__: topic.message
         for topic in TOPICS.values()
         if topic.message is not None and topic.delivery is not Delivery.QUERY  # questions are in no recording

@@ -8,22 +8,22 @@ channel is written in their words; the whole one, with limits and defaults, is a
 from functools import cache
 from typing import Any
 
-from schemas.message import Message
+from schemas.message import WireMessage
 
 _KEPT = ("title", "description", "enum", "contentEncoding")
 """What a viewer may show of a field besides its type."""
 
 
 @cache
-def whole_schema(model: type[Message]) -> dict[str, Any]:
+def whole_schema(model: type[WireMessage]) -> dict[str, Any]:
     """The full JSON Schema of a message as it is written on the wire; not to be changed.
 
     Making those of all messages takes as long as a dozen ticks, so a recorder does it before the first, and once.
     """
-    return model.model_json_schema(by_alias=True, mode="serialization")
+    return model.json_schema()
 
 
-def flat_schema(model: type[Message]) -> dict[str, Any]:
+def flat_schema(model: type[WireMessage]) -> dict[str, Any]:
     """The schema without `$ref`, `$defs` and unions; a field that may be nothing has the type of what it else is."""
     schema = whole_schema(model)
     return _flat(schema, schema.get("$defs", {}))

@@ -15,6 +15,7 @@ from pydantic_core import from_json, to_json, to_jsonable_python
 from recordings.container.scene_by_name import with_scene
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
+from schemas.faults import fault_of
 from schemas.game import Phase, Score
 from schemas.message import Name, Part
 from schemas.messages.host import Setup
@@ -181,8 +182,7 @@ def from_metadata(model: type[P], metadata: dict[str, str]) -> P:
         fields = {name: metadata[name] if _is_text(kind) else from_json(metadata[name]) for name, kind in known.items()}
         return model.model_validate_json(to_json(fields))
     except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        raise TouchlineError(f"{'.'.join(map(str, first['loc']))}: {first['msg']}") from None
+        raise TouchlineError(fault_of(error, model).sentence()) from None
     except ValueError as error:
         raise TouchlineError(f"not JSON: {error}") from None
 

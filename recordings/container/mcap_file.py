@@ -9,25 +9,18 @@ from io import BytesIO
 from pathlib import Path
 from typing import IO, cast
 
-import zstandard
 from mcap.data_stream import ReadDataStream, RecordBuilder
-from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
-from mcap.records import Attachment, Channel, Chunk, ChunkIndex, Header, McapRecord, Message, Metadata, Schema
-from mcap.stream_reader import StreamReader, breakup_chunk, get_chunk_data_stream
+from mcap.records import Attachment, Channel, ChunkIndex, Header, McapRecord, Message, Metadata, Schema
+from mcap.stream_reader import StreamReader
 from mcap.summary import Summary
 from mcap.writer import MCAP0_MAGIC
 
+from recordings.container.chunks import BROKEN, MESSAGE, read_chunk, records_in
 from schemas.errors import TouchlineError
 
-BROKEN = (McapError, ValueError, LookupError, OverflowError, MemoryError, struct.error, zstandard.ZstdError)
-"""What the library raises on bytes that are cut off or damaged."""
 DAMAGED = "damaged inside ({}); take another copy of it, or have `touchline recover` leave out what is damaged"
-_RECORD_HEADER = struct.Struct("<BQ")
-"""Opcode and length of a record."""
-_MESSAGE = struct.Struct("<HIQQ")
-"""Channel, sequence, log time and publish time of a message; its payload follows."""
 _END_NS = 1 << 64
 """Later than any time of a message."""
 _FOOTER = struct.Struct("<BQQQI")
@@ -93,20 +86,13 @@ class McapFile:
             places = index.message_index_offsets  # a chunk that was repaired may have none: it has to be read
             if not is_in_time or (places and wanted.keys().isdisjoint(places)):
                 continue
-            file.seek(index.chunk_start_offset + 9)  # behind opcode and length
-            stream, size = get_chunk_data_stream(Chunk.read(ReadDataStream(file)), validate_crc=True)
-            data, at = stream.read(size), 0
-            while at < size:
-                opcode, length = _RECORD_HEADER.unpack_from(data, at)
-                at += _RECORD_HEADER.size
+            data = read_chunk(file, index.chunk_start_offset)
+            for opcode, begin, end in records_in(data):
                 if opcode == Opcode.MESSAGE:
-                    channel, sequence, log_ns, sent_ns = _MESSAGE.unpack_from(data, at)
+                    channel, sequence, log_ns, sent_ns = MESSAGE.unpack_from(data, begin)
                     if channel in wanted and start_ns <= log_ns < end_ns:
-                        content = data[at + _MESSAGE.size : at + length]
-                        yield wanted[channel], Message(channel, log_ns, content, sent_ns, sequence)
-                at += length
-            if at != size:
-                raise ValueError("a chunk ends within a record")
+                        payload = data[begin + MESSAGE.size : end]
+                        yield wanted[channel], Message(channel, log_ns, payload, sent_ns, sequence)
 
     def _streamed(
         self, file: IO[bytes], keys: set[str], start_ns: int | None, end_ns: int | None
@@ -218,11 +204,12 @@ def _times(file: IO[bytes], chunk: ChunkIndex, read: dict[int, dict[int, list[in
     """Channel → log times of its messages in a chunk, which is checked; the indexes beside it have no checksum."""
     at = chunk.chunk_start_offset
     if at not in read:
-        file.seek(at + 9)  # behind opcode and length
         times: dict[int, list[int]] = {}
-        for record in breakup_chunk(Chunk.read(ReadDataStream(file)), validate_crc=True):
-            if isinstance(record, Message):
-                times.setdefault(record.channel_id, []).append(record.log_time)
+        data = read_chunk(file, at)
+        for opcode, begin, _ in records_in(data):
+            if opcode == Opcode.MESSAGE:
+                number, _, log_ns, _ = MESSAGE.unpack_from(data, begin)
+                times.setdefault(number, []).append(log_ns)
         read[at] = times
     return read[at]
 

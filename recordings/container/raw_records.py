@@ -10,17 +10,13 @@ from typing import NamedTuple
 
 import zstandard
 from mcap.data_stream import RecordBuilder
-from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.records import Channel, MessageIndex, Schema
 from mcap.writer import MCAP0_MAGIC
 
+from recordings.container.chunks import BROKEN, MESSAGE, RECORD_HEADER, records_in
 from recordings.container.mcap_file import bytes_of, stream_of
 
-BROKEN = (McapError, ValueError, LookupError, OverflowError, MemoryError, struct.error, zstandard.ZstdError)
-"""What is raised on bytes that are cut off or damaged."""
-RECORD_HEADER = struct.Struct("<BQ")
-"""Opcode, and length of the content."""
 PRIVATE = 0x80
 """Readers pass over records whose opcode is this or higher."""
 DAMAGED = 0x100
@@ -29,8 +25,6 @@ _CHUNK = struct.Struct("<QQQII")
 """First and last log time, size and checksum of what is in it uncompressed, length of the compression's name."""
 _INDEX = struct.Struct("<HI")
 """Channel, bytes of its entries."""
-_MESSAGE = struct.Struct("<HIQ")
-"""Channel, sequence, log time."""
 _LAST_OPCODE = max(Opcode)
 _IN_DATA = frozenset({Opcode.CHUNK, Opcode.MESSAGE_INDEX, Opcode.ATTACHMENT, Opcode.METADATA})
 """What stands between header and end of the data section; all else is in chunks, or behind it."""
@@ -191,23 +185,23 @@ class ChunkContent(NamedTuple):
 
 
 def content_of(data: bytes) -> ChunkContent:
-    """Schemas, channels and the places of all messages in the unpacked records of a chunk."""
+    """Schemas, channels and the places of all messages in the unpacked records of a chunk.
+
+    Raises:
+        BROKEN: a record in it is damaged.
+    """
     found = ChunkContent({}, {}, {})
-    at = 0
-    while at + RECORD_HEADER.size <= len(data):
-        opcode, length = RECORD_HEADER.unpack_from(data, at)
-        start = at + RECORD_HEADER.size
+    for opcode, begin, end in records_in(data):
         if opcode == Opcode.MESSAGE:
-            channel, _, log_ns = _MESSAGE.unpack_from(data, start)
+            channel, _, log_ns, _ = MESSAGE.unpack_from(data, begin)
             index = found.indexes.setdefault(channel, MessageIndex(channel, []))
-            index.records.append((log_ns, at))
+            index.records.append((log_ns, begin - RECORD_HEADER.size))
         elif opcode == Opcode.SCHEMA:
-            schema = Schema.read(stream_of(data[start : start + length]))
+            schema = Schema.read(stream_of(data[begin:end]))
             found.schemas[schema.id] = schema
         elif opcode == Opcode.CHANNEL:
-            channel_record = Channel.read(stream_of(data[start : start + length]))
+            channel_record = Channel.read(stream_of(data[begin:end]))
             found.channels[channel_record.id] = channel_record
-        at = start + length
     return found
 
 

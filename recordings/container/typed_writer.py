@@ -4,9 +4,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from mcap.writer import CompressionType, Writer
-
-from recordings.container.lean_writer import CHUNK_BYTES
+from recordings.container.mcap_writer import mcap_writer
 
 
 class TypedWriter:
@@ -14,7 +12,7 @@ class TypedWriter:
 
     def __init__(self, path: Path, library: str) -> None:
         self._file = path.open("wb")
-        self._mcap = Writer(self._file, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD, enable_data_crcs=True)
+        self._mcap = mcap_writer(self._file)
         self._mcap.start(profile="", library=library)
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}

@@ -11,7 +11,7 @@ from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.sequence_tracker import SequenceTracker
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.game import GameState, Phase
-from schemas.message import Message
+from schemas.message import WireMessage
 from schemas.messages.world import World
 from schemas.process.clock import WallClock
 from schemas.topic import Topic
@@ -27,7 +27,7 @@ class TimedMessage(NamedTuple):
     sim_ns: int
     topic: Topic
     key: str
-    message: Message
+    message: WireMessage
 
 
 def compose(path: Path, manifest: Manifest, attachments: dict[str, bytes], messages: Iterable[TimedMessage]) -> Result:

@@ -8,9 +8,9 @@ from typing import Self
 
 from recordings.container.environment import library
 from recordings.container.header import MEDIA_TYPES
-from recordings.container.lean_writer import CHUNK_BYTES, LeanWriter
 from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
 from recordings.container.mcap_file import ChannelRecord
+from recordings.container.mcap_writer import mcap_writer
 from recordings.container.partial_file import PartialFile
 from recordings.recorder.sequence_tracker import SequenceTracker
 from recordings.viz.viz_channels import VizChannels
@@ -25,7 +25,7 @@ class CopyWriter:
     def __init__(self, path: Path) -> None:
         self._path = path
         self._partial_file = PartialFile(path)
-        self._mcap = LeanWriter(self._partial_file.file, CHUNK_BYTES)
+        self._mcap = mcap_writer(self._partial_file.file)
         self._channels: dict[str, int] = {}
         self._schemas: dict[tuple[str, bytes], int] = {}
         self._trackers: dict[str, SequenceTracker] = {}

@@ -14,15 +14,14 @@ from mcap.opcode import Opcode
 from mcap.records import Attachment, Metadata
 from mcap.writer import MCAP0_MAGIC
 
-from recordings.container.lean_writer import CHUNK_BYTES
+from recordings.container.chunks import BROKEN, RECORD_HEADER
 from recordings.container.manifest import MANIFEST, RESULT, is_sealed
 from recordings.container.mcap_file import stream_of, summary_is_whole, summary_of
+from recordings.container.mcap_writer import CHUNK_BYTES
 from recordings.container.partial_file import locked
 from recordings.container.raw_records import (
-    BROKEN,
     DAMAGED,
     PRIVATE,
-    RECORD_HEADER,
     RawChunk,
     RawRecord,
     chunk_header,
@@ -200,10 +199,15 @@ class _Repair:
         last = max(chunks) if chunks and not finished and chunks[max(chunks)].end == found.end else None
         for raw in raw_records:
             if raw.opcode == Opcode.CHUNK:
-                chunk = chunks[raw.at]
+                chunk, is_known = chunks[raw.at], False
+                try:
+                    if raw.at not in damaged:
+                        is_known = self._keep_chunk(chunk, found, trusted=not finished, is_last=raw.at == last)
+                except BROKEN:  # a chunk without a checksum
+                    damaged.add(raw.at)
                 if raw.at in damaged:
                     self._leave_out(found, raw, *chunk.indexes)
-                elif not self._keep_chunk(chunk, found, trusted=not finished, is_last=raw.at == last):
+                elif not is_known:
                     found.cut, found.end = self._size - raw.at, raw.at
                     return
             elif raw.opcode in (Opcode.ATTACHMENT, Opcode.METADATA):

@@ -1,11 +1,9 @@
 """Which side each robot of a recording plays for."""
 
+from recordings.container.applied_changes import changes_in
 from recordings.reading.recording import Recording
 from schemas.side import Side
 from schemas.topics import APPLIED
-
-_ROSTER = b'"robots":['
-"""In the few `host/applied` that tell who takes part."""
 
 
 def sides_of(recording: Recording) -> dict[str, Side]:
@@ -13,7 +11,7 @@ def sides_of(recording: Recording) -> dict[str, Side]:
     setup = recording.manifest.setup
     sides = {name: side for side, team in setup.teams.items() for name in team.robots} if setup is not None else {}
     for recorded in recording.messages(APPLIED.key):
-        if _ROSTER in recorded.payload:
+        if changes_in(recorded.payload).robots is not None:
             roster = recorded.message().robots or []
             sides |= {entry.name: entry.side for entry in roster}
     return sides

@@ -14,22 +14,18 @@ from typing import BinaryIO, NamedTuple
 
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
-from mcap.records import Channel, Chunk
-from mcap.stream_reader import get_chunk_data_stream
+from mcap.records import Channel
 from mcap.writer import MCAP0_MAGIC
 
-from recordings.container.mcap_file import BROKEN, DAMAGED
+from recordings.container.chunks import BROKEN, MESSAGE, RECORD_HEADER, read_chunk, records_in
+from recordings.container.mcap_file import DAMAGED
 from recordings.reading.recording import RecordedMessage
 from schemas.errors import TouchlineError
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 
-_RECORD_HEADER = struct.Struct("<BQ")
-"""Opcode and length of a record."""
 _CHUNK = struct.Struct("<QQ")
 """Times of a chunk's first and last message."""
-_MESSAGE = struct.Struct("<HIQQ")
-"""Channel, number on it, log time and publish time of a message."""
 _ID = struct.Struct("<H")
 _OPCODES = frozenset(int(opcode) for opcode in Opcode)
 
@@ -38,7 +34,6 @@ class _IndexedChunk(NamedTuple):
     """A chunk in the file; times in ns."""
 
     offset: int
-    length: int
     start_ns: int
     end_ns: int
     channels: set[int]
@@ -96,17 +91,17 @@ class Cursor:
         before, size = len(self._chunks), self._size()
         while not self.finished:
             self._file.seek(self._scanned_to)
-            head = self._file.read(_RECORD_HEADER.size)
-            if len(head) < _RECORD_HEADER.size:
+            head = self._file.read(RECORD_HEADER.size)
+            if len(head) < RECORD_HEADER.size:
                 break
-            opcode, length = _RECORD_HEADER.unpack(head)
-            if opcode not in _OPCODES or self._scanned_to + _RECORD_HEADER.size + length > size:
+            opcode, length = RECORD_HEADER.unpack(head)
+            if opcode not in _OPCODES or self._scanned_to + RECORD_HEADER.size + length > size:
                 break
             try:
                 self._index_record(opcode, length)
             except BROKEN as error:
                 raise self._damaged(error) from None
-            self._scanned_to += _RECORD_HEADER.size + length
+            self._scanned_to += RECORD_HEADER.size + length
         for number in self._introducing:
             self._read(number)  # what is known of a channel stands in the first chunk that has messages of it
         self._introducing.clear()
@@ -182,7 +177,7 @@ class Cursor:
         """A record that is whole; the file stands at its content."""
         if opcode == Opcode.CHUNK and length >= _CHUNK.size:
             start_ns, end_ns = _CHUNK.unpack(self._file.read(_CHUNK.size))
-            self._chunks.append(_IndexedChunk(self._scanned_to + _RECORD_HEADER.size, length, start_ns, end_ns, set()))
+            self._chunks.append(_IndexedChunk(self._scanned_to, start_ns, end_ns, set()))
             self._ends.append(max(end_ns, self._ends[-1] if self._ends else end_ns))
         elif opcode == Opcode.MESSAGE_INDEX and self._chunks and length >= _ID.size:
             channel = _ID.unpack(self._file.read(_ID.size))[0]
@@ -203,11 +198,8 @@ class Cursor:
     def _read(self, number: int) -> list[tuple[int, RecordedMessage]]:
         """The kept messages of a chunk, each with the number of its channel."""
         chunk_index = self._chunks[number]
-        self._file.seek(chunk_index.offset)
         try:
-            chunk = Chunk.read(ReadDataStream(self._file))
-            stream, length = get_chunk_data_stream(chunk, validate_crc=True)
-            messages = self._messages_in(stream.read(length))
+            messages = self._messages_in(read_chunk(self._file, chunk_index.offset))
         except BROKEN as error:
             raise self._damaged(error) from None
         if any(not chunk_index.start_ns <= message.log_ns <= chunk_index.end_ns for _, message in messages):
@@ -218,19 +210,16 @@ class Cursor:
         return TouchlineError(f"{self._path}: {DAMAGED.format(why)}")
 
     def _messages_in(self, data: bytes) -> list[tuple[int, RecordedMessage]]:
-        at, messages, channels = 0, [], self._channels
-        while at < len(data):
-            opcode, length = _RECORD_HEADER.unpack_from(data, at)
-            at += _RECORD_HEADER.size
+        messages, channels = [], self._channels
+        for opcode, begin, end in records_in(data):
             if opcode == Opcode.MESSAGE:
-                channel, sequence, log_ns, sent_ns = _MESSAGE.unpack_from(data, at)
+                channel, sequence, log_ns, sent_ns = MESSAGE.unpack_from(data, begin)
                 known = channels[channel]
                 if known is not None:
-                    payload = data[at + _MESSAGE.size : at + length]
+                    payload = data[begin + MESSAGE.size : end]
                     messages.append((channel, RecordedMessage(known[0], known[1], payload, log_ns, sent_ns, sequence)))
             elif opcode == Opcode.CHANNEL:
-                self._add_channel(Channel.read(ReadDataStream(BytesIO(data[at : at + length]))))
-            at += length
+                self._add_channel(Channel.read(ReadDataStream(BytesIO(data[begin:end]))))
         return messages
 
     def _add_channel(self, channel: Channel) -> None:

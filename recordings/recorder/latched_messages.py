@@ -5,6 +5,7 @@ A file that begins in the middle of a match begins with it, so that it can be re
 
 from collections.abc import Iterable
 
+from recordings.container.applied_changes import changes_in
 from schemas.bus.contract import ReceivedMessage
 from schemas.topics import ACTIVE_ORDER, APPLIED, ORDER, STATE, WORLD
 
@@ -13,8 +14,6 @@ LoggedMessage = tuple[int, ReceivedMessage]
 
 _LATCHED_KEYS = frozenset({WORLD.key, STATE.key, ORDER.key, ACTIVE_ORDER.key, APPLIED.key})
 """Rows whose newest message stands until the next one on its key."""
-_CHANGE_MARKS = (b'"robots":[', b'"parameters":{"', b'"obstacles":[')
-"""Of `host/applied`: what changed for good in that tick; all of them stand, one on the other."""
 
 
 class LatchedMessages:
@@ -23,6 +22,7 @@ class LatchedMessages:
     def __init__(self) -> None:
         self._newest: dict[str, LoggedMessage] = {}
         self._changes: list[LoggedMessage] = []
+        """Of `host/applied`: what changed for good; all of them stand, one on the other."""
 
     def update(self, batch: Iterable[LoggedMessage]) -> None:
         """Messages have gone by."""
@@ -34,7 +34,7 @@ class LatchedMessages:
                 continue
             if row == APPLIED.key:
                 before = newest.get(received.key)
-                if before is not None and any(mark in before[1].payload for mark in _CHANGE_MARKS):
+                if before is not None and changes_in(before[1].payload):
                     self._changes.append(before)
             newest[received.key] = logged
 

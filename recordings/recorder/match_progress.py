@@ -4,15 +4,13 @@ from collections import Counter
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from recordings.container.applied_changes import changes_in
 from schemas.bus.contract import ReceivedMessage
 from schemas.config.roster import RosterEntry
 from schemas.game import EventKind, GameEvent, GameState, Phase
 from schemas.message import BadMessageError
 from schemas.messages.host import Applied, Health
 from schemas.topics import APPLIED, EVENT, HEALTH, STATE
-
-_ROSTER_MARK = b'"robots":['
-"""In the inputs of a tick in which others take part than before."""
 
 
 class MatchProgress:
@@ -83,7 +81,7 @@ class MatchProgress:
 
     def _on_applied(self, received: ReceivedMessage) -> None:
         self._newest_applied = received
-        if _ROSTER_MARK in received.payload:
+        if changes_in(received.payload).robots is not None:
             applied: Applied | None = self.read(received)
             self._roster_changed(applied.robots or [] if applied is not None else [])
 

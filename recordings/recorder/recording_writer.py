@@ -16,8 +16,8 @@ from pydantic_core import to_json
 from recordings.container.environment import library
 from recordings.container.header import MEDIA_TYPES
 from recordings.container.json_schema import flat_schema
-from recordings.container.lean_writer import CHUNK_BYTES, LeanWriter
 from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
+from recordings.container.mcap_writer import mcap_writer
 from recordings.container.partial_file import PartialFile
 from recordings.recorder.latched_messages import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
@@ -66,7 +66,7 @@ class RecordingWriter:
         self._partial_file = PartialFile(path)
         self.partial_path = self._partial_file.path
         self._file = self._partial_file.file
-        self._mcap = LeanWriter(self._file, CHUNK_BYTES)
+        self._mcap = mcap_writer(self._file)
         self._thread = Thread(target=run_in_idle_time, args=[self._do_job], name="recording writer", daemon=True)
         self._flush_at = 0.0
         self.begun = False

@@ -3,11 +3,15 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
+from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
+
+from recordings.container.applied_changes import changes_in
 from recordings.viz.drawn_world import DrawnWorld, decode_world
 from recordings.viz.field import field_entities, obstacle_entity
 from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE
 from recordings.viz.game import log_entry, scoreboard
-from recordings.viz.primitives import Values, encode_entity, scene_update
+from recordings.viz.primitives import encode_scene, scene_update
 from recordings.viz.robots import RobotAppearance, ball_entities, robot_entity
 from recordings.viz.transforms import Transforms
 from schemas.bus.contract import ReceivedMessage
@@ -34,7 +38,6 @@ REPEAT_NS = 5_000_000_000
 """Simulated time after which what stands still is drawn again, for those who begin to look in the middle."""
 READS = frozenset({WORLD.key, STATE.key, EVENT.key, APPLIED.key})
 """Keys of the messages that it is made of."""
-_ROSTER = b'"robots":['
 _INVALID_PAYLOAD = (BadMessageError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 """What comes of payloads that are no message: nothing is drawn of these."""
 
@@ -51,10 +54,7 @@ class _Layer(NamedTuple):
 
     appearance: Any
     """What decides how it looks."""
-    entities: dict[str, bytes]
-    """Entity → its bytes."""
-    deleted: list[str]
-    """What was there before, and is not any more."""
+    update: SceneUpdate
 
 
 class Drawing:
@@ -111,26 +111,22 @@ class Drawing:
         for topic, (appearance_of, entities_of) in _STATIC_LAYERS.items():
             appearance, layer = appearance_of(world), self._layers.get(topic)
             if layer is None or layer.appearance != appearance:
-                entities = {entity["id"]: encode_entity(entity) for entity in entities_of(self, appearance)}
-                deleted = (
-                    [name for name in (*layer.entities, *layer.deleted) if name not in entities]
-                    if layer is not None
-                    else []
-                )
-                layer = self._layers[topic] = _Layer(appearance, entities, deleted)
+                entities = entities_of(self, appearance)
+                deleted = _named(layer.update) - {entity.id for entity in entities} if layer is not None else set()
+                layer = self._layers[topic] = _Layer(appearance, scene_update(entities, sorted(deleted)))
             elif not repeat:
                 continue
-            out.append(VizMessage(topic, scene_update(log_ns, layer.entities.values(), layer.deleted)))
+            out.append(VizMessage(topic, encode_scene(layer.update, log_ns)))
         return out
 
-    def _field(self, obstacles: dict[str, Any]) -> list[Values]:
+    def _field(self, obstacles: dict[str, Any]) -> list[SceneEntity]:
         entities = [obstacle_entity(name, ObstacleTruth.model_validate(one)) for name, one in obstacles.items()]
         return [*field_entities(self._setup.pitch), *entities]
 
-    def _robots(self, appearance: list[tuple[str, str | None]]) -> list[Values]:
+    def _robots(self, appearance: list[tuple[str, str | None]]) -> list[SceneEntity]:
         return [robot_entity(self._appearance(name)._replace(off_field=why), self._setup) for name, why in appearance]
 
-    def _ball(self, possession: str | None) -> list[Values]:
+    def _ball(self, possession: str | None) -> list[SceneEntity]:
         return ball_entities(self._setup, self._appearance(possession) if possession is not None else None)
 
     def _appearance(self, name: str) -> RobotAppearance:
@@ -147,7 +143,7 @@ class Drawing:
     def _applied(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
         """Who takes part may have changed; the next world shows it."""
         del log_ns
-        if _ROSTER in received.payload:
+        if changes_in(received.payload).robots is not None:
             applied: Applied = received.message()
             for entry in applied.robots or ():
                 self._appearances[entry.name] = RobotAppearance(entry.name, entry.side, entry.type, entry.keeper)
@@ -156,7 +152,12 @@ class Drawing:
         return []
 
 
-_STATIC_LAYERS: dict[str, tuple[Callable[[DrawnWorld], Any], Callable[[Drawing, Any], list[Values]]]] = {
+def _named(update: SceneUpdate) -> set[str]:
+    """Every entity that an update draws or takes away."""
+    return {entity.id for entity in update.entities} | {deletion.id for deletion in update.deletions}
+
+
+_STATIC_LAYERS: dict[str, tuple[Callable[[DrawnWorld], Any], Callable[[Drawing, Any], list[SceneEntity]]]] = {
     FIELD: (lambda world: world.obstacles, Drawing._field),
     ROBOTS: (
         lambda world: [(name, robot.off_field) for name, robot in world.robots.items()],

@@ -4,8 +4,13 @@ import math
 from collections.abc import Iterator
 from itertools import product
 
+from foxglove_schemas_protobuf.CubePrimitive_pb2 import CubePrimitive
+from foxglove_schemas_protobuf.CylinderPrimitive_pb2 import CylinderPrimitive
+from foxglove_schemas_protobuf.LinePrimitive_pb2 import LinePrimitive
+from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
+
 from recordings.viz.colours import BOUNDARY, GOAL, LINE, NET, OBSTACLE, PITCH, SURROUND
-from recordings.viz.primitives import Values, Vector3, cube, cylinder, entity, line
+from recordings.viz.primitives import Triple, cube, cylinder, entity, line
 from recordings.viz.transforms import MAP
 from schemas.config.obstacle import Shape
 from schemas.config.sections import Pitch
@@ -22,17 +27,17 @@ _BOARD_HEIGHT = 0.15
 _THICKNESS = 0.02
 
 
-def field_entities(pitch: Pitch) -> list[Values]:
+def field_entities(pitch: Pitch) -> list[SceneEntity]:
     """The pitch, in the field frame."""
     return [
-        entity("ground", MAP, cubes=list(_ground(pitch))),
-        entity("lines", MAP, lines=list(_lines(pitch)), cylinders=list(_marks(pitch))),
-        *(entity(f"goal {end}", MAP, cubes=list(_goal(pitch, sign))) for end, sign in (("+x", 1), ("-x", -1))),
-        entity("boundary", MAP, cubes=list(_boundary(pitch))),
+        entity("ground", MAP, cubes=_ground(pitch)),
+        entity("lines", MAP, lines=_lines(pitch), cylinders=_marks(pitch)),
+        *(entity(f"goal {end}", MAP, cubes=_goal(pitch, sign)) for end, sign in (("+x", 1), ("-x", -1))),
+        entity("boundary", MAP, cubes=_boundary(pitch)),
     ]
 
 
-def obstacle_entity(name: str, obstacle: ObstacleTruth) -> Values:
+def obstacle_entity(name: str, obstacle: ObstacleTruth) -> SceneEntity:
     """A body that nothing moves."""
     position, label = (obstacle.x, obstacle.y, obstacle.height / 2), f"obstacle {name}"
     if obstacle.shape is Shape.CYLINDER:
@@ -41,13 +46,13 @@ def obstacle_entity(name: str, obstacle: ObstacleTruth) -> Values:
     return entity(label, MAP, cubes=[cube(position, size, OBSTACLE, obstacle.heading)])
 
 
-def _ground(pitch: Pitch) -> Iterator[Values]:
+def _ground(pitch: Pitch) -> Iterator[CubePrimitive]:
     around = 2 * pitch.border
     yield cube((0, 0, _SURROUND_Z - _SLAB / 2), (pitch.length + around, pitch.width + around, _SLAB), SURROUND)
     yield cube((0, 0, _GROUND_Z - _SLAB / 2), (pitch.length, pitch.width, _SLAB), PITCH)
 
 
-def _lines(pitch: Pitch) -> Iterator[Values]:
+def _lines(pitch: Pitch) -> Iterator[LinePrimitive]:
     """Each line in the middle of its paint: it belongs to the area that it bounds."""
     half = pitch.line_width / 2
     x, y = pitch.goal_line - half, pitch.touch_line - half
@@ -67,7 +72,7 @@ def _lines(pitch: Pitch) -> Iterator[Values]:
         yield _line(pitch, list(_arc(*corner, pitch.corner_arc_radius - half, begin, begin + math.pi / 2)))
 
 
-def _line(pitch: Pitch, points: list[tuple[float, float]], *, closed: bool = False) -> Values:
+def _line(pitch: Pitch, points: list[tuple[float, float]], *, closed: bool = False) -> LinePrimitive:
     return line([(x, y, LINE_Z) for x, y in points], pitch.line_width, LINE, closed=closed)
 
 
@@ -78,12 +83,12 @@ def _arc(x: float, y: float, radius: float, begin: float, end: float) -> Iterato
         yield x + radius * math.cos(angle), y + radius * math.sin(angle)
 
 
-def _marks(pitch: Pitch) -> Iterator[Values]:
+def _marks(pitch: Pitch) -> Iterator[CylinderPrimitive]:
     for x, y in pitch.restart_spots:
         yield cylinder((x, y, LINE_Z / 2), _MARK_RADIUS, LINE_Z, LINE)
 
 
-def _goal(pitch: Pitch, sign: int) -> Iterator[Values]:
+def _goal(pitch: Pitch, sign: int) -> Iterator[CubePrimitive]:
     """Posts and bar behind the goal line, and the net box behind them."""
     post, depth, height = pitch.post, pitch.goal_depth, pitch.goal_height
     front = sign * (pitch.goal_line + post / 2)
@@ -99,11 +104,11 @@ def _goal(pitch: Pitch, sign: int) -> Iterator[Values]:
         yield cube((middle, y, height / 2), (depth, _THICKNESS, height), net)
 
 
-def _boundary(pitch: Pitch) -> Iterator[Values]:
+def _boundary(pitch: Pitch) -> Iterator[CubePrimitive]:
     height = min(pitch.boundary_height, _BOARD_HEIGHT)
     x, y = pitch.goal_line + pitch.border, pitch.touch_line + pitch.border
-    along: Vector3 = (2 * x, _THICKNESS, height)
-    across: Vector3 = (_THICKNESS, 2 * y, height)
+    along: Triple = (2 * x, _THICKNESS, height)
+    across: Triple = (_THICKNESS, 2 * y, height)
     for sign in (1, -1):
         yield cube((0.0, sign * y, height / 2), along, BOUNDARY)
         yield cube((sign * x, 0.0, height / 2), across, BOUNDARY)

@@ -1,8 +1,10 @@
 """The game for viewers: a board beside the pitch with teams, score and clock, and a log of what happened."""
 
+from foxglove_schemas_protobuf.Log_pb2 import Log
+
 from recordings.viz.colours import INK, TEAM_TEXT
-from recordings.viz.foxglove import LOG, encode, timestamp
-from recordings.viz.primitives import Values, encode_entity, entity, scene_update, text
+from recordings.viz.foxglove import set_time
+from recordings.viz.primitives import encode_scene, entity, scene_update, text
 from recordings.viz.transforms import MAP
 from schemas.game import EventKind, GameEvent, GameState
 from schemas.messages.host import Setup
@@ -15,12 +17,12 @@ _ROWS = 1.3
 _LARGE, _SMALL = 1.1, 0.7
 
 _LEVELS = {
-    EventKind.FOUL: "WARNING",
-    EventKind.CARD: "WARNING",
-    EventKind.NO_GOAL: "WARNING",
-    EventKind.AGENT: "WARNING",
-    EventKind.FORFEIT: "ERROR",
-    EventKind.PROPOSAL: "DEBUG",
+    EventKind.FOUL: Log.WARNING,
+    EventKind.CARD: Log.WARNING,
+    EventKind.NO_GOAL: Log.WARNING,
+    EventKind.AGENT: Log.WARNING,
+    EventKind.FORFEIT: Log.ERROR,
+    EventKind.PROPOSAL: Log.DEBUG,
 }
 """How grave an event is; the others are `INFO`."""
 
@@ -36,20 +38,20 @@ def scoreboard(state: GameState, setup: Setup, log_ns: int) -> bytes:
         attacks = state.cyan_attacks if side is Side.CYAN else -state.cyan_attacks
         x = -attacks * setup.pitch.length / 4
         texts.append(text((x, y + _ROWS, z + _ROWS), setup.teams[side].name, _LARGE, TEAM_TEXT[side]))
-    return scene_update(log_ns, [encode_entity(entity("board", MAP, texts=texts))])
+    return encode_scene(scene_update([entity("board", MAP, texts=texts)]), log_ns)
 
 
 def log_entry(event: GameEvent, log_ns: int) -> bytes:
     """A `foxglove.Log` of an event."""
-    fields: Values = {
-        "timestamp": timestamp(log_ns),
-        "level": _LEVELS.get(event.kind, "INFO"),
-        "message": event.text,
-        "name": event.kind.value,
-        "file": event.rule,
-        "line": event.tick,
-    }
-    return encode(LOG, fields)
+    entry = Log(
+        level=_LEVELS.get(event.kind, Log.INFO),
+        message=event.text,
+        name=event.kind.value,
+        file=event.rule,
+        line=event.tick,
+    )
+    set_time(entry.timestamp, log_ns)
+    return entry.SerializeToString()
 
 
 def _score_text(state: GameState) -> str:

@@ -2,82 +2,126 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any
+
+from foxglove_schemas_protobuf.ArrowPrimitive_pb2 import ArrowPrimitive
+from foxglove_schemas_protobuf.Color_pb2 import Color
+from foxglove_schemas_protobuf.CubePrimitive_pb2 import CubePrimitive
+from foxglove_schemas_protobuf.CylinderPrimitive_pb2 import CylinderPrimitive
+from foxglove_schemas_protobuf.KeyValuePair_pb2 import KeyValuePair
+from foxglove_schemas_protobuf.LinePrimitive_pb2 import LinePrimitive
+from foxglove_schemas_protobuf.Point3_pb2 import Point3
+from foxglove_schemas_protobuf.Pose_pb2 import Pose
+from foxglove_schemas_protobuf.Quaternion_pb2 import Quaternion
+from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
+from foxglove_schemas_protobuf.SceneEntityDeletion_pb2 import SceneEntityDeletion
+from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
+from foxglove_schemas_protobuf.SpherePrimitive_pb2 import SpherePrimitive
+from foxglove_schemas_protobuf.TextPrimitive_pb2 import TextPrimitive
+from foxglove_schemas_protobuf.Vector3_pb2 import Vector3
 
 from recordings.viz.colours import Colour
-from recordings.viz.foxglove import SCENE_ENTITY, SCENE_UPDATE, encode, timestamp
-from recordings.viz.protobuf_wire import content
+from recordings.viz.foxglove import set_time
 
-Values = dict[str, Any]
-"""Fields of a message."""
-Vector3 = tuple[float, float, float]
+Triple = tuple[float, float, float]
 
 
-def pose(position: Vector3, heading: float = 0.0) -> Values:
+def pose(position: Triple, heading: float = 0.0) -> Pose:
     """A pose that is turned about z alone."""
-    turn = {"z": math.sin(heading / 2), "w": math.cos(heading / 2)}
-    return {"position": _vector(position), "orientation": turn}
+    turn = Quaternion(z=math.sin(heading / 2), w=math.cos(heading / 2))
+    return Pose(position=_vector(position), orientation=turn)
 
 
-def cube(position: Vector3, size: Vector3, colour: Colour, heading: float = 0.0) -> Values:
+def cube(position: Triple, size: Triple, colour: Colour, heading: float = 0.0) -> CubePrimitive:
     """A box about `position`."""
-    return {"pose": pose(position, heading), "size": _vector(size), "color": colour._asdict()}
+    return CubePrimitive(pose=pose(position, heading), size=_vector(size), color=_color(colour))
 
 
-def sphere(position: Vector3, radius: float, colour: Colour) -> Values:
+def sphere(position: Triple, radius: float, colour: Colour) -> SpherePrimitive:
     """A ball about `position`."""
-    return {"pose": pose(position), "size": _vector((2 * radius,) * 3), "color": colour._asdict()}
+    return SpherePrimitive(pose=pose(position), size=_vector((2 * radius,) * 3), color=_color(colour))
 
 
-def cylinder(position: Vector3, radius: float, height: float, colour: Colour) -> Values:
+def cylinder(position: Triple, radius: float, height: float, colour: Colour) -> CylinderPrimitive:
     """An upright cylinder about `position`."""
     size = _vector((2 * radius, 2 * radius, height))
-    return {"pose": pose(position), "size": size, "bottom_scale": 1.0, "top_scale": 1.0, "color": colour._asdict()}
+    return CylinderPrimitive(pose=pose(position), size=size, bottom_scale=1.0, top_scale=1.0, color=_color(colour))
 
 
-def arrow(position: Vector3, length: float, width: float, colour: Colour) -> Values:
+def arrow(position: Triple, length: float, width: float, colour: Colour) -> ArrowPrimitive:
     """An arrow from `position` along x; the last third of it is its head, which is `width` wide."""
     head = length / 3
-    shape = {"shaft_length": length - head, "shaft_diameter": width / 2, "head_length": head, "head_diameter": width}
-    return {"pose": pose(position), **shape, "color": colour._asdict()}
+    return ArrowPrimitive(
+        pose=pose(position),
+        shaft_length=length - head,
+        shaft_diameter=width / 2,
+        head_length=head,
+        head_diameter=width,
+        color=_color(colour),
+    )
 
 
-def line(points: Sequence[Vector3], thickness: float, colour: Colour, *, closed: bool = False) -> Values:
+def line(points: Sequence[Triple], thickness: float, colour: Colour, *, closed: bool = False) -> LinePrimitive:
     """A line through all points, and back to the first when it is closed."""
-    kind = "LINE_LOOP" if closed else "LINE_STRIP"
-    return {
-        "type": kind,
-        "pose": pose((0.0, 0.0, 0.0)),
-        "thickness": thickness,
-        "points": [_vector(point) for point in points],
-        "color": colour._asdict(),
-    }
+    return LinePrimitive(
+        type=LinePrimitive.LINE_LOOP if closed else LinePrimitive.LINE_STRIP,
+        pose=pose((0.0, 0.0, 0.0)),
+        thickness=thickness,
+        points=[Point3(x=x, y=y, z=z) for x, y, z in points],
+        color=_color(colour),
+    )
 
 
-def text(position: Vector3, string: str, size: float, colour: Colour) -> Values:
-    """Words that face whoever looks; `size` is their height."""
-    return {"pose": pose(position), "billboard": True, "font_size": size, "color": colour._asdict(), "text": string}
+def text(position: Triple, string: str, size: float, colour: Colour) -> TextPrimitive:
+    """Words that face the viewer; `size` is their height."""
+    return TextPrimitive(pose=pose(position), billboard=True, font_size=size, color=_color(colour), text=string)
 
 
-def entity(name: str, frame: str, *, facts: Values | None = None, **shapes: Sequence[Values]) -> Values:
-    """Something that moves with its frame; `facts` are shown when somebody clicks on it."""
-    pairs = [{"key": key, "value": str(value)} for key, value in (facts or {}).items()]
-    return {"frame_id": frame, "id": name, "frame_locked": True, "metadata": pairs, **shapes}
+def entity(
+    name: str,
+    frame: str,
+    *,
+    facts: dict[str, str] | None = None,
+    cubes: Iterable[CubePrimitive] = (),
+    cylinders: Iterable[CylinderPrimitive] = (),
+    spheres: Iterable[SpherePrimitive] = (),
+    arrows: Iterable[ArrowPrimitive] = (),
+    lines: Iterable[LinePrimitive] = (),
+    texts: Iterable[TextPrimitive] = (),
+) -> SceneEntity:
+    """An entity that moves with its frame; viewers show `facts` when it is clicked on."""
+    return SceneEntity(
+        frame_id=frame,
+        id=name,
+        frame_locked=True,
+        metadata=[KeyValuePair(key=key, value=value) for key, value in (facts or {}).items()],
+        cubes=cubes,
+        cylinders=cylinders,
+        spheres=spheres,
+        arrows=arrows,
+        lines=lines,
+        texts=texts,
+    )
 
 
-def encode_entity(entity: Values) -> bytes:
-    """The bytes of an entity but for its time, to be written again and again."""
-    return encode(SCENE_ENTITY, entity)
+def scene_update(entities: Iterable[SceneEntity], deleted: Iterable[str] = ()) -> SceneUpdate:
+    """An update to these entities, in place of what they were, and without those that are gone."""
+    deletions = [SceneEntityDeletion(type=SceneEntityDeletion.MATCHING_ID, id=name) for name in deleted]
+    return SceneUpdate(deletions=deletions, entities=entities)
 
 
-def scene_update(log_ns: int, entities: Iterable[bytes], deleted: Iterable[str] = ()) -> bytes:
-    """A `foxglove.SceneUpdate`: these entities, in place of what they were, and without those that are gone."""
-    now = timestamp(log_ns)
-    deletions = [{"timestamp": now, "type": "MATCHING_ID", "id": name} for name in deleted]
-    time = content(1, now)
-    return encode(SCENE_UPDATE, {"deletions": deletions, "entities": [time + encoded for encoded in entities]})
+def encode_scene(update: SceneUpdate, log_ns: int) -> bytes:
+    """The bytes of an update at a time in ns."""
+    for deletion in update.deletions:
+        set_time(deletion.timestamp, log_ns)
+    for entity in update.entities:
+        set_time(entity.timestamp, log_ns)
+    return update.SerializeToString()
 
 
-def _vector(position: Vector3) -> Values:
+def _vector(position: Triple) -> Vector3:
     x, y, z = position
-    return {"x": x, "y": y, "z": z}
+    return Vector3(x=x, y=y, z=z)
+
+
+def _color(colour: Colour) -> Color:
+    return Color(r=colour.r, g=colour.g, b=colour.b, a=colour.a)

@@ -3,8 +3,12 @@
 import re
 from typing import NamedTuple
 
+from foxglove_schemas_protobuf.CubePrimitive_pb2 import CubePrimitive
+from foxglove_schemas_protobuf.CylinderPrimitive_pb2 import CylinderPrimitive
+from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
+
 from recordings.viz.colours import BALL, INK, MARK, ROBOT, UNKNOWN_ROBOT, UNKNOWN_ROBOT_MARK, Colour
-from recordings.viz.primitives import Values, arrow, cube, cylinder, entity, sphere, text
+from recordings.viz.primitives import arrow, cube, cylinder, entity, sphere, text
 from recordings.viz.transforms import BALL as BALL_FRAME
 from recordings.viz.transforms import BALL_SHADOW, base
 from schemas.config.profile import STANDARD
@@ -34,7 +38,7 @@ class RobotAppearance(NamedTuple):
     """Why it does not take part."""
 
 
-def robot_entity(robot: RobotAppearance, setup: Setup) -> Values:
+def robot_entity(robot: RobotAppearance, setup: Setup) -> SceneEntity:
     """A robot: its true hull, a plate on top that is round for cyan and square for magenta, heading, name."""
     body = _body(robot, setup)
     opacity = 1.0 if robot.off_field is None else _OFF_FIELD_OPACITY
@@ -62,7 +66,7 @@ def robot_entity(robot: RobotAppearance, setup: Setup) -> Values:
     )
 
 
-def ball_entities(setup: Setup, holder: RobotAppearance | None) -> list[Values]:
+def ball_entities(setup: Setup, holder: RobotAppearance | None) -> list[SceneEntity]:
     """The ball, its place on the ground, and a disc below the robot that holds it."""
     entities = [
         entity("ball", BALL_FRAME, spheres=[sphere((0.0, 0.0, 0.0), setup.ball.radius, BALL)]),
@@ -75,7 +79,7 @@ def ball_entities(setup: Setup, holder: RobotAppearance | None) -> list[Values]:
     return entities
 
 
-def _disc(z: float, radius: float) -> Values:
+def _disc(z: float, radius: float) -> CylinderPrimitive:
     return cylinder((0.0, 0.0, z), radius, _PLATE, BALL.faded(0.45))
 
 
@@ -84,7 +88,7 @@ def _body(robot: RobotAppearance, setup: Setup) -> RobotBody:
     return model.body if model is not None else setup.robot
 
 
-def _frame(body: RobotBody, colour: Colour) -> list[Values]:
+def _frame(body: RobotBody, colour: Colour) -> list[CubePrimitive]:
     """The box-shaped frame of some bodies, as high as the hull and flush with its front."""
     if not body.frame_width:
         return []

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from robot_agent.bodies import Body, DriveLimits
+from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.go_to import drive, velocity_to
 from robot_agent.skills.turn_to import turn_rate
 from schemas.frames import wrap
@@ -33,14 +33,14 @@ def circles(points: Iterable[tuple[float, float]], radius: float) -> list[Circle
     return [Circle(x, y, radius) for x, y in points]
 
 
-def circles_near(me: Body, points: Iterable[tuple[float, float]], radius: float) -> list[Circle]:
+def circles_near(me: Moving, points: Iterable[tuple[float, float]], radius: float) -> list[Circle]:
     """The same circle around each point, without those that are too far away to be in the way yet."""
     near = LOOK_AHEAD + 3.0 * radius  # beyond 2 radii nothing is entered, whatever is rounded
     x0, y0 = me.x, me.y
     return [Circle(x, y, radius) for x, y in points if -near < x - x0 < near and -near < y - y0 < near]
 
 
-def go_around(me: Body, x: float, y: float, heading: float, blocked: Sequence[Circle], limits: DriveLimits) -> Drive:
+def go_around(me: Moving, x: float, y: float, heading: float, blocked: Sequence[Circle], limits: DriveLimits) -> Drive:
     """Drive to (x, y) around the circles and stop there."""
     vx, vy = velocity_to(me, x, y, limits)
     vx, vy = steer(me, vx, vy, math.hypot(x - me.x, y - me.y), blocked)
@@ -56,7 +56,7 @@ def bend_speed(away: float, radius: float, limits: DriveLimits) -> float:
     return math.sqrt(limits.acceleration * (_BEND * radius + room))
 
 
-def steer(me: Body, vx: float, vy: float, distance: float, blocked: Sequence[Circle]) -> tuple[float, float]:
+def steer(me: Moving, vx: float, vy: float, distance: float, blocked: Sequence[Circle]) -> tuple[float, float]:
     """The velocity turned into the nearest direction that is free for `distance` m; the speed stays."""
     speed = math.hypot(vx, vy)
     if speed < 1e-6:
@@ -68,7 +68,7 @@ def steer(me: Body, vx: float, vy: float, distance: float, blocked: Sequence[Cir
     return speed * math.cos(direction), speed * math.sin(direction)
 
 
-def free_direction(me: Body, wanted: float, distance: float, blocked: Sequence[Circle]) -> float:
+def free_direction(me: Moving, wanted: float, distance: float, blocked: Sequence[Circle]) -> float:
     """The direction nearest to `wanted` that enters no circle; `wanted` itself when every direction is blocked.
 
     A robot inside a circle may leave it: at its edge sideways, the more outward the deeper it is inside.
@@ -86,7 +86,7 @@ def free_direction(me: Body, wanted: float, distance: float, blocked: Sequence[C
     return best
 
 
-def _enters(me: Body, direction: float, distance: float, blocked: Iterable[Circle]) -> bool:
+def _enters(me: Moving, direction: float, distance: float, blocked: Iterable[Circle]) -> bool:
     """Whether the next piece of a straight way leads into one of the circles, or deeper into it."""
     c, s = math.cos(direction), math.sin(direction)
     for x, y, radius in blocked:
@@ -99,7 +99,7 @@ def _enters(me: Body, direction: float, distance: float, blocked: Iterable[Circl
     return False
 
 
-def _arcs(me: Body, distance: float, blocked: Sequence[Circle]) -> list[tuple[float, float]]:
+def _arcs(me: Moving, distance: float, blocked: Sequence[Circle]) -> list[tuple[float, float]]:
     """Middle and half width in rad of each direction range that leads into a circle on the way."""
     arcs = []
     for x, y, radius in blocked:
@@ -112,6 +112,6 @@ def _arcs(me: Body, distance: float, blocked: Sequence[Circle]) -> list[tuple[fl
     return arcs
 
 
-def is_in_the_way(me: Body, x: float, y: float, circle: Circle) -> bool:
+def is_in_the_way(me: Moving, x: float, y: float, circle: Circle) -> bool:
     """Whether the straight way to (x, y) leads into a circle."""
     return _enters(me, math.atan2(y - me.y, x - me.x), math.hypot(x - me.x, y - me.y), (circle,))

@@ -2,7 +2,7 @@
 
 import math
 
-from robot_agent.bodies import Body, DriveLimits
+from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.go_to import LAG, drive
 from robot_agent.skills.turn_to import turn_rate
@@ -14,7 +14,7 @@ _JOINS = 0.5
 """m beside the circle within which a robot begins to go round."""
 
 
-def circle(me: Body, centre: tuple[float, float], radius: float, limits: DriveLimits) -> Drive:
+def circle(me: Moving, centre: tuple[float, float], radius: float, limits: DriveLimits) -> Drive:
     """Go to the circle, and round it as fast as the limits allow without leaving it; `radius` in m."""
     dx, dy = me.x - centre[0], me.y - centre[1]
     away = math.hypot(dx, dy)

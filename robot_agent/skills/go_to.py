@@ -2,11 +2,10 @@
 
 import math
 
-from robot_agent.bodies import Body, DriveLimits
+from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.turn_to import turn_rate
-from schemas.messages.command import MAX_DRIVE, MAX_TURN, Drive
-from schemas.messages.light import light_form
+from schemas.messages.command import Drive
 
 LAG = 0.12
 """s; how late the velocity follows, with margin against the noise of the position."""
@@ -14,16 +13,15 @@ TOLERANCE = 0.03
 """m; closer than this the robot only brakes."""
 _SHARE = 0.8
 """Part of the deceleration that braking counts on."""
-_LightDrive = light_form(Drive)
 
 
-def go_to(me: Body, x: float, y: float, heading: float, limits: DriveLimits) -> Drive:
+def go_to(me: Moving, x: float, y: float, heading: float, limits: DriveLimits) -> Drive:
     """Drive straight to (x, y) and stop there."""
     vx, vy = velocity_to(me, x, y, limits)
     return drive(me, vx, vy, turn_rate(me, heading, limits), limits)
 
 
-def velocity_to(me: Body, x: float, y: float, limits: DriveLimits) -> tuple[float, float]:
+def velocity_to(me: Moving, x: float, y: float, limits: DriveLimits) -> tuple[float, float]:
     """The velocity in the team frame that ends at (x, y)."""
     dx, dy = x - me.x, y - me.y
     distance = math.hypot(dx, dy)
@@ -33,21 +31,17 @@ def velocity_to(me: Body, x: float, y: float, limits: DriveLimits) -> tuple[floa
     return speed * dx / distance, speed * dy / distance
 
 
-def drive(me: Body, vx: float, vy: float, omega: float, limits: DriveLimits) -> Drive:
+def drive(me: Moving, vx: float, vy: float, omega: float, limits: DriveLimits) -> Drive:
     """A team-frame velocity as a demand in the body frame, for the heading at which it will act.
 
-    Keeps the direction and scales the length when (vx, vy) is faster than the robot. The demand is a light `Drive`: it
-    can stand in a command as any other.
+    Keeps the direction and scales the length when (vx, vy) is faster than the robot.
 
     Raises:
-        ValidationError: a number that no drive may have, as of `Drive`.
+        FaultError: a number that no drive may have.
     """
     speed = math.hypot(vx, vy)
     scale = limits.speed / speed if speed > limits.speed else 1.0
     heading = me.heading + me.omega * limits.tick
     c, s = math.cos(heading) * scale, math.sin(heading) * scale
     turn = max(-limits.turn_rate, min(limits.turn_rate, omega))
-    ahead, left = c * vx + s * vy, c * vy - s * vx
-    is_sound = abs(ahead) <= MAX_DRIVE and abs(left) <= MAX_DRIVE and abs(turn) <= MAX_TURN
-    form = _LightDrive if is_sound else Drive  # which raises, and says why
-    return form(vx=ahead, vy=left, omega=turn)
+    return Drive(vx=c * vx + s * vy, vy=c * vy - s * vx, omega=turn)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from robot_agent.bodies import Ball, Body, DriveLimits
+from robot_agent.bodies import Ball, DriveLimits, Moving
 from robot_agent.skills.braking import travel_time
 
 TIMES = (0.0, 0.25, 0.5, 0.8, 1.2, 1.7, 2.4, 3.5)
@@ -28,7 +28,7 @@ def way_of(ball: Ball, deceleration: float) -> list[Ball]:
     return [ball.after(time, deceleration) for time in TIMES]
 
 
-def meet(me: Body, way: Sequence[Ball], reach: float, limits: DriveLimits) -> Meeting:
+def meet(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits) -> Meeting:
     """The first point of the ball's way that the robot reaches no later than the ball.
 
     `reach` is how close to the ball the robot's centre has to come, in m.
@@ -36,13 +36,13 @@ def meet(me: Body, way: Sequence[Ball], reach: float, limits: DriveLimits) -> Me
     return _meet(me, way, reach, limits, _last_too_early(me, way, reach, limits, math.inf))
 
 
-def meeting_time(me: Body, way: Sequence[Ball], reach: float, limits: DriveLimits, by: float) -> float:
+def meeting_time(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits, by: float) -> float:
     """When the robot meets the ball, s from now; of a meeting later than `by`, only some time after `by`."""
     begin = _last_too_early(me, way, reach, limits, by)
     return TIMES[begin] if TIMES[begin] > by else _meet(me, way, reach, limits, begin).time
 
 
-def _meet(me: Body, way: Sequence[Ball], reach: float, limits: DriveLimits, begin: int) -> Meeting:
+def _meet(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits, begin: int) -> Meeting:
     """The meeting, looked for from one of the moments at which it is still too early for it."""
     early = spare = 0.0
     before = way[begin]
@@ -59,7 +59,7 @@ def _meet(me: Body, way: Sequence[Ball], reach: float, limits: DriveLimits, begi
     return Meeting(before.x, before.y, early + spare)
 
 
-def _last_too_early(me: Body, way: Sequence[Ball], reach: float, limits: DriveLimits, by: float) -> int:
+def _last_too_early(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits, by: float) -> int:
     """The last moment before the first at which the robot, at top speed all the way, could be at the ball.
 
     What is too early for certain needs no exact time. Beyond `by` s, the first moment that is too early.
@@ -76,7 +76,7 @@ def _last_too_early(me: Body, way: Sequence[Ball], reach: float, limits: DriveLi
     return last
 
 
-def _time_to(me: Body, ball: Ball, reach: float, limits: DriveLimits) -> float:
+def _time_to(me: Moving, ball: Ball, reach: float, limits: DriveLimits) -> float:
     dx, dy = ball.x - me.x, ball.y - me.y
     distance = math.hypot(dx, dy)
     if distance <= reach:

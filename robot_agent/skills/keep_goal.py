@@ -2,7 +2,7 @@
 
 import math
 
-from robot_agent.bodies import Ball, Body, DriveLimits
+from robot_agent.bodies import Ball, DriveLimits, Moving
 from robot_agent.skills.go_to import drive, velocity_to
 from robot_agent.skills.turn_to import turn_rate
 from schemas.config.sections import Pitch
@@ -16,7 +16,7 @@ _SHOT_TIME = 2.0
 """s to the goal line; a shot that takes longer can wait."""
 
 
-def keep_goal(me: Body, ball: Ball, pitch: Pitch, radius: float, limits: DriveLimits) -> Drive:
+def keep_goal(me: Moving, ball: Ball, pitch: Pitch, radius: float, limits: DriveLimits) -> Drive:
     """Drive to the guard's place and face the ball."""
     x, y = guard_place(ball, pitch, radius)
     vx, vy = velocity_to(me, x, y, limits)

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from robot_agent.bodies import Body, DriveLimits
+from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.go_to import LAG, drive
 from schemas.config.sections import Pitch
@@ -38,7 +38,7 @@ class Area(NamedTuple):
         return x * end > self.goal_line - self.depth and abs(y) < 0.5 * self.width
 
 
-def keep_out(me: Body, wanted: Drive, area: Area, limits: DriveLimits) -> Drive:
+def keep_out(me: Moving, wanted: Drive, area: Area, limits: DriveLimits) -> Drive:
     """The same demand, braked before the front or side line of the area; a robot inside drives out the front."""
     end = 1.0 if me.x > 0 else -1.0
     front = area.goal_line - area.depth - MARGIN - me.x * end

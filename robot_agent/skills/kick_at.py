@@ -2,7 +2,7 @@
 
 import math
 
-from robot_agent.bodies import Body, DriveLimits
+from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.go_to import drive
 from robot_agent.skills.turn_to import turn_rate
 from schemas.frames import wrap
@@ -13,7 +13,7 @@ TURN_RATE = 5.0
 
 
 def kick_at(
-    me: Body,
+    me: Moving,
     target: tuple[float, float],
     speed: float,
     error: float,

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from robot_agent.bodies import Body
+from robot_agent.bodies import Moving
 from robot_agent.skills.keep_off import inside
 from robot_agent.skills.shoot import lane_width
 from schemas.messages.command import Kick, KickMode
@@ -19,7 +19,7 @@ ROOM = 0.45
 """m between the way of the ball and the nearest opponent's centre."""
 
 
-def let_go(me: Body, opponents: Sequence[Point], setup: Setup) -> Kick | None:
+def let_go(me: Moving, opponents: Sequence[Point], setup: Setup) -> Kick | None:
     """The kick along the kick axis, or nothing when there is no free ground on the pitch ahead."""
     c, s = math.cos(me.heading), math.sin(me.heading)
     gap = setup.dribble.gap

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from robot_agent.bodies import Body, DriveLimits
+from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.avoid import Circle, bend_speed, go_around, is_in_the_way
 from schemas.messages.command import Drive
 
@@ -15,7 +15,7 @@ def behind(ball: tuple[float, float], target: tuple[float, float], distance: flo
 
 
 def line_up(
-    me: Body,
+    me: Moving,
     ball: tuple[float, float],
     target: tuple[float, float],
     distance: float,
@@ -26,5 +26,5 @@ def line_up(
     x, y, heading = behind(ball, target, distance)
     around = Circle(*ball, 0.8 * distance)
     if is_in_the_way(me, x, y, around):
-        limits = limits.capped(bend_speed(math.dist(ball, me[:2]), around.radius, limits))
+        limits = limits.capped(bend_speed(math.dist(ball, (me.x, me.y)), around.radius, limits))
     return go_around(me, x, y, heading, [*blocked, around], limits)

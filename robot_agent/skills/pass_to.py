@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 
-from robot_agent.bodies import Body, DriveLimits
+from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.shoot import lane_width
 from schemas.frames import wrap
@@ -64,7 +64,7 @@ def pass_speed(distance: float, setup: Setup, arriving: float = ARRIVING) -> flo
 
 
 def pass_to(
-    me: Body, target: Point, setup: Setup, limits: DriveLimits, arriving: float = ARRIVING
+    me: Moving, target: Point, setup: Setup, limits: DriveLimits, arriving: float = ARRIVING
 ) -> tuple[Drive, Kick | None]:
     """Aim at the target, and kick so that the ball arrives there, at `arriving` m/s."""
-    return kick_at(me, target, pass_speed(math.dist(target, me[:2]), setup, arriving), ERROR, limits)
+    return kick_at(me, target, pass_speed(math.dist(target, (me.x, me.y)), setup, arriving), ERROR, limits)

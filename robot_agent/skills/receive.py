@@ -2,7 +2,7 @@
 
 import math
 
-from robot_agent.bodies import Ball, Body, DriveLimits
+from robot_agent.bodies import Ball, DriveLimits, Moving
 from robot_agent.skills.go_to import drive, velocity_to
 from robot_agent.skills.turn_to import turn_rate
 from schemas.messages.command import Drive
@@ -11,13 +11,13 @@ COMES = 0.5
 """m/s; a slower ball does not come."""
 
 
-def comes(me: Body, ball: Ball) -> bool:
+def comes(me: Moving, ball: Ball) -> bool:
     """Whether the ball is fast, and nears the robot."""
     nears = ball.vx * (me.x - ball.x) + ball.vy * (me.y - ball.y)
     return nears > 0.0 and math.hypot(ball.vx, ball.vy) > COMES
 
 
-def receive(me: Body, ball: Ball, limits: DriveLimits) -> Drive:
+def receive(me: Moving, ball: Ball, limits: DriveLimits) -> Drive:
     """Go to the nearest point of the ball's way, and face where it comes from; for a ball that comes."""
     speed = math.hypot(ball.vx, ball.vy)
     ux, uy = ball.vx / speed, ball.vy / speed

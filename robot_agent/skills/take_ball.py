@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 
-from robot_agent.bodies import Ball, Body, DriveLimits
+from robot_agent.bodies import Ball, DriveLimits, Moving
 from robot_agent.skills.avoid import Circle, circles_near, steer
 from robot_agent.skills.braking import braking_speed
 from robot_agent.skills.go_to import LAG, drive, velocity_to
@@ -20,7 +20,7 @@ _CLOSING = 0.4
 
 
 def take_ball(
-    me: Body,
+    me: Moving,
     ball: Ball,
     meeting: Meeting,
     gap: float,
@@ -53,7 +53,7 @@ def take_ball(
 
 
 def front_of_holder(
-    me: Body, ball: Ball, opponents: Sequence[tuple[float, float]], gap: float
+    me: Moving, ball: Ball, opponents: Sequence[tuple[float, float]], gap: float
 ) -> tuple[float, float] | None:
     """The place that faces the opponent who has the ball, for a robot that is not yet on that side of the ball."""
     for x, y in opponents:
@@ -67,13 +67,13 @@ def front_of_holder(
     return None
 
 
-def _go(me: Body, x: float, y: float, blocked: Sequence[Circle], limits: DriveLimits) -> tuple[float, float]:
+def _go(me: Moving, x: float, y: float, blocked: Sequence[Circle], limits: DriveLimits) -> tuple[float, float]:
     vx, vy = velocity_to(me, x, y, limits)
     return steer(me, vx, vy, math.hypot(x - me.x, y - me.y), blocked)
 
 
 def _closing_in(
-    me: Body, ball: Ball, distance: float, facing: float, gap: float, limits: DriveLimits
+    me: Moving, ball: Ball, distance: float, facing: float, gap: float, limits: DriveLimits
 ) -> tuple[float, float]:
     """The ball's velocity plus what closes the gap; slower while the ball is beside the kick axis."""
     aligned = max(0.0, math.cos(facing - me.heading))

@@ -5,7 +5,7 @@ from abc import ABC, abstractmethod
 from typing import ClassVar
 
 from robot_agent.bodies import Ball, DriveLimits
-from robot_agent.contract import Briefing, LightCommand
+from robot_agent.contract import Briefing
 from robot_agent.fair_play import Carry, Possession, RuleLimits, carry_after, possession_after
 from robot_agent.skills.avoid import circles, go_around
 from robot_agent.skills.keep_goal import keep_goal
@@ -87,7 +87,7 @@ class Player(ABC):
         self._game: GameView | None = None
 
     def act(self, sight: Sight) -> Command:
-        """The answer to one sight, a `LightCommand`."""
+        """The answer to one sight."""
         if self._game is not None and sight.game.episode != self._game.episode:
             self.restart()
         if self._last is not None and self._may_go_on(sight, self._last):
@@ -137,7 +137,7 @@ class Player(ABC):
             action = action._replace(kick=None, pass_to=None)  # it would be refused: keep the ball, and aim
         self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - belief.dt)
         speaks = (sight.tick + self.briefing.number) % RADIO_EVERY == 0
-        return LightCommand(
+        return Command(
             answers_tick=sight.tick,
             drive=action.drive,
             dribble=action.dribble and (action.kick is not None or self._lets_go == 0.0),
@@ -291,6 +291,6 @@ def _away(game: GameView) -> list[str]:
 
 def _repeated(last: Command, tick: int) -> Command:
     """The last command as the answer to one more sight, with nothing kicked and nothing said."""
-    return LightCommand(
+    return Command(
         answers_tick=tick, drive=last.drive, dribble=last.dribble, acknowledges_order=last.acknowledges_order
     )

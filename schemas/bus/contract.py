@@ -11,9 +11,9 @@ from types import TracebackType
 from typing import Any, NamedTuple, Self
 
 from schemas.errors import TouchlineError
-from schemas.message import VERSION, BadMessageError, Message
-from schemas.messages.light import light_encode_exactly
+from schemas.message import VERSION, BadMessageError, WireMessage
 from schemas.process.clock import Clock
+from schemas.struct import encode
 from schemas.topic import Delivery, Topic
 
 
@@ -80,7 +80,7 @@ class Publisher(ABC):
         self.topic = topic
         self.key = key
 
-    def put(self, message: Message) -> Stamp:
+    def put(self, message: WireMessage) -> Stamp:
         """Send a message; never waits for readers."""
         return self.put_payload(message.encode())
 
@@ -90,7 +90,7 @@ class Publisher(ABC):
         Nothing is validated here, for speed: the reader validates, and refuses a NaN, which is null here. For messages
         sent many times per tick.
         """
-        return self.put_payload(light_encode_exactly({"version": VERSION, **fields}))
+        return self.put_payload(encode({"version": VERSION, **fields}))
 
     @abstractmethod
     def put_payload(self, payload: bytes) -> Stamp:
@@ -140,7 +140,7 @@ class Query(ABC):
         return self.topic.message.decode(self.payload)
 
     @abstractmethod
-    def reply(self, reply: Message) -> None:
+    def reply(self, reply: WireMessage) -> None:
         """Send the reply; once."""
 
     @abstractmethod
@@ -205,7 +205,7 @@ class Bus(ABC):
         """Serve the queries of this topic; every chunk must be given."""
 
     @abstractmethod
-    def query(self, topic: Topic, request: Message, timeout: float = 2.0, **chunks: str) -> PendingReply:
+    def query(self, topic: Topic, request: WireMessage, timeout: float = 2.0, **chunks: str) -> PendingReply:
         """Send a query; `timeout` is how long it stays open, in s."""
 
     @abstractmethod

@@ -22,7 +22,7 @@ from schemas.bus.contract import (
     full_key,
 )
 from schemas.bus.mailbox import EveryMailbox, Mailbox, NewestMailbox
-from schemas.message import Message
+from schemas.message import WireMessage
 from schemas.process.clock import Clock
 from schemas.topic import Delivery, Topic
 
@@ -118,7 +118,7 @@ class _Query(Query):
         super().__init__(topic, topic.key, payload)
         self._answer = answer
 
-    def reply(self, reply: Message) -> None:
+    def reply(self, reply: WireMessage) -> None:
         self._answer.mailbox.put("", reply.encode())
 
     def fail(self, reason: str) -> None:
@@ -212,7 +212,7 @@ class InProcessBus(Bus):
         self._mailboxes.append(server.mailbox)
         return server
 
-    def query(self, topic: Topic, request: Message, timeout: float = 2.0, **chunks: str) -> PendingReply:
+    def query(self, topic: Topic, request: WireMessage, timeout: float = 2.0, **chunks: str) -> PendingReply:
         self.check_open()
         del timeout  # nothing is on its way here: a question waits with its server or was refused at once
         answer = _PendingReply(topic)

@@ -57,11 +57,13 @@ class TeamConfig(Part):
     """One team of the match file: who plays and what moves them."""
 
     name: str = ""
+    """Name of the team, for display; the side's where it is empty."""
     brain: Annotated[str, Field(pattern=r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")] | None = None
     """`module:Class` of a brain in Python; it is built once in each robot's process."""
     command: list[str] | None = None
     """Any program that speaks the topics, in place of a brain; the environment tells it who it is."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = MAX_ROBOTS
+    """Number of robots, where `robots` does not name them."""
     robots: Annotated[list[Name], Field(max_length=MAX_ROBOTS)] = Field(default_factory=list)
     """Names of the robots, the goalkeeper first; when none are given, colour and number."""
     types: dict[Name, Name] = Field(default_factory=dict)
@@ -86,13 +88,16 @@ class TeamConfigs(Part):
     """Both teams."""
 
     cyan: TeamConfig = Field(default_factory=_default_cyan)
+    """The team in cyan."""
     magenta: TeamConfig = Field(default_factory=_default_magenta)
+    """The team in magenta."""
 
 
 class NoiseConfig(Part):
     """How well robots perceive."""
 
     preset: str = "profile"
+    """Name of a preset of perception noise; `profile` for the numbers of the profile."""
 
     @field_validator("preset")
     @classmethod
@@ -106,9 +111,13 @@ class RadioOverride(Part):
     """Numbers in place of the profile's."""
 
     delay: Annotated[float, Field(ge=0, le=5)] | None = None
+    """Least simulated time from sending to delivery, in s; None for the profile's."""
     jitter: Annotated[float, Field(ge=0, le=5)] | None = None
+    """Longest time that delivery may take beyond `delay`, in s; None for the profile's."""
     loss: Annotated[float, Field(ge=0, le=1)] | None = None
+    """Share of messages that are lost, from 0 to 1; None for the profile's."""
     budget: Annotated[float, Field(ge=0)] | None = None
+    """What a team may send, in bit/s averaged over one second; None for the profile's."""
 
 
 class OfficiatingConfig(Part):
@@ -130,6 +139,7 @@ class RecordingConfig(Part):
     """What is recorded."""
 
     sights: bool = False
+    """The sights of all robots are recorded, too."""
     wait: bool = False
     """The first tick waits for a recorder to be there, so that nothing is missed."""
     include: list[str] = Field(default_factory=list)
@@ -141,7 +151,7 @@ class RecordingConfig(Part):
     split_duration: Annotated[float, Field(gt=0)] | None = None
     """Simulated s after which it does."""
     keep: Annotated[int, Field(ge=1)] | None = None
-    """So many of its files are kept, the newest."""
+    """Number of finished files that are kept, the newest; None for all."""
     snapshot: Annotated[float, Field(gt=0)] | None = None
     """Simulated s before a goal that are written, each to a file of its own; nothing else is."""
     viz: bool = True
@@ -152,19 +162,22 @@ class Patience(Part):
     """How long the host waits, in s of wall time."""
 
     attendance: Annotated[float, Field(ge=0, le=600)] = 30.0
-    """For all robots to be there before the first tick."""
+    """Time for all robots to be there before the first tick."""
     answer: Annotated[float, Field(gt=0, le=60)] = 1.0
-    """Lockstep: for a robot's answer to one tick."""
+    """Lockstep: time for a robot's answer to one tick."""
     recorder: Annotated[float, Field(gt=0, le=600)] = 5.0
-    """Lockstep: for a recorder that stands still or has lost its link."""
+    """Lockstep: time for a recorder that stands still or has lost its link."""
 
 
 class MatchConfig(Part):
     """Everything that makes one match, and with equal brains the same match again."""
 
     name: Name = "friendly"
+    """Name of the match on the bus."""
     seed: Annotated[int, Field(ge=0, lt=2**63)] = 1
+    """Whole number that all randomness comes from."""
     pace: Annotated[str, Field(pattern=r"^(lockstep|realtime|x\d{1,6}(\.\d{1,6})?)$")] = LOCKSTEP
+    """lockstep, realtime, or x4 for four times real time."""
     duration: Annotated[float, Field(gt=0, le=86_400)] | None = None
     """Playing time of all halves in s; by default the rule book's."""
     scene: Scene | None = None
@@ -177,16 +190,24 @@ class MatchConfig(Part):
     profile_tables: dict[str, Any] | None = None
     """All tables of the profile, with those of the profiles that it extends; None for the shipped profile."""
     rules: str = "friendly"
+    """A shipped rule book, by name."""
     teams: TeamConfigs = Field(default_factory=TeamConfigs)
+    """Who plays."""
     types: dict[Name, dict[str, Any]] = Field(default_factory=dict)
-    """Types of robots that are added to the profile's, or change them: sections of numbers, as in a profile."""
+    """Type of robot → sections of numbers that differ from the profile's; adds types, or changes those of the
+    profile."""
     obstacles: list[StaticObstacle] = Field(default_factory=list)
     """What else stands on the pitch when the match begins."""
     noise: NoiseConfig = NoiseConfig()
+    """How well robots perceive."""
     radio: RadioOverride = RadioOverride()
+    """Radio numbers in place of the profile's."""
     referee: OfficiatingConfig = OfficiatingConfig()
+    """How the match is refereed."""
     record: RecordingConfig = RecordingConfig()
+    """What is recorded."""
     patience: Patience = Patience()
+    """How long the host waits, in s of wall time."""
 
     @field_validator("pace")
     @classmethod

@@ -23,17 +23,19 @@ class StaticObstacle(Part):
     """One body on the ground that robots and ball bounce off and nobody moves."""
 
     name: Name
+    """Name of the obstacle; no other body of the match has it."""
     shape: Shape
+    """Cylinder or box."""
     place: Annotated[list[float], Field(min_length=2, max_length=2)]
     """x and y of its centre in m, field frame."""
     heading: float = 0.0
-    """Of a box's `size` x, in rad, field frame."""
+    """Direction of a box's `size` x in the field frame, in rad."""
     radius: Length | None = None
-    """Of a cylinder, m."""
+    """Radius of a cylinder in m; None for a box."""
     height: Length | None = None
-    """Of a cylinder, m."""
+    """Height of a cylinder in m; None for a box."""
     size: Annotated[list[Length], Field(min_length=3, max_length=3)] | None = None
-    """Of a box: x along its heading, y, and z up, m."""
+    """Size of a box in m: x along its heading, y across, z upward; None for a cylinder."""
 
     @model_validator(mode="after")
     def _check_fields(self) -> "StaticObstacle":

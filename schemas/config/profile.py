@@ -28,6 +28,7 @@ from schemas.config.sections import (
     TimeSteps,
     Wheels,
 )
+from schemas.described import Described
 from schemas.errors import TouchlineError, did_you_mean
 
 SHIPPED = ("msl", "omni", "omni3", "paper")
@@ -42,24 +43,37 @@ Changes = Mapping[str, Mapping[str, Any]]
 
 
 @dataclass(frozen=True, slots=True)
-class Profile:
+class Profile(Described):
     """Everything physical about a match."""
 
     name: str
+    """Name of the profile."""
     time: TimeSteps
+    """How time is cut into ticks and physics steps."""
     field: Pitch
+    """Dimensions of the pitch, its goals and its boundary."""
     robot: RobotBody
+    """Body of the standard robot."""
     ball: Ball
+    """Body of the ball."""
     drive: DriveLimits
+    """Limits of the standard robot's drive."""
     wheels: Wheels
+    """Wheels and motors of the standard robot."""
     dribble: Dribble
+    """Dribbler of the standard robot."""
     kicker: Kicker
+    """Kicker of the standard robot."""
     sensing: Sensing
+    """What robots perceive, and how well."""
     radio: RadioChannel
+    """Delay, loss and budget of the radio."""
     safety: Safety
+    """When the host stops a silent robot."""
     types: Mapping[str, Changes]
     """Type of robot → what is different about it; `schemas.config.robot_model` makes models of them."""
     origins: Mapping[str, str] = dataclasses.field(repr=False, compare=False)
+    """`section.key` → where the number comes from."""
 
     def robot_of_type(self, name: str) -> dict[str, Any]:
         """Section → its numbers for a type of robot, for each of `TYPE_SECTIONS`."""

@@ -6,6 +6,7 @@ that receives it says, per field, which unit it must have and which range makes 
 
 import math
 import typing
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar, get_args, get_origin, get_type_hints
 
@@ -19,17 +20,35 @@ class Quantity:
     """What a number means: its unit, its sentence, and the range in which it makes sense."""
 
     unit: str
-    description: str
+    meaning: str
     low: float = -math.inf
     high: float = math.inf
+
+    @property
+    def description(self) -> str:
+        """The sentence with the unit."""
+        return self.meaning if self.unit == "1" else f"{self.meaning}; {self.unit}"
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Callable[[Any], dict[str, Any]]) -> dict[str, Any]:
+        """The JSON Schema of a field of this meaning."""
+        return {**handler(schema), "description": self.description}
 
 
 @dataclass(frozen=True, slots=True)
 class Choice:
     """A word out of a closed set, and what it chooses."""
 
-    description: str
+    meaning: str
     options: tuple[str, ...]
+
+    @property
+    def description(self) -> str:
+        """The sentence with the words."""
+        return f"{self.meaning}: {', '.join(self.options)}"
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Callable[[Any], dict[str, Any]]) -> dict[str, Any]:
+        """The JSON Schema of a field of this meaning."""
+        return {**handler(schema), "description": self.description}
 
 
 def meanings(section: type) -> dict[str, Quantity | Choice]:

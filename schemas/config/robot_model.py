@@ -5,20 +5,27 @@ from dataclasses import dataclass
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.sections import Dribble, DriveLimits, Kicker, RobotBody, Wheels
+from schemas.described import Described
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.side import Side
 
 
 @dataclass(frozen=True, slots=True)
-class RobotModel:
+class RobotModel(Described):
     """One type of robot."""
 
     type: str
+    """Name of the type; `standard` for the profile's own robot."""
     body: RobotBody
+    """Body."""
     drive: DriveLimits
+    """Limits of the drive."""
     wheels: Wheels
+    """Wheels and motors."""
     dribble: Dribble
+    """Dribbler."""
     kicker: Kicker
+    """Kicker."""
 
     @classmethod
     def standard(cls, profile: Profile) -> "RobotModel":

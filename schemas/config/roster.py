@@ -13,13 +13,15 @@ class RosterEntry(Part):
     """One robot that takes part."""
 
     name: Name
+    """Name of the robot."""
     side: Side
+    """The side that it plays for."""
     type: Name = "standard"
-    """As the profile or the match file names it."""
+    """Type of robot, as the profile or the match file names it."""
     agent: bool = True
     """An agent moves it; without, it stands still wherever it is set down."""
     keeper: bool = False
-    """It is its side's goalkeeper."""
+    """The robot is its side's goalkeeper."""
 
 
 class Placement(Part):
@@ -29,14 +31,20 @@ class Placement(Part):
     """
 
     body: Name
+    """A robot's name, or `ball`."""
     x: float
+    """x of the centre in the field frame, in m."""
     y: float
+    """y of the centre in the field frame, in m."""
     heading: float = 0.0
+    """Heading of a robot in the field frame, in rad."""
     z: float | None = None
-    """Height of the ball's centre in m; on the ground when not given. Robots stand on the ground."""
+    """Height of the ball's centre in m; None for a ball on the ground. Robots stand on the ground."""
     vx: float = 0.0
+    """Velocity along x of the field frame, in m/s."""
     vy: float = 0.0
+    """Velocity along y of the field frame, in m/s."""
     vz: float = 0.0
-    """Of the ball alone."""
+    """Velocity of the ball upward, in m/s."""
     omega: float = 0.0
-    """Of a robot alone."""
+    """Turn rate of a robot, in rad/s."""

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
 from schemas.config.quantity import Quantity, merge_tables, read_section
+from schemas.described import Described
 from schemas.errors import TouchlineError, did_you_mean
 
 SHIPPED = ("china-sim-2020", "friendly", "msl", "paper")
@@ -109,22 +110,35 @@ SECTIONS: dict[str, type] = {
 
 
 @dataclass(frozen=True, slots=True)
-class RuleBook:
+class RuleBook(Described):
     """The numbers that a match is refereed by."""
 
     name: str
+    """Name of the rule book."""
     periods: Periods
+    """Halves, breaks, extra time and penalty shoot-out."""
     restarts: Restarts
+    """Distances and times of restarts."""
     discipline: Discipline
+    """Cards and what follows from them."""
     people: People
+    """Repairs, substitutions and forfeits."""
     stall: Stall
+    """When a ball that no robot moves is dropped."""
     scrum: Scrum
+    """When a ball that both sides contest is dropped."""
     scoring: Scoring
+    """Which goals count, and which kicks from a team's own half are allowed."""
     handling: Handling
+    """How robots may handle the ball."""
     areas: Areas
+    """Who may be in goal areas and penalty areas, and for how long."""
     contact: Contact
+    """How robots may touch each other."""
     fouls: Fouls
+    """Which fouls are called."""
     origins: Mapping[str, str] = field(repr=False, compare=False)
+    """`section.key` → where the number comes from."""
 
 
 def rule_book_text(name: str) -> str:

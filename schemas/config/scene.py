@@ -41,11 +41,17 @@ class SceneRobot(RosterEntry):
     """A robot where it begins; with a velocity, it moves so when the scene begins."""
 
     x: float
+    """x of the centre in the field frame, in m."""
     y: float
+    """y of the centre in the field frame, in m."""
     heading: float = 0.0
+    """Heading in the field frame, in rad."""
     vx: Speed = 0.0
+    """Velocity along x of the field frame, in m/s."""
     vy: Speed = 0.0
+    """Velocity along y of the field frame, in m/s."""
     omega: Speed = 0.0
+    """Turn rate, counter-clockwise, in rad/s."""
 
     @property
     def entry(self) -> RosterEntry:
@@ -63,11 +69,17 @@ class SceneBall(Part):
     """The ball where it begins; on the ground unless `z` lifts its centre."""
 
     x: float = 0.0
+    """x of the centre in the field frame, in m."""
     y: float = 0.0
+    """y of the centre in the field frame, in m."""
     z: Annotated[float, Field(ge=0, le=10)] | None = None
+    """Height of the centre above the ground, in m; None for a ball on the ground."""
     vx: Speed = 0.0
+    """Velocity along x of the field frame, in m/s."""
     vy: Speed = 0.0
+    """Velocity along y of the field frame, in m/s."""
     vz: Speed = 0.0
+    """Velocity upward, in m/s."""
 
     @property
     def placement(self) -> Placement:
@@ -79,11 +91,13 @@ class SceneGame(Part):
     """How the game is when the scene begins; a restart is taken from where the ball lies."""
 
     phase: Phase = Phase.PLAY
+    """What is being played when the scene begins."""
     side: Side | None = None
-    """Who takes the restart."""
+    """The side that takes the restart; None where no side does."""
     running: bool = False
     """START of the restart was given: it may be taken at once. Play runs in any case."""
     score: Score = Score()
+    """Goals of both sides."""
     clock: Annotated[float, Field(ge=0)] = 0.0
     """Game clock in s."""
 
@@ -104,16 +118,21 @@ class Scene(Part):
     """One scene."""
 
     name: Name = "scene"
+    """Name of the scene; by default that of its file."""
     description: Annotated[str, StringConstraints(min_length=1, max_length=200)]
     """One sentence: what it is for."""
     profile: str | None = None
-    """What `touchline match --scene` plays it with, unless it is told otherwise."""
+    """Profile that `touchline match --scene` plays it with, unless another is named; None for the default."""
     rules: str | None = None
-    """Likewise."""
+    """Rule book that `touchline match --scene` plays it with, unless another is named; None for the default."""
     game: SceneGame = SceneGame()
+    """State of the game when the scene begins."""
     ball: SceneBall = SceneBall()
+    """Where the ball is."""
     robots: Annotated[list[SceneRobot], Field(min_length=1, max_length=2 * MAX_ROBOTS)]
+    """The robots of both sides."""
     obstacles: Annotated[list[StaticObstacle], Field(max_length=100)] = Field(default_factory=list)
+    """What else stands on the pitch."""
 
     @model_validator(mode="after")
     def _check_robots(self) -> "Scene":
@@ -168,6 +187,7 @@ class SceneRequest(Message):
     """Asks the host to set bodies down, add or remove some, or begin anew; all of it is done, or nothing."""
 
     operation: SceneOperation
+    """What is asked for."""
     load: str | None = None
     """For `load`: the name of a scene that ships."""
     scene: Scene | None = None
@@ -175,9 +195,9 @@ class SceneRequest(Message):
     place: Annotated[list[Placement], Field(max_length=100)] = Field(default_factory=list)
     """For `place`: where robots or the ball are set down."""
     robots: Annotated[list[SceneRobot], Field(max_length=2 * MAX_ROBOTS)] = Field(default_factory=list)
-    """For `add`."""
+    """For `add`: robots that join."""
     obstacles: Annotated[list[StaticObstacle], Field(max_length=100)] = Field(default_factory=list)
-    """For `add`."""
+    """For `add`: obstacles that are put on the pitch."""
     remove: Annotated[list[Name], Field(max_length=100)] = Field(default_factory=list)
     """For `remove`: robots and obstacles."""
     to_match: bool = False
@@ -190,6 +210,7 @@ class SceneReply(Message):
     """The host's answer."""
 
     accepted: bool
+    """All that was asked for was done."""
     reason: str = ""
     """Why it was refused; then nothing was done."""
     episode: int

@@ -3,9 +3,12 @@
 from enum import StrEnum
 from typing import Annotated, ClassVar
 
-from pydantic import Field, StringConstraints
+import msgspec
+from msgspec import Meta
 
-from schemas.message import Message, Name, Part
+from schemas.message import Name
+from schemas.struct import Checked, Struct, StructMessage
+from schemas.units import Age, Metres, MetresPerSecond, Radians, RadiansPerSecond
 
 MAX_DRIVE = 20.0
 """m/s; a demand beyond any robot's means is a fault of the sender, not a wish."""
@@ -14,7 +17,10 @@ MAX_TURN = 50.0
 MAX_EXTRA = 16
 """Entries in the free part of a radio message."""
 
-ShortText = Annotated[str, StringConstraints(max_length=80)]
+DriveSpeed = Annotated[float, Meta(ge=-MAX_DRIVE, le=MAX_DRIVE, extra={"unit": "m/s"})]
+TurnRate = Annotated[float, Meta(ge=-MAX_TURN, le=MAX_TURN, extra={"unit": "rad/s"})]
+KickSpeed = Annotated[float, Meta(gt=0, le=40, extra={"unit": "m/s"})]
+ShortText = Annotated[str, Meta(max_length=80)]
 
 
 class KickMode(StrEnum):
@@ -28,15 +34,15 @@ class KickMode(StrEnum):
     """At the kicker's fixed angle above the ground, wherever that leads."""
 
 
-class Drive(Part):
+class Drive(Struct, frozen=True, kw_only=True, metaclass=Checked):
     """A velocity demand in the body frame: m/s and rad/s."""
 
-    vx: Annotated[float, Field(ge=-MAX_DRIVE, le=MAX_DRIVE)] = 0.0
-    vy: Annotated[float, Field(ge=-MAX_DRIVE, le=MAX_DRIVE)] = 0.0
-    omega: Annotated[float, Field(ge=-MAX_TURN, le=MAX_TURN)] = 0.0
+    vx: DriveSpeed = 0.0
+    vy: DriveSpeed = 0.0
+    omega: TurnRate = 0.0
 
 
-class Kick(Part):
+class Kick(Struct, frozen=True, kw_only=True, metaclass=Checked):
     """A kick along the body's x axis.
 
     `speed` in m/s: the exit speed of a ground kick or one with fixed loft; the horizontal speed of a lob on its way
@@ -44,32 +50,32 @@ class Kick(Part):
     """
 
     mode: KickMode
-    speed: Annotated[float, Field(gt=0, le=40)]
+    speed: KickSpeed
 
 
-class BallBelief(Part):
+class BallBelief(Struct, frozen=True, kw_only=True, metaclass=Checked):
     """Where a robot believes the ball to be, in its team frame: m and m/s; `age` in s since it was seen."""
 
-    x: float
-    y: float
-    vx: float = 0.0
-    vy: float = 0.0
-    age: Annotated[float, Field(ge=0)] = 0.0
+    x: Metres
+    y: Metres
+    vx: MetresPerSecond = 0.0
+    vy: MetresPerSecond = 0.0
+    age: Age = 0.0
 
 
-class Motion(Part):
+class Motion(Struct, frozen=True, kw_only=True):
     """Pose and twist of a robot in its team frame: m, rad, m/s, rad/s."""
 
-    x: float
-    y: float
-    heading: float
-    vx: float = 0.0
-    vy: float = 0.0
-    omega: float = 0.0
+    x: Metres
+    y: Metres
+    heading: Radians
+    vx: MetresPerSecond = 0.0
+    vy: MetresPerSecond = 0.0
+    omega: RadiansPerSecond = 0.0
 
 
-class Radio(Part):
-    """A word to all teammates; the host delivers it with delay and loss, within the team's byte budget."""
+class RadioContent(Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """What can be said on the radio; a field that is null or empty is left out where it is sent."""
 
     self: Motion | None = None
     ball: BallBelief | None = None
@@ -77,18 +83,25 @@ class Radio(Part):
     intention: ShortText | None = None
     pass_to: Name | None = None
     """The teammate who is asked to receive a pass."""
-    extra: Annotated[dict[ShortText, float | int | bool | ShortText], Field(max_length=MAX_EXTRA)] = Field(
+    extra: Annotated[dict[ShortText, float | int | bool | ShortText], Meta(max_length=MAX_EXTRA)] = msgspec.field(
         default_factory=dict
     )
     """Whatever else the team agrees on."""
 
 
-class Command(Message):
+class Radio(RadioContent, frozen=True, kw_only=True, metaclass=Checked):
+    """A word to all teammates; the host delivers it with delay and loss, within the team's byte budget.
+
+    A field that is null or empty is left out where it is sent.
+    """
+
+
+class Command(StructMessage, frozen=True, kw_only=True, metaclass=Checked):
     """One robot's answer to one sight."""
 
     max_bytes: ClassVar[int] = 4096
 
-    answers_tick: Annotated[int, Field(ge=0)]
+    answers_tick: Annotated[int, Meta(ge=0)]
     """Tick of the sight."""
     drive: Drive = Drive()
     dribble: bool = False

@@ -1,9 +1,9 @@
 """What the host says of itself: how the match is set up, what it applied, how it is doing."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
+import msgspec
 from pydantic import Field
 
 from schemas.config.foul_book import Areas, Fouls, Handling, Scoring
@@ -15,12 +15,14 @@ from schemas.config.roster import Placement, RosterEntry
 from schemas.config.rule_book import Periods, Restarts, RuleBook
 from schemas.config.sections import Ball, Dribble, DriveLimits, Kicker, Pitch, RobotBody, TimeSteps
 from schemas.game import OfficiatingMode
-from schemas.message import Message, Name, Part
+from schemas.message import BadMessageError, Message, Name, Part
 from schemas.messages.command import Drive, Kick, Radio
 from schemas.messages.parameters import ParameterName, Setting
 from schemas.side import Side
+from schemas.struct import Struct, encode
 
 _EMPTY: Mapping[str, Any] = {}
+_decode_fields = msgspec.json.Decoder(dict[str, Any]).decode
 
 
 class SetupRequest(Message):
@@ -31,7 +33,9 @@ class TeamSetup(Part):
     """One team: its robots in order."""
 
     name: str
+    """Name of the team, for display."""
     robots: list[Name]
+    """Names of the robots, the goalkeeper first."""
     types: dict[Name, Name] = Field(default_factory=dict)
     """Robot → its type; a robot that is not named here is a standard one."""
     goalkeeper: bool = True
@@ -45,29 +49,43 @@ class Setup(Message):
     """
 
     match: Name
+    """Name of the match: the chunk of the keys behind `touchline/`."""
     pace: str
     """`lockstep`, `realtime`, or `x4` for four times real time."""
     profile: str
+    """Name of the profile: the physical numbers of the match."""
     rules: str
+    """Name of the rule book: the numbers that the match is refereed by."""
     time: TimeSteps
+    """How time is cut into ticks and physics steps."""
     pitch: Pitch
+    """Dimensions of the pitch, its goals and its boundary."""
     robot: RobotBody
+    """Body of the standard robot."""
     ball: Ball
+    """Body of the ball."""
     drive: DriveLimits
+    """Limits of the standard robot's drive."""
     dribble: Dribble
+    """Dribbler of the standard robot."""
     kicker: Kicker
+    """Kicker of the standard robot."""
     periods: Periods
+    """Halves, breaks, extra time and penalty shoot-out."""
     restarts: Restarts
+    """Distances and times of restarts."""
     handling: Handling | None = None
-    """How robots may handle the ball; nothing in recordings that are older than these rules, as the next two."""
+    """How robots may handle the ball; None in recordings from before these rules."""
     scoring: Scoring | None = None
+    """Which goals count; None in recordings from before these rules."""
     fouls: Fouls | None = None
-    """Which fouls are called."""
+    """Which fouls are called; None in recordings from before these rules."""
     officiating: OfficiatingMode | None = None
-    """Who decides; nothing in recordings that are older than this word."""
+    """Who decides; None in recordings from before this field."""
     areas: Areas | None = None
-    """Who may be how long in an area before a goal; nothing in older recordings."""
+    """Who may be in goal areas and penalty areas, and for how long; None in recordings from before these rules."""
     teams: dict[Side, TeamSetup]
+    """Side → its team."""
     models: dict[Name, RobotModel] = Field(default_factory=dict)
     """Type → model; `standard` for every robot that no type is given for."""
     engine: dict[str, str] = Field(default_factory=dict)
@@ -130,15 +148,17 @@ def _team(config: MatchConfig, side: Side) -> TeamSetup:
     return TeamSetup(name=team.name or side.value, robots=config.robots(side), types=team.types)
 
 
-@dataclass(frozen=True, slots=True)
-class AppliedInput:
+class AppliedInput(Struct, frozen=True):
     """What one robot's actuators were told, after validation and watchdog; made for every robot in every tick."""
 
     drive: Drive
+    """Velocity demand in the body frame."""
     dribble: bool
+    """The dribbler is on."""
     kick: Kick | None = None
+    """The kick of this tick; None without one."""
     answers_tick: int | None = None
-    """The sight that this input answers; nothing while the robot is silent."""
+    """Tick of the sight that this input answers; None while the robot is silent."""
 
 
 class Applied(Message):
@@ -148,9 +168,13 @@ class Applied(Message):
     """
 
     tick: int
+    """Control ticks since the match began."""
     time: float
+    """Simulated time in s: tick × control tick."""
     inputs: dict[Name, AppliedInput]
+    """Robot → the input that its actuators were given."""
     placements: list[Placement] = Field(default_factory=list)
+    """Bodies that were set down by hand before this tick."""
     checkpoint: bool = False
     """The world was rebuilt from poses and velocities before this tick: re-simulation may begin here."""
     remade: bool = False
@@ -158,26 +182,35 @@ class Applied(Message):
     parameters: dict[ParameterName, Setting] = Field(default_factory=dict)
     """Live parameters that were changed before this tick, and their new values."""
     robots: list[RosterEntry] | None = None
-    """Who takes part from this tick on, in the order of the roster, said at tick 0; nothing where that is as before."""
+    """Who takes part from this tick on, in the order of the roster; always given at tick 0, None where it has not
+    changed."""
     obstacles: list[StaticObstacle] | None = None
-    """What else stands on the pitch from this tick on; nothing where that is as before."""
+    """What else stands on the pitch from this tick on; None where it has not changed."""
     episode: int = 1
     """Which start this tick goes back to: the match's is 1, each scene that is loaded and each reset begin another."""
     chain: str
     """blake2b over the state of this tick and this message up to its chain, keyed with the chain before it; hex."""
 
 
-_CHAIN = b',"chain":"'
+def chained_part(applied: Mapping[str, Any]) -> bytes:
+    """What the hash chain takes in of the fields of an `Applied`: all but the chain, in their order.
+
+    As JSON without spaces, floats as short as they can be, up to the brace that ends it; so the same fields give the
+    same bytes, however the host that published them writes its JSON.
+    """
+    return encode({name: value for name, value in applied.items() if name != "chain"})[:-1]
 
 
-def without_chain(applied: bytes) -> bytes:
-    """An `Applied` as it is on the wire, up to its chain, which is made over this and the state of the world."""
-    return applied.rpartition(_CHAIN)[0]
+def chained_part_of(payload: bytes) -> bytes:
+    """The same of an `Applied` as it was published.
 
-
-def with_chain(unchained: bytes, chain: str) -> bytes:
-    """The whole `Applied` again."""
-    return b'%s%s%s"}' % (unchained, _CHAIN, chain.encode())
+    Raises:
+        BadMessageError: it is no JSON object.
+    """
+    try:
+        return chained_part(_decode_fields(payload))
+    except ValueError as error:
+        raise BadMessageError(f"Applied: not to be read: {error}") from None
 
 
 class RobotHealth(Part):
@@ -202,15 +235,18 @@ class RobotHealth(Part):
     refused: int = 0
     """Parts of commands that could not be done."""
     latency_ms: float | None = None
-    """Median wall time from sight to command over the last second, in ms."""
+    """Median wall time from sight to command over the last second, in ms; None without an answer."""
 
 
 class Health(Message):
     """How the host is doing."""
 
     tick: int
+    """Control ticks since the match began."""
     time: float
+    """Simulated time in s: tick × control tick."""
     pace: str
+    """`lockstep`, `realtime`, or `x4` for four times real time."""
     real_time_factor: float
     """Simulated seconds per wall second, over the last second."""
     late_ticks: int = 0
@@ -218,8 +254,9 @@ class Health(Message):
     worst_tick_ms: float = 0.0
     """Longest wall time that a tick of the last second took, in ms."""
     robots: dict[Name, RobotHealth] = Field(default_factory=dict)
+    """Robot → how its agent is doing."""
     strangers: dict[str, int] = Field(default_factory=dict)
-    """Messages on keys where nobody should speak, counted by key."""
+    """Key → messages on it from senders that have no business there."""
     recorders: dict[Name, Annotated[int, Field(ge=0)]] = Field(default_factory=dict)
     """How many ticks each recorder is behind."""
 
@@ -228,20 +265,28 @@ class Invalid(Message):
     """A payload that was not a valid message, as the host met it; counted and ignored."""
 
     tick: int
+    """Control ticks since the match began."""
     time: float
+    """Simulated time in s: tick × control tick."""
     key: str
+    """Key below the match that the payload was published on."""
     reason: str
+    """What is wrong with the payload, in one sentence."""
     size: int
-    """Bytes."""
+    """Length of the payload in bytes."""
 
 
 class Belief(Message):
     """What a robot said on the radio, in its team frame, as the host took it in."""
 
     tick: int
+    """Control ticks since the match began."""
     time: float
+    """Simulated time in s: tick × control tick."""
     robot: Name
+    """The robot that sent the radio message."""
     radio: Radio
+    """The radio message, in the robot's team frame."""
 
 
 class RecorderProgress(Message):
@@ -250,11 +295,12 @@ class RecorderProgress(Message):
     tick: int
     """The newest of which all has come that the host says in every tick."""
     messages: int
-    """Taken in so far."""
+    """Messages taken in so far."""
     lost: int
-    """Known to be missing."""
+    """Messages known to be missing so far."""
     losses: dict[str, int] = Field(default_factory=dict)
-    """The same by key; the keys without loss are left out."""
+    """Key → messages known to be missing; keys without loss are left out."""
     paused: bool = False
+    """The recorder leaves out what comes."""
     leaving: bool = False
-    """Its last word: nobody need wait for it."""
+    """The recorder's last message: the host need not wait for it."""

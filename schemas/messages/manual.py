@@ -8,8 +8,10 @@ class ManualDrive(Message):
     """Drives a robot for as long as such messages come; half a second without one gives it back to its brain."""
 
     drive: Drive = Drive()
+    """Velocity demand in the body frame."""
     dribble: bool = False
+    """The dribbler is on."""
     kick: Kick | None = None
-    """Done in the tick this arrives in, or refused."""
+    """Carried out in the tick this message arrives in, or refused; None without a kick."""
     release: bool = False
     """Gives the robot back at once."""

@@ -29,6 +29,7 @@ class ParametersRequest(Message):
     """Asks for parameters, or changes them between two ticks: all that are named, or none."""
 
     operation: ParameterOperation
+    """What is asked for."""
     names: Annotated[list[ParameterName], Field(max_length=200)] = Field(default_factory=list)
     """Parameters or whole sections; for `reset` none stands for all that can be changed."""
     values: Annotated[dict[ParameterName, Value], Field(max_length=200)] = Field(default_factory=dict)
@@ -41,20 +42,21 @@ class Parameter(Part):
     """One parameter as it is now."""
 
     name: ParameterName
+    """Name in the profile, `ball.rolling_deceleration`."""
     description: str
     """What it means."""
     unit: str
     """`1` for a pure number; empty for a word."""
     low: float | None = None
-    """The least value that makes sense, in its unit; nothing where there is no bound."""
+    """The least value that makes sense, in its unit; None where there is no bound."""
     high: float | None = None
-    """The greatest, likewise."""
+    """The greatest value that makes sense, in its unit; None where there is no bound."""
     options: list[str] = Field(default_factory=list)
-    """What a parameter that is a word may be."""
+    """Allowed values of a parameter that is a word."""
     origin: str = ""
     """Where the first value comes from."""
     value: Value
-    """In force from the next tick on."""
+    """Value in force from the next tick on."""
     initial: Value
     """What the match began with: the profile's value, or the match file's in its place."""
     live: bool = True
@@ -67,6 +69,8 @@ class ParametersReply(Message):
     """The host's answer: the parameters that were named, as they are from the next tick on."""
 
     accepted: bool
+    """What was asked for was done."""
     reason: str = ""
     """Why it was refused; then nothing was changed."""
     parameters: list[Parameter] = Field(default_factory=list)
+    """The parameters that were named, as they are from the next tick on."""

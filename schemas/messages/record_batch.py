@@ -46,7 +46,9 @@ class RecordBatch(Message):
     max_bytes: ClassVar[int] = 4 * 2**20
 
     tick: int
+    """The last tick of the batch."""
     entries: list[BatchEntry]
+    """The messages, in the order in which the host published or received them."""
 
 
 class RawEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True, gc=False):

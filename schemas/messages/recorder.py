@@ -22,6 +22,7 @@ class RecorderRequest(Message):
     """Asks a recorder to do something, or how it is doing."""
 
     operation: RecorderOperation = RecorderOperation.STATUS
+    """What the recorder is asked to do."""
     source: Source = "operator"
     """Who asks."""
 
@@ -30,14 +31,18 @@ class RecorderReply(Message):
     """A recorder's answer: how it is doing after what it was asked."""
 
     accepted: bool
+    """The recorder did what it was asked to do."""
     reason: str = ""
     """Why it was refused; then nothing has changed."""
     recorder: Name
+    """Name of the recorder."""
     paused: bool
+    """The recorder leaves out what comes."""
     file: str
-    """Where it writes, on its own machine; with snapshots, the newest of them."""
+    """Path of the file that it writes, on its own machine; with snapshots, the newest of them."""
     messages: int
-    """Taken in so far."""
+    """Messages taken in so far."""
     lost: int
+    """Messages known to be missing so far."""
     tick: int
-    """The newest that it has taken in; −1 before the first."""
+    """The newest tick that it has taken in; −1 before the first."""

@@ -34,6 +34,7 @@ class ReplayRequest(Message):
     """Asks a replay to go on, stop, or go elsewhere."""
 
     operation: ReplayOperation = ReplayOperation.STATUS
+    """What the replay is asked to do."""
     to: str | None = None
     """Where to: s of simulated time, or an event, `goal:2`, `kick_off:1-5`."""
     by: float | None = None
@@ -50,6 +51,7 @@ class ReplayReply(Message):
     max_bytes: ClassVar[int] = 8_000_000
 
     accepted: bool
+    """The replay did what it was asked to do."""
     reason: str = ""
     """Why it was refused."""
     time: float = 0.0
@@ -59,10 +61,12 @@ class ReplayReply(Message):
     end: float = 0.0
     """Where it ends, s of simulated time; of a match that is still being recorded, how far that has come."""
     rate: float | None = None
-    """Simulated seconds per wall second; nothing where it is as fast as possible."""
+    """Simulated seconds per wall second; None for as fast as possible."""
     paused: bool = False
+    """The replay stands still."""
     loop: bool = False
+    """The replay begins again at its end."""
     messages: int = 0
-    """Sent so far."""
+    """Messages sent so far."""
     events: list[GameEvent] = Field(default_factory=list)
     """All that happens in the recording, in order, where that was asked for."""

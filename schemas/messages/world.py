@@ -12,58 +12,78 @@ class RobotTruth(Part):
     """One robot: position of its centre in m, heading in rad, velocities in m/s and rad/s, in the field frame."""
 
     x: float
+    """x of the centre in the field frame, in m."""
     y: float
+    """y of the centre in the field frame, in m."""
     z: float
+    """Height of the centre above the ground, in m."""
     heading: float
+    """Kicking direction in the field frame, counter-clockwise from +x, in rad."""
     vx: float
+    """Velocity along x of the field frame, in m/s."""
     vy: float
+    """Velocity along y of the field frame, in m/s."""
     omega: float
+    """Turn rate, counter-clockwise, in rad/s."""
     holding: bool
-    """It has the ball in hand."""
+    """The robot holds the ball."""
     stuck: bool = False
-    """For long it has moved much slower than it was told."""
+    """The robot has moved much slower than commanded for a while."""
     off_field: OffField | None = None
-    """Why the robot does not take part, or nothing."""
+    """Why the robot does not take part; None while it does."""
 
 
 class BallTruth(Part):
     """The ball: position of its centre in m, velocity in m/s, in the field frame."""
 
     x: float
+    """x of the centre in the field frame, in m."""
     y: float
+    """y of the centre in the field frame, in m."""
     z: float
+    """Height of the centre above the ground, in m."""
     vx: float
+    """Velocity along x of the field frame, in m/s."""
     vy: float
+    """Velocity along y of the field frame, in m/s."""
     vz: float
+    """Velocity upward, in m/s."""
 
 
 class ObstacleTruth(Part):
     """A body that nothing moves: position of its centre in m, heading in rad, in the field frame."""
 
     x: float
+    """x of the centre in the field frame, in m."""
     y: float
+    """y of the centre in the field frame, in m."""
     heading: float
+    """Direction of a box's `size_x` in the field frame, in rad."""
     radius: float
-    """Of the circle around it on the ground, m."""
+    """Radius of the circle around it on the ground, in m."""
     height: float
-    """m above the ground."""
+    """Height above the ground, in m."""
     shape: Shape
+    """Cylinder or box."""
     size_x: float
-    """Of a box along its heading, m; a cylinder's diameter."""
+    """Size of a box along its heading, or a cylinder's diameter, in m."""
     size_y: float
-    """Of a box across, m; a cylinder's diameter."""
+    """Size of a box across its heading, or a cylinder's diameter, in m."""
 
 
 class World(Message):
     """Everything there is on the field at one tick."""
 
     tick: int
+    """Control ticks since the match began."""
     time: float
     """Simulated time in s: tick × control tick."""
     robots: dict[Name, RobotTruth]
+    """Robot → its true state."""
     ball: BallTruth
+    """True state of the ball."""
     possession: Name | None = None
-    """The robot that holds the ball."""
+    """The robot that holds the ball; None while no robot does."""
     touches: list[Name] = Field(default_factory=list)
     """Robots that touched, held or kicked the ball since the tick before, in order of time; left out if nobody did."""
     kicked: Name | None = None
@@ -71,7 +91,7 @@ class World(Message):
     clock: float = 0.0
     """Game clock in s."""
     obstacles: dict[Name, ObstacleTruth] = Field(default_factory=dict)
-    """What else stands on the pitch; not said while there is nothing."""
+    """Obstacle → its place and size; left out while there is none."""
     episode: int = 1
     """Counts the starts: the match's own, each scene that is loaded, each reset. Ticks and time go on."""
 
@@ -80,14 +100,21 @@ class RobotFrame(Message):
     """The truth of one robot, keyed by its name."""
 
     tick: int
+    """Control ticks since the match began."""
     time: float
+    """Simulated time in s: tick × control tick."""
     robot: RobotTruth
+    """True state of the robot."""
     side: Side
+    """The robot's side."""
 
 
 class BallFrame(Message):
     """The truth of the ball."""
 
     tick: int
+    """Control ticks since the match began."""
     time: float
+    """Simulated time in s: tick × control tick."""
     ball: BallTruth
+    """True state of the ball."""

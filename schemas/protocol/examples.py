@@ -17,7 +17,7 @@ from schemas.game import (
     Score,
     TeamPhase,
 )
-from schemas.message import Message
+from schemas.message import WireMessage
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
 from schemas.messages.command import BallBelief, Command, Drive, Kick, KickMode, Motion, Radio
 from schemas.messages.host import (
@@ -57,13 +57,13 @@ _RADIO = Radio(
 )
 
 
-def examples() -> dict[type[Message], Message]:
+def examples() -> dict[type[WireMessage], WireMessage]:
     """Message → its example."""
     made = (*_truth(), *_robot(), *_game(), *_host())
     return {type(message): message for message in made}
 
 
-def _truth() -> tuple[Message, ...]:
+def _truth() -> tuple[WireMessage, ...]:
     return (
         World(
             tick=_TICK,
@@ -79,7 +79,7 @@ def _truth() -> tuple[Message, ...]:
     )
 
 
-def _robot() -> tuple[Message, ...]:
+def _robot() -> tuple[WireMessage, ...]:
     return (
         Sight(
             tick=_TICK,
@@ -110,7 +110,7 @@ def _robot() -> tuple[Message, ...]:
     )
 
 
-def _game() -> tuple[Message, ...]:
+def _game() -> tuple[WireMessage, ...]:
     return (
         GameState(
             tick=_TICK,
@@ -138,7 +138,7 @@ def _game() -> tuple[Message, ...]:
     )
 
 
-def _host() -> tuple[Message, ...]:
+def _host() -> tuple[WireMessage, ...]:
     return (
         SetupRequest(),
         _setup(),
@@ -167,7 +167,7 @@ def _host() -> tuple[Message, ...]:
             tick=_TICK,
             time=_TIME,
             key="robot/magenta1/command",
-            reason="Command: drive.vx is 'fast': Input should be a valid number",
+            reason="Command: drive.vx is 'fast'; m/s from -20 to 20",
             size=41,
         ),
         RecordBatch(
@@ -175,7 +175,7 @@ def _host() -> tuple[Message, ...]:
             entries=[
                 BatchEntry(
                     key="robot/cyan2/command",
-                    message=Command(answers_tick=_TICK, drive=_DRIVE).model_dump(mode="json"),
+                    message=Command(answers_tick=_TICK, drive=_DRIVE).plain(),
                     sequence=412,
                     sent_ns=1_767_225_608_240_311_872,
                     sim_ns=8_240_000_000,
@@ -193,7 +193,7 @@ def _host() -> tuple[Message, ...]:
     )
 
 
-def _parameters() -> tuple[Message, ...]:
+def _parameters() -> tuple[WireMessage, ...]:
     rolling = Parameter(
         name="ball.rolling_deceleration",
         description="loss of speed of a ball that rolls freely",

@@ -3,21 +3,21 @@
 Meanings are the docstrings in the source; numbers of a profile or a rule book bring theirs, with the unit.
 """
 
-import ast
 import dataclasses
-import inspect
 import types
 from collections.abc import Callable, Iterator, Sequence
 from enum import Enum
 from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
 
+import msgspec
 from annotated_types import Ge, Gt, Le, MaxLen
 from pydantic import BaseModel, StringConstraints
 from pydantic.fields import FieldInfo
-from pydantic_core import to_json
 
 from schemas.config.quantity import Choice, Quantity
+from schemas.described import field_docstrings
 from schemas.message import Name
+from schemas.struct import encode
 
 Link = Callable[[type], str]
 """How a part or an enumeration is named in the text."""
@@ -60,13 +60,13 @@ class Row(NamedTuple):
 
 def is_part(kind: Any) -> bool:
     """Whether a type has fields of its own."""
-    return isinstance(kind, type) and (issubclass(kind, BaseModel) or dataclasses.is_dataclass(kind))
+    return isinstance(kind, type) and (issubclass(kind, BaseModel | msgspec.Struct) or dataclasses.is_dataclass(kind))
 
 
 def rows(part: type, link: Link) -> list[Row]:
     """The fields of a part, in order, without `version`."""
     hints = get_type_hints(part, include_extras=True)
-    docstrings = _docstrings(part)
+    docstrings = field_docstrings(part)
     return [
         Row(name, type_text(hints[name], link), default, _meaning(name, docstrings, hints[name]))
         for name, default in _defaults(part)
@@ -81,21 +81,6 @@ def parts_of(part: type) -> Iterator[type]:
         yield from _named_types(hints[name])
 
 
-def _docstrings(part: type) -> dict[str, str]:
-    """Field → the docstring below it in the source, those of its bases included."""
-    found: dict[str, str] = {}
-    for cls in reversed(part.__mro__):
-        if not cls.__module__.startswith("schemas."):
-            continue
-        body = ast.parse(inspect.getsource(cls)).body[0]
-        assert isinstance(body, ast.ClassDef)
-        for field, below in zip(body.body, body.body[1:], strict=False):
-            match field, below:
-                case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=str() as text)):
-                    found[name] = " ".join(text.split())
-    return found
-
-
 def type_text(hint: Any, link: Link) -> str:
     """A type in words, with the limits it is declared with."""
     if hint == Name:
@@ -107,7 +92,7 @@ def type_text(hint: Any, link: Link) -> str:
     inner = get_args(hint)
     match get_origin(hint):
         case origin if origin is Annotated:
-            limits = _limits(inner[1:])
+            limits = _limits(inner[0], inner[1:])
             return type_text(inner[0], link) + (f" ({limits})" if limits else "")
         case origin if origin in (Union, types.UnionType):
             words = [type_text(choice, link) for choice in inner if choice is not type(None)]
@@ -134,14 +119,19 @@ def _defaults(part: type) -> Iterator[tuple[str, str]]:
     if issubclass(part, BaseModel):
         for name, info in part.model_fields.items():
             required = info.is_required()
-            yield name, "" if required else to_json(info.get_default(call_default_factory=True)).decode()
+            yield name, "" if required else encode(info.get_default(call_default_factory=True)).decode()
+        return
+    if issubclass(part, msgspec.Struct):
+        for one in msgspec.structs.fields(part):
+            default = one.default if one.default_factory is msgspec.NODEFAULT else one.default_factory()
+            yield one.name, "" if one.required else encode(default).decode()
         return
     assert dataclasses.is_dataclass(part)
     for field in dataclasses.fields(part):
-        yield field.name, "" if field.default is dataclasses.MISSING else to_json(field.default).decode()
+        yield field.name, "" if field.default is dataclasses.MISSING else encode(field.default).decode()
 
 
-def _limits(metadata: Sequence[Any]) -> str:
+def _limits(kind: Any, metadata: Sequence[Any]) -> str:
     limits: list[str] = []
     for item in (inner for one in metadata for inner in (one.metadata if isinstance(one, FieldInfo) else [one])):
         match item:
@@ -151,6 +141,11 @@ def _limits(metadata: Sequence[Any]) -> str:
                 limits.append(f"above {bound:g}")
             case Le(le=bound):
                 limits.append(f"at most {bound:g}")
+            case msgspec.Meta():
+                bounds = ("at least", item.ge), ("above", item.gt), ("at most", item.le)
+                limits += [f"{word} {bound:g}" for word, bound in bounds if bound is not None]
+                if item.max_length is not None:
+                    limits.append(f"at most {item.max_length} {'characters' if kind is str else 'of them'}")
             case MaxLen(max_length=bound):
                 limits.append(f"at most {bound} of them")
             case StringConstraints(max_length=int() as bound):
@@ -162,9 +157,7 @@ def _limits(metadata: Sequence[Any]) -> str:
 
 def _meaning(name: str, docstrings: dict[str, str], hint: Any) -> str:
     for item in get_args(hint)[1:]:
-        if isinstance(item, Quantity):
-            return item.description if item.unit == "1" else f"{item.description}; {item.unit}"
-        if isinstance(item, Choice):
-            return f"{item.description}: {', '.join(item.options)}"
+        if isinstance(item, Quantity | Choice):
+            return item.description
     common = "" if any(_named_types(hint)) else COMMON_MEANINGS.get(name, "")
     return docstrings.get(name) or common

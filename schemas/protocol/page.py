@@ -11,7 +11,7 @@ from typing import Any
 
 from pydantic_core import from_json
 
-from schemas.message import VERSION, Message
+from schemas.message import VERSION, Message, WireMessage
 from schemas.protocol.examples import examples
 from schemas.protocol.fields import is_part, parts_of, rows
 from schemas.topic import Topic
@@ -51,7 +51,7 @@ def page() -> str:
     return "\n\n".join(sections) + "\n"
 
 
-def _messages(topics: Iterable[Topic]) -> list[type[Message]]:
+def _messages(topics: Iterable[Topic]) -> list[type[WireMessage]]:
     """Every message and every reply, once, in the order of the table."""
     both = [kind for topic in topics for kind in (topic.message, topic.reply) if kind is not None]
     return list(dict.fromkeys(both))
@@ -99,7 +99,7 @@ def _topic_cells(topic: Topic, titles: dict[type, str]) -> tuple[str, ...]:
     )
 
 
-def _message(kind: type[Message], titles: dict[type, str]) -> str:
+def _message(kind: type[WireMessage], titles: dict[type, str]) -> str:
     keys = [f"`{topic.key}`" for topic in TOPICS.values() if kind in (topic.message, topic.reply)]
     size = f"; at most {kind.max_bytes} bytes" if kind.max_bytes != Message.max_bytes else ""
     where = f"On {', '.join(keys)}{size}."
@@ -123,7 +123,7 @@ def _table(headings: Sequence[str], cells: Iterable[Sequence[str]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
-def laid_out(message: Message) -> str:
+def laid_out(message: WireMessage) -> str:
     """A message as JSON with a line for each field; what is in a long one is packed into several lines."""
     entries = [_entry(name, value, "  ") for name, value in from_json(message.encode()).items()]
     return "{\n" + ",\n".join(f"  {entry}" for entry in entries) + "\n}"

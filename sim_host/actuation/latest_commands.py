@@ -4,10 +4,8 @@ from collections.abc import Container, Mapping
 
 from schemas.messages.command import Command, Drive
 from schemas.messages.host import AppliedInput
-from schemas.messages.light import light_form
 
-_Input = light_form(AppliedInput)
-_AT_REST = _Input(Drive(), dribble=False)
+_AT_REST = AppliedInput(Drive(), dribble=False)
 
 
 class LatestCommands:
@@ -44,5 +42,5 @@ class LatestCommands:
         if command is None or name in self._still or tick - command.answers_tick > self._watchdog:
             return _AT_REST
         if is_fresh:
-            return _Input(command.drive, command.dribble, command.kick, command.answers_tick)
-        return _Input(command.drive, command.dribble)
+            return AppliedInput(command.drive, command.dribble, command.kick, command.answers_tick)
+        return AppliedInput(command.drive, command.dribble)

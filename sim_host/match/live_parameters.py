@@ -263,7 +263,7 @@ class LiveParameters:
             about = {"unit": meaning.unit, "low": _bound(meaning.low), "high": _bound(meaning.high)}
         return Parameter(
             name=name,
-            description=meaning.description,
+            description=meaning.meaning,
             origin=_MATCH_FILE if path is None else self.initial.origins.get(name, _STANDARD_ROBOT),
             value=self.value(name),
             initial=self.at_start.value(name),

@@ -10,18 +10,19 @@ from numpy.typing import NDArray
 
 from schemas.config.sections import RadioChannel
 from schemas.messages.command import Radio
-from schemas.messages.light import beyond_defaults, light_encode_exactly
+from schemas.messages.sight import ReceivedRadio
 from schemas.side import Side
+from schemas.struct import encode
 from sim_host.sensing.random_streams import BatchedDraws, RandomStreams, StreamId
 from sim_host.snapshot import Roster
 
 _WINDOW_S = 1.0
 """The budget counts what a team said in the last second."""
 
-_EMPTY = b"{}"
-
 Delays = NDArray[np.int64]
 """Ticks from each member of a team to each, shape (members, members)."""
+_DIGITS = 4
+"""Of the age of a word in s, behind the point."""
 _LOST = -1
 """In place of a delay in ticks: the word never arrives."""
 _ROUNDING = 1e-6
@@ -32,20 +33,25 @@ _ROUNDING = 1e-6
 class _RadioMessage:
     sent_at: int
     """Tick."""
-    opened: bytes
-    """The speaker's name and its word as JSON, left open for the age: written once, heard by all in every tick."""
+    content: Radio
+    heard: ReceivedRadio | None = None
+    """As it is heard in one tick, by all alike."""
 
-
-class _Ages(dict[int, bytes]):
-    """Tick → how long ago that is in one tick, as the end of a word: many words are of the same age."""
-
-    def __init__(self, tick: int, tick_s: float) -> None:
-        self._tick = tick
-        self._tick_s = tick_s
-
-    def __missing__(self, encoded: int) -> bytes:
-        self[encoded] = text = b'"age":%.4f}' % ((self._tick - encoded) * self._tick_s)
-        return text
+    def at(self, tick: int, tick_s: float) -> ReceivedRadio:
+        """As it is heard in one tick, of this length in s."""
+        age = round((tick - self.sent_at) * tick_s, _DIGITS)
+        if self.heard is None or self.heard.age != age:
+            message = self.content
+            self.heard = ReceivedRadio(
+                self=message.self,
+                ball=message.ball,
+                role=message.role,
+                intention=message.intention,
+                pass_to=message.pass_to,
+                extra=message.extra,
+                age=age,
+            )
+        return self.heard
 
 
 @dataclass(slots=True)
@@ -104,21 +110,19 @@ class RadioAir:
         return successor
 
     def send(self, tick: int, speaker: str, content: Radio) -> str | None:
-        """Send a word, light or not, to all teammates; returns why it was refused, or nothing.
+        """Send a word to all teammates; returns why it was refused, or None.
 
-        What stands at its default is not sent, and takes nothing of the budget.
+        A field that is None or empty is not sent, and takes nothing of the budget.
         """
         index = self._roster.names.index(speaker)
-        encoded = light_encode_exactly(beyond_defaults(content))
-        bits = 8 * len(encoded)
+        bits = 8 * len(encode(content))
         team = self._teams[self._roster.sides[index]]
         self._drop_old(team, tick)
         if team.bits + bits > self._air.budget * _WINDOW_S:
             return f"radio: the team's budget of {self._air.budget / 1e6:g} Mbit/s is used up"
         team.sent.append((tick, bits))
         team.bits += bits
-        opened = encoded[:-1] + (b"," if len(encoded) > len(_EMPTY) else b"")
-        self._deliver(index, _RadioMessage(tick, b'"%s":%s' % (speaker.encode(), opened)))
+        self._deliver(index, _RadioMessage(tick, content))
         return None
 
     def _deliver(self, speaker: int, message: _RadioMessage) -> None:
@@ -144,17 +148,16 @@ class RadioAir:
         whole = np.ceil((air.delay + late * air.jitter) / self._tick_s - _ROUNDING).astype(np.int64)
         return list(np.where(lost < air.loss, _LOST, whole))
 
-    def receive(self, tick: int) -> list[bytes]:
-        """What each robot has heard by this tick, as JSON: mate → its newest `schemas.messages.sight.ReceivedRadio`."""
+    def receive(self, tick: int) -> list[dict[str, ReceivedRadio]]:
+        """What each robot has heard by this tick, in the order of the roster: teammate → its newest word."""
         for arrives in sorted([one for one in self._under_way if one <= tick]):
             for speaker, mate, message in self._under_way.pop(arrives):
                 before = self._received[mate].get(speaker)
                 if before is None or message.sent_at > before.sent_at:
                     self._received[mate][speaker] = message
-        ages = _Ages(tick, self._tick_s)
+        names, tick_s = self._roster.names, self._tick_s
         return [
-            b"{%b}" % b",".join([message.opened + ages[message.sent_at] for message in heard.values()])
-            for heard in self._received
+            {names[speaker]: message.at(tick, tick_s) for speaker, message in heard.items()} for heard in self._received
         ]
 
     def _drop_old(self, team: _TeamAir, tick: int) -> None:

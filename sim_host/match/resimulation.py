@@ -141,7 +141,7 @@ class Resimulation:
             self._world.close()
 
     def step(self, applied: Applied, unchained: bytes) -> ResimulatedTick:
-        """The next tick; `unchained` is the message up to its chain, from `schemas.messages.host.without_chain`.
+        """The next tick. `unchained` is the part of its message that the hash chain covers (`chained_part_of`).
 
         Raises:
             ImpossibleTickError: what it says cannot have been.
@@ -169,8 +169,8 @@ class Resimulation:
         else:
             if applied.checkpoint:
                 world.make_checkpoint()
-            advance = world.advance(applied.inputs)
-            snapshot, stuck = advance.snapshot, advance.stuck
+            world_tick = world.advance(applied.inputs)
+            snapshot, stuck = world_tick.snapshot, world_tick.stuck
         return ResimulatedTick(bodies_fields(snapshot, stuck), world.chain(unchained))
 
     def _new_world(self, conditions: Conditions) -> World:

@@ -17,10 +17,10 @@ from schemas.game import ActionReply, EventKind, GameEvent, Phase, RefereeAction
 from schemas.message import VERSION
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
-from schemas.messages.host import AppliedInput, Setup, TeamSetup, with_chain
-from schemas.messages.light import light_encode, light_encode_exactly
+from schemas.messages.host import AppliedInput, Setup, TeamSetup, chained_part
 from schemas.messages.parameters import ParameterOperation, ParametersReply, ParametersRequest, Setting
 from schemas.side import Side
+from schemas.struct import encode
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.pending_changes import PendingChanges
 from sim_host.match.sights import Send
@@ -128,9 +128,9 @@ class Simulation:
         if changes.new_episode:
             commands = {}
         inputs = self._subsystems.commands.inputs(self.world.tick, commands, self.state.participation.absences)
-        advance = self.world.advance(inputs)
-        snapshot = advance.snapshot
-        refusals = {name: [reason] for name, reason in advance.refused.items()}
+        world_tick = self.world.advance(inputs)
+        snapshot = world_tick.snapshot
+        refusals = {name: [reason] for name, reason in world_tick.refused.items()}
         for name in self.roster.still:
             if name in commands:
                 refusals.setdefault(name, []).append("command: this robot stands still in the scene")
@@ -141,12 +141,12 @@ class Simulation:
         ruling = self.referee.step(self.state, snapshot, actions, self.profile.time.tick)
         self._apply_ruling(ruling)
         sights = self._subsystems.sights.at(
-            snapshot, self.state, self.episode, advance.stuck, self.orders, commands, refusals, send
+            snapshot, self.state, self.episode, world_tick.stuck, self.orders, commands, refusals, send
         )
         self.now = TickResult(
             tick=snapshot.tick,
             time=snapshot.time,
-            world=world_fields(snapshot, advance.stuck, self.state, self.episode),
+            world=world_fields(snapshot, world_tick.stuck, self.state, self.episode),
             sights=sights,
             **self._applied(snapshot, inputs, changes),
             beliefs=beliefs,
@@ -298,26 +298,21 @@ class Simulation:
                 refusals.setdefault(name, []).append(refusal)
                 continue
             belief = {"version": VERSION, "tick": snapshot.tick, "time": snapshot.time, "robot": name, "radio": word}
-            beliefs.append((self.roster.side_of(name), name, light_encode_exactly(belief)))
+            beliefs.append((self.roster.side_of(name), name, encode(belief)))
         return beliefs
 
     def _applied(
         self, snapshot: Snapshot, inputs: Mapping[str, AppliedInput], changes: PendingChanges
     ) -> dict[str, Any]:
         """The fields of a tick that tell what was applied."""
-        fields: Fields = {"tick": snapshot.tick, "time": snapshot.time, **changes.applied_fields()}
+        fields: Fields = {"version": VERSION, "tick": snapshot.tick, "time": snapshot.time, **changes.applied_fields()}
         if changes.roster_changed:
             fields["robots"] = self._layout.robots
         if changes.obstacles_changed:
             fields["obstacles"] = self._layout.obstacles
-        fields["episode"] = self.episode
-        rest = light_encode_exactly({"version": VERSION, **fields}).removesuffix(b"}")
-        unchained = b'%s,"inputs":%s' % (rest, light_encode(inputs))
-        chain = self.world.chain(unchained)
-        return {
-            "applied": {**fields, "inputs": inputs, "chain": chain},
-            "applied_encoded": with_chain(unchained, chain),
-        }
+        fields |= {"episode": self.episode, "inputs": inputs}
+        fields["chain"] = self.world.chain(chained_part(fields))
+        return {"applied": fields, "applied_encoded": encode(fields)}
 
 
 def _setting_text(value: Setting) -> str:

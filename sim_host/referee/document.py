@@ -114,9 +114,7 @@ def _numbers(numbers: Iterable[str], books: Sequence[RuleBook]) -> list[str]:
     for number in numbers:
         section, field = number.split(".")
         meaning = meanings(SECTIONS[section])[field]
-        rows.append(
-            (f"`{number}`", *(_value(book, section, field) for book in books), _unit(meaning), meaning.description)
-        )
+        rows.append((f"`{number}`", *(_value(book, section, field) for book in books), _unit(meaning), meaning.meaning))
     return [_table(("number", *(book.name for book in books), "unit", "meaning"), rows)] if rows else []
 
 

@@ -11,12 +11,10 @@ from schemas.bus.contract import Bus, ReceivedMessage
 from schemas.message import BadMessageError
 from schemas.messages.command import Command
 from schemas.messages.host import RobotHealth
-from schemas.messages.light import light_reader
 from schemas.topics import COMMAND
 from sim_host.server.invalid_log import InvalidLog
 from sim_host.snapshot import Roster
 
-_read_command = light_reader(Command)
 SILENT_TICKS = 3
 """A robot that missed this many ticks in a row is not waited for until it is heard again."""
 _MAX_STRANGERS = 100
@@ -144,7 +142,7 @@ class Inbox:
         if stats.removed:
             return None  # it answers what it saw before it was removed
         try:
-            command = _read_command(received.payload)
+            command = Command.decode(received.payload)
             if command.answers_tick > tick:
                 raise BadMessageError(f"Command: answers_tick is {command.answers_tick}, the newest sight is {tick}")
         except BadMessageError as error:

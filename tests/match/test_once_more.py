@@ -77,4 +77,4 @@ def test_another_brain_is_told_where_it_would_have_said_something_else(played, s
     status, said = against(start, folder, "nubot", "cyan2=robot_agent.teams.nubot:NuBot")
     assert status == 1
     assert 0 < said["different"] <= said["compared"]
-    assert said["first"]["recorded"] != said["first"]["said"]
+    assert said["first"]["recorded"] != said["first"]["answered"]

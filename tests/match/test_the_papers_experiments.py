@@ -31,7 +31,7 @@ from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from sim_host.server.host import Host
 from sim_host.server.pace import Lockstep
-from touchline.watch.drawing import picture
+from touchline.watch.drawing import draw_match
 from touchline.watch.pitch import MARGIN
 
 CYAN = ("cyan1", "cyan2", "cyan3")
@@ -158,7 +158,7 @@ def test_one_the_coachs_window_shows_every_model_at_its_place(static: Experiment
     static.order(mode=CoachMode.HOLD)
     static.seen.update()
     width = 96
-    rows = picture(static.seen, static.setup, width, 60)[1:]
+    rows = draw_match(static.seen, static.setup, width, 60)[1:]
     cell_m = (static.setup.pitch.length + 2.0 * MARGIN) / width
     ball = cell(rows, "●")
     for robot in static.scene.robots:
@@ -188,9 +188,9 @@ def test_one_every_robot_receives_the_coachs_order(static: Experiment) -> None:
     for name in CYAN:
         order = static.sights[name].order
         assert order is not None and (order.sequence, order.mode, order.max_speed) == (number, CoachMode.HOLD, 1.5)
-    static.gateway.orders.update()
-    receipt = static.gateway.orders.book.receipt(Side.CYAN, number)
-    assert (receipt.fate, receipt.acknowledged, receipt.missing) == (OrderStatus.STANDS, CYAN, ())
+    static.client.orders.update()
+    receipt = static.client.orders.book.receipt(Side.CYAN, number)
+    assert (receipt.status, receipt.acknowledged, receipt.missing) == (OrderStatus.ACTIVE, CYAN, ())
 
 
 COMMANDS = {
@@ -210,7 +210,7 @@ COMMANDS = {
 def test_one_every_robot_receives_the_coachs_command(static: Experiment, action: ActionName) -> None:
     """Game-stop, kick-off, corner-ball "and etc."; then game-start."""
     side, phase, told = COMMANDS[action]
-    reply = static.gateway.act(RefereeAction(action=action, side=side))
+    reply = static.client.act(RefereeAction(action=action, side=side))
     assert reply.accepted, reply.reason
     assert static.play(lambda: {static.sights[name].game.phase for name in CYAN} == {told}, 20.0)
     static.seen.update()
@@ -218,7 +218,7 @@ def test_one_every_robot_receives_the_coachs_command(static: Experiment, action:
     if phase is Phase.STOPPED:
         return
     assert static.play(static.ball_lies_on_its_spot, 20.0)  # as soon as nobody stands there
-    reply = static.gateway.act(RefereeAction(action=ActionName.START))
+    reply = static.client.act(RefereeAction(action=ActionName.START))
     assert reply.accepted, reply.reason
     assert static.play(lambda: all(static.sights[name].game.running for name in CYAN), 1.0)
 
@@ -274,7 +274,7 @@ def test_two_after_the_world_is_reset_the_machine_runs_again(static: Experiment)
     """Reference 13, row 22: Gazebo's Reset World."""
     static.order(mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a="cyan2")
     assert static.play(lambda: static.machine("cyan2") is State.HOME, 60.0)
-    reply = static.gateway.scene(SceneRequest(operation=SceneOperation.RESET))
+    reply = static.client.scene(SceneRequest(operation=SceneOperation.RESET))
     assert reply.accepted and reply.episode == 2
     assert static.play(lambda: static.machine("cyan2") is State.CHASE_BALL, 1.0)
     assert static.play(lambda: static.machine("cyan2") is State.HOME, 60.0)

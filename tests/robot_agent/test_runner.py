@@ -1,6 +1,5 @@
 import pytest
 
-from robot_agent.contract import LightCommand
 from robot_agent.runner import BrainError, Runner, ask_setup, serve
 from schemas.bus.in_process_bus import Medium
 from schemas.errors import TouchlineError
@@ -47,20 +46,6 @@ def test_a_sight_is_answered_with_the_brains_command(played, sight_of):
     received = commands.receive()
     assert received.key == "robot/cyan2/command"
     assert received.message() == Command(answers_tick=4, drive=Drive(vx=0.1))
-
-
-def test_a_light_command_is_sent_as_any_other(seats, sight_of):
-    host, robot = seats
-    commands, sights = host.subscribe(COMMAND), host.publisher(SIGHT, robot="cyan2")
-
-    class Light:
-        def act(self, sight):
-            return LightCommand(answers_tick=sight.tick, drive=Drive(vx=0.5), dribble=True)
-
-    runner = Runner(robot, Light(), "cyan2")
-    sights.put(sight_of(4))
-    assert runner.answer_next(0.0)
-    assert commands.receive().payload == Command(answers_tick=4, drive=Drive(vx=0.5), dribble=True).encode()
 
 
 def test_a_command_is_stamped_with_the_simulated_time_of_its_sight(played, sight_of):

@@ -2,6 +2,7 @@ import math
 import random
 
 import pytest
+from msgspec.structs import replace
 
 from robot_agent.bodies import Ball
 from robot_agent.opponents import REMEMBERED
@@ -79,7 +80,7 @@ def test_a_picture_is_moved_on_by_its_age_and_said_twice_it_says_nothing_new(wor
     seen = BallSight(x=2.0, y=0.0, vx=3.0, vy=0.0, age=0.02)
     first = world.update(sight_of(5, ball=seen)).ball.now
     assert first.x == pytest.approx(2.0 + 3.0 * 0.02, abs=1e-3)
-    again = world.update(sight_of(6, ball=seen.model_copy(update={"age": 0.04}))).ball.now
+    again = world.update(sight_of(6, ball=replace(seen, age=0.04))).ball.now
     assert again == pytest.approx(Ball(*first).after(0.02, 0.5))
 
 

@@ -6,9 +6,9 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pydantic import ValidationError
 
 from schemas.config.scene import SceneOperation, SceneRequest
+from schemas.faults import FaultError
 from schemas.game import ActionName, Phase, RefereeAction, TeamPhase
 from schemas.message import BadMessageError, Message
 from schemas.messages.command import Command, Drive, Kick, KickMode, Radio
@@ -24,14 +24,14 @@ FINITE = st.floats(allow_nan=False, allow_infinity=False)
     ("payload", "reason"),
     [
         (b'{"version":"1.0","answers_tick":1,"drive":{"vx":NaN,"vy":0,"omega":0}}', "drive.vx"),
-        (b'{"version":"1.0","answers_tick":1,"drive":{"vx":1e300,"vy":0,"omega":0}}', "less than or equal to 20"),
+        (b'{"version":"1.0","answers_tick":1,"drive":{"vx":1e300,"vy":0,"omega":0}}', "m/s from -20 to 20"),
         (b'{"version":"1.0","answers_tick":1,"kick":{"mode":"banana","speed":3}}', "kick.mode"),
         (b'{"version":"1.0","answers_tick":1,"kick":{"mode":"lob","speed":-3}}', "kick.speed"),
         (b'{"version":"1.0","answers_tick":-1}', "answers_tick"),
         (b'{"version":"1.0"}', "answers_tick is"),
         (b'{"version":"1.0","answers_tick":1,"nonsense":2}', "nonsense"),
-        (b'{"version":"1.0","answers_ti', "Invalid JSON"),
-        (b"\x00\xff", "Invalid JSON"),
+        (b'{"version":"1.0","answers_ti', "not JSON"),
+        (b"\x00\xff", "not JSON"),
         (b"[]", "Command"),
         (b" " * 10_000, "10000 bytes, at most 4096"),
     ],
@@ -55,7 +55,7 @@ def test_a_newer_minor_version_is_understood() -> None:
 
 def test_what_was_made_is_never_changed() -> None:
     command = Command(answers_tick=1)
-    with pytest.raises(ValidationError):
+    with pytest.raises(AttributeError):
         command.answers_tick = 2  # type: ignore[misc]
 
 
@@ -67,15 +67,15 @@ def test_floats_cross_the_wire_bit_for_bit(x: float, y: float, z: float) -> None
 
 
 def test_nan_is_refused_where_it_is_made() -> None:
-    with pytest.raises(ValidationError):
+    with pytest.raises(FaultError, match=r"drive\.vx is nan; m/s from -20 to 20"):
         Drive(vx=math.nan)
 
 
 def test_a_radio_message_has_room_for_a_little_of_anything_and_no_more() -> None:
     assert Radio(extra={"plan": "press", "share": 0.5, "sure": True}).extra["plan"] == "press"
-    with pytest.raises(ValidationError):
+    with pytest.raises(FaultError):
         Radio(extra={f"key{n}": n for n in range(17)})
-    with pytest.raises(ValidationError):
+    with pytest.raises(FaultError):
         Radio(intention="x" * 81)
 
 
@@ -83,7 +83,7 @@ def test_a_radio_message_has_room_for_a_little_of_anything_and_no_more() -> None
 def test_every_message_has_a_json_schema(name: str) -> None:
     message = TOPICS[name].message
     if message is not None:
-        assert json.dumps(message.model_json_schema())
+        assert json.dumps(message.json_schema())
 
 
 def test_a_command_reads_as_in_the_protocol() -> None:

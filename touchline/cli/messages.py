@@ -2,25 +2,22 @@
 
 from typing import TypeVar
 
-from pydantic import BaseModel, ValidationError
-
 from schemas.errors import TouchlineError
-from schemas.message import reason_of
+from schemas.faults import FaultError, validated
 
-Model = TypeVar("Model", bound=BaseModel)
+ProcessKind = TypeVar("ProcessKind")
 
 
-def message_from_options(model: type[Model], **content: object) -> Model:
+def message_from_options(kind: type[ProcessKind], **content: object) -> ProcessKind:
     """The message with this content.
 
     Raises:
         TouchlineError: a value that it may not have, or two that do not agree.
     """
     try:
-        return model.model_validate(content)
-    except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        if not first["loc"]:
-            raise TouchlineError(reason_of(error)) from None
-        option = "--" + "-".join(str(first["loc"][0]).split("_"))
-        raise TouchlineError(f"{option} is {first['input']}: {first['msg'][0].lower()}{first['msg'][1:]}") from None
+        return validated(kind, content)
+    except FaultError as error:
+        fault = error.fault
+        if fault.path:
+            fault = fault._replace(path=("--" + str(fault.path[0]).replace("_", "-"), *fault.path[1:]))
+        raise TouchlineError(fault.sentence()) from None

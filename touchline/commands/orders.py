@@ -10,6 +10,7 @@ from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
 from schemas.side import Side
+from schemas.struct import check
 from touchline.cli import options
 from touchline.cli.bus_client import bus_client
 from touchline.cli.messages import message_from_options
@@ -26,9 +27,11 @@ def _point(words: str) -> Point:
     """`2,-1.5` as a point."""
     try:
         x, y = (float(word) for word in words.split(","))
-        return Point(x=x, y=y)
+        point = Point(x=x, y=y)
+        check(point)
     except ValueError:
         raise typer.BadParameter(f"{words} is no point; write x and y in m, like 2,-1.5") from None
+    return point
 
 
 PointOption = Annotated[Point | None, typer.Option(metavar="X,Y", parser=_point, help="m, team frame.")]

@@ -113,16 +113,14 @@ def _value(text: str) -> "Value":
 
 
 def _request(**content: object) -> "ParametersRequest":
-    from pydantic import ValidationError
-
+    from schemas.faults import FaultError, validated
     from schemas.messages.parameters import ParametersRequest
 
     try:
-        return ParametersRequest.model_validate(content)
-    except ValidationError as error:
-        first = error.errors(include_url=False)[0]
+        return validated(ParametersRequest, content)
+    except FaultError as error:
         raise TouchlineError(
-            f"{first['input']!r} is no name of a parameter; touchline parameters list shows them"
+            f"{error.fault.value!r} is no name of a parameter; touchline parameters list shows them"
         ) from None
 
 

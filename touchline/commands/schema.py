@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.message import Part
+from schemas.message import Part, WireMessage
 from schemas.topics import TOPICS
 
 
@@ -20,14 +20,14 @@ def schema(
     models = known()
     if name not in models:
         raise TouchlineError(f'schema of "{name}": no such topic or message; {did_you_mean(name, models)}')
-    typer.echo(json.dumps(models[name].model_json_schema(by_alias=True), ensure_ascii=False, indent=2))
+    typer.echo(json.dumps(models[name].json_schema(), ensure_ascii=False, indent=2))
 
 
-def known() -> dict[str, type[Part]]:
+def known() -> dict[str, type[WireMessage | Part]]:
     """Topic and class name → message, answers to questions and the match file included."""
     from schemas.config.match_config import MatchConfig
 
-    models: dict[str, type[Part]] = {"MatchConfig": MatchConfig}
+    models: dict[str, type[WireMessage | Part]] = {"MatchConfig": MatchConfig}
     for topic, row in TOPICS.items():
         if row.message is not None:
             models |= {topic: row.message, row.message.__name__: row.message}

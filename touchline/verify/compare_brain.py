@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from recordings.reading.recording import Recording
-from robot_agent.contract import COMMANDS, Brain, Briefing, load_brain
+from robot_agent.contract import Brain, Briefing, load_brain
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight
@@ -113,7 +113,7 @@ def _compared(
         if recorded is None or sight.tick <= shown:
             continue  # the robot never saw it, or it was sent again
         shown, compared = sight.tick, compared + 1
-        differences = list(_differences(recorded.model_dump(), _answer(brain, spec, sight).model_dump()))
+        differences = list(_differences(recorded.plain(), _answer(brain, spec, sight).plain()))
         different += bool(differences)
         for name, before, now in differences:
             fields[name] = fields.get(name, 0) + 1
@@ -129,7 +129,7 @@ def _answer(brain: Brain, spec: str, sight: Sight) -> Command:
     except Exception as error:
         what = f"{type(error).__name__}: {' '.join(str(error).split())}"
         raise MatchFailedError(f"{spec} raised at tick {sight.tick}: {what}") from error
-    if not isinstance(command, COMMANDS):
+    if not isinstance(command, Command):
         raise MatchFailedError(f"{spec} returned {command!r} at tick {sight.tick}; return a Command")
     return Command.decode(command.encode())
 

@@ -8,7 +8,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from recordings.reading.recording import Recording
-from robot_agent.contract import read_sight
 from schemas.errors import TouchlineError
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
@@ -66,7 +65,7 @@ class RegeneratedSights:
                 self.until = f"at tick {applied.tick} the world is not the recorded one any more"
                 return
             if self.robot in simulation.now.sights:
-                yield read_sight(simulation.now.sights[self.robot])
+                yield Sight.decode(simulation.now.sights[self.robot])
 
     def _step(self, simulation: Simulation, applied: Applied, lockstep: bool) -> None:
         values = {name: value for name, value in applied.parameters.items() if value is not None}

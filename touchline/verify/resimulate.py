@@ -27,7 +27,7 @@ from recordings.reading.tick_index import (
 )
 from schemas.errors import TouchlineError
 from schemas.message import BadMessageError
-from schemas.messages.host import Applied, without_chain
+from schemas.messages.host import Applied, chained_part_of
 from sim_host.match.resimulation import ImpossibleTickError, Resimulation, differences
 from sim_host.physics.engine import fingerprint
 from touchline.verify.resim_start import resim_start
@@ -205,7 +205,7 @@ def resimulate_segment(path: Path, segment: Segment) -> _SegmentResult:
 
 def _compared(again: Resimulation, applied: Applied, record: TickRecord) -> Discrepancy | None:
     """One tick; nothing when it is as recorded."""
-    tick = again.step(applied, without_chain(record.recorded.payload))
+    tick = again.step(applied, chained_part_of(record.recorded.payload))
     found = differences(record.world, tick.bodies) if record.world is not None else []
     if not found and tick.chain == applied.chain:
         return None

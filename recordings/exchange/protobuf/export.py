@@ -2,14 +2,17 @@
 
 from pathlib import Path
 
-from pydantic_core import to_json, to_jsonable_python
+from google.protobuf.json_format import ParseDict
+from google.protobuf.message import Message as ProtobufMessage
+from google.protobuf.message_factory import GetMessageClass
+from pydantic_core import to_json
 
 from recordings.container.environment import library
+from recordings.container.file_descriptors import file_descriptor_set
 from recordings.container.typed_writer import TypedWriter
 from recordings.exchange.atomic_output import ExportSummary, atomic_output
-from recordings.exchange.protobuf.descriptor import PACKAGE, descriptor_set, proto_text
-from recordings.exchange.protobuf.encode import encode
-from recordings.exchange.protobuf.shape import Shape, shape_of
+from recordings.exchange.protobuf.message_type import message_type
+from recordings.exchange.protobuf.proto_text import proto_text
 from recordings.reading.recording import Recording
 
 ORIGIN = "exported_from"
@@ -22,7 +25,7 @@ def export(recording: Recording, out: Path) -> ExportSummary:
     Raises:
         TouchlineError: `out` is there already or cannot be written, or the recording is damaged inside.
     """
-    shapes: dict[str, Shape] = {}
+    classes: dict[str, type[ProtobufMessage]] = {}
     written: dict[str, int] = {}
     origin = {
         "file": recording.path.name,
@@ -35,13 +38,16 @@ def export(recording: Recording, out: Path) -> ExportSummary:
         writer.metadata(ORIGIN, origin)
         for recorded, message in recording.decoded():
             name = type(message).__name__
-            if name not in shapes:
-                shape = shapes[name] = shape_of(type(message))
-                writer.attach(f"{name}.proto", proto_text(shape).encode())
-                writer.schema(name, f"{PACKAGE}.{name}", "protobuf", descriptor_set(shape))
+            if name not in classes:
+                descriptor = message_type(type(message))
+                classes[name] = GetMessageClass(descriptor)
+                writer.attach(f"{name}.proto", proto_text(descriptor).encode())
+                writer.schema(name, descriptor.full_name, "protobuf", file_descriptor_set(descriptor))
             if recorded.key not in written:
                 writer.channel(recorded.key, name, "protobuf", {"topic": recorded.topic.key, "message": name})
-            payload = encode(shapes[name], to_jsonable_python(message, by_alias=True))
-            writer.message(recorded.key, payload, recorded.log_ns, recorded.sent_ns, recorded.sequence)
+            payload = ParseDict(message.plain(), classes[name]())
+            writer.message(
+                recorded.key, payload.SerializeToString(), recorded.log_ns, recorded.sent_ns, recorded.sequence
+            )
             written[recorded.key] = written.get(recorded.key, 0) + 1
     return ExportSummary(out, written, dict(recording.unreadable))

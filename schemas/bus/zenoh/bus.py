@@ -3,7 +3,7 @@
 Only the modules of this folder import Zenoh.
 """
 
-import threading
+import atexit
 import weakref
 from typing import Any
 
@@ -28,7 +28,7 @@ from schemas.bus.zenoh.reader import ZenohReader
 from schemas.bus.zenoh.session import SessionContext, open_connection, open_router
 from schemas.bus.zenoh.stream import ZenohPublisher, ZenohSubscription
 from schemas.bus.zenoh.wait_timer import WaitTimer
-from schemas.message import Message
+from schemas.message import WireMessage
 from schemas.process.clock import Clock
 from schemas.topic import Delivery, Topic
 from schemas.topics import TOPICS, key_prefix
@@ -86,7 +86,7 @@ class ZenohBus(Bus):
         self._mailboxes.append(server.mailbox)
         return server
 
-    def query(self, topic: Topic, request: Message, timeout: float = 2.0, **chunks: str) -> PendingReply:
+    def query(self, topic: Topic, request: WireMessage, timeout: float = 2.0, **chunks: str) -> PendingReply:
         return ZenohPendingReply(topic, full_key(topic, chunks), request, timeout, self._open())
 
     def declare_alive(self, kind: str, name: str) -> None:
@@ -130,7 +130,7 @@ class ZenohBus(Bus):
 
 
 def _close_at_exit(bus: ZenohBus) -> None:
-    """Close before Zenoh's threads are joined: an interpreter that exits with an open session hangs."""
+    """Close before the interpreter is taken down: one that watches presence and exits with an open session hangs."""
     reference = weakref.ref(bus)
 
     def close() -> None:
@@ -138,4 +138,4 @@ def _close_at_exit(bus: ZenohBus) -> None:
         if left is not None:
             left.close()
 
-    threading._register_atexit(close)  # type: ignore[attr-defined]
+    atexit.register(close)

@@ -7,7 +7,7 @@ import zenoh
 from schemas.bus.contract import NoReplyError, PendingReply, Presence, PresenceWatch, Query, Server
 from schemas.bus.mailbox import EveryMailbox
 from schemas.bus.zenoh.session import SessionContext
-from schemas.message import Message
+from schemas.message import WireMessage
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 
@@ -17,7 +17,7 @@ class ZenohQuery(Query):
         super().__init__(topic, topic.key, query.payload.to_bytes() if query.payload is not None else b"")
         self._query = query
 
-    def reply(self, reply: Message) -> None:
+    def reply(self, reply: WireMessage) -> None:
         with self._query as query:
             query.reply(query.key_expr, reply.encode(), encoding=zenoh.Encoding.APPLICATION_JSON)
 
@@ -42,7 +42,7 @@ class ZenohServer(Server):
 
 
 class ZenohPendingReply(PendingReply):
-    def __init__(self, topic: Topic, key: str, request: Message, timeout: float, context: SessionContext) -> None:
+    def __init__(self, topic: Topic, key: str, request: WireMessage, timeout: float, context: SessionContext) -> None:
         self._topic, self._key = topic, key
         mailbox: EveryMailbox[bytes | str] = EveryMailbox()
         self._mailbox = mailbox

@@ -156,7 +156,7 @@ def test_an_order_of_one_side_waits_for_none_of_the_others(opened: Any, until: A
     async def play() -> None:
         async with opened() as bench:
             held = threading.Event()
-            bench.live._benches[Side.CYAN].order = lambda *_, **__: held.wait(30.0)
+            bench.live._order_clients[Side.CYAN].order = lambda *_, **__: held.wait(30.0)
             slow = [asyncio.create_task(bench.live.order(Side.CYAN, mode="hold")) for _ in range(50)]
             await asyncio.sleep(0)
             assert (await bench.live.order(Side.MAGENTA, mode="hold")).mode == "hold"

@@ -156,7 +156,7 @@ def test_the_whole_coach_record_of_the_paper_goes_through(referee: Program) -> N
     deed = referee.say("order", side="magenta", order=order, test_mode=13).request
     assert deed is not None and deed.order is not None
     assert deed.sides == (Side.MAGENTA,)
-    given = {name: getattr(value, "model_dump", lambda value=value: value)() for name, value in deed.order.items()}
+    given = {name: getattr(value, "plain", lambda value=value: value)() for name, value in deed.order.items()}
     assert order.items() <= given.items()
     assert (given["mode"], given["test"]) == (CoachMode.TEST, CoachTest.MOVE)
     assert given["with_ball"] and given["avoid"]

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from mcap.reader import make_reader
 from mcap.stream_reader import StreamReader
+from mcap.writer import CompressionType, Writer
 
 from recordings.editing.recovery import recover
 from recordings.inspection.recording_facts import facts_of
@@ -181,6 +182,24 @@ def test_a_damaged_chunk_is_left_out_and_the_rest_stays(several_chunks):
     assert told(several_chunks) == [entry for entry in whole if entry not in gone]
     assert facts_of(open_recording(several_chunks)).lost == len(gone)
     check_with_the_stock_readers(several_chunks)
+
+
+@pytest.mark.parametrize("which", range(3))
+def test_a_chunk_without_a_checksum_that_ends_within_a_record_is_left_out(tmp_path, which):
+    path = tmp_path / "match.mcap"
+    with path.open("wb") as file:
+        writer = Writer(file, compression=CompressionType.NONE, enable_crcs=False)
+        writer.start()
+        for number in range(3):
+            channel = writer.register_channel(str(number), "json", schema_id=0)
+            writer.add_message(channel, number, b"content %d" % number, number)
+            writer.flush()
+    content = path.read_bytes()
+    head = content.index(b"content %d" % which) - 22 - 8
+    path.write_bytes(content[:head] + (1000).to_bytes(8, "little") + content[head + 8 :])
+
+    assert recover(path).damaged == 1
+    assert check_with_the_stock_readers(path) == 2
 
 
 @pytest.mark.parametrize(

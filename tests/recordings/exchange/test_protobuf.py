@@ -9,18 +9,18 @@ from typing import Any
 
 import pytest
 from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
+from google.protobuf.json_format import ParseDict
 from google.protobuf.unknown_fields import UnknownFieldSet
 from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
-from pydantic_core import to_jsonable_python
 
+from recordings.container.file_descriptors import file_descriptor_set
 from recordings.container.json_schema import whole_schema
-from recordings.exchange.protobuf.descriptor import descriptor_set, proto_text
-from recordings.exchange.protobuf.encode import encode
 from recordings.exchange.protobuf.export import export
-from recordings.exchange.protobuf.shape import shape_of
+from recordings.exchange.protobuf.message_type import message_type
+from recordings.exchange.protobuf.proto_text import proto_text
 from recordings.reading.recording import Recording
-from schemas.message import Message
+from schemas.message import WireMessage
 from schemas.messages.record_batch import RecordBatch
 from schemas.protocol.examples import examples
 from schemas.topics import TOPICS, WORLD
@@ -38,9 +38,9 @@ def plain(value: Any) -> Any:
     """A value of protobuf's as JSON has it; fields that are not set are left out."""
     if not hasattr(value, "DESCRIPTOR"):
         return value
-    if value.DESCRIPTOR.name == "Value":
-        said = value.WhichOneof("kind")
-        return [plain(one) for one in value.list.values] if said == "list" else getattr(value, said)
+    if value.DESCRIPTOR.full_name == "google.protobuf.Value":
+        kind = value.WhichOneof("kind")
+        return [plain(one) for one in value.list_value.values] if kind == "list_value" else getattr(value, kind)
     fields: dict[str, Any] = {}
     for field in value.DESCRIPTOR.fields:
         content = getattr(value, field.name)
@@ -75,17 +75,22 @@ def whole(value: Any, schema: dict[str, Any], definitions: dict[str, Any]) -> An
     return value
 
 
-def as_json(message: Message) -> Any:
+def as_json(message: WireMessage) -> Any:
     schema = whole_schema(type(message))
-    return whole(to_jsonable_python(message, by_alias=True), schema, schema.get("$defs", {}))
+    return whole(message.plain(), schema, schema.get("$defs", {}))
 
 
-def stock_class(model: type[Message]) -> Any:
-    files = descriptor_pb2.FileDescriptorSet.FromString(descriptor_set(shape_of(model)))
+def stock_class(model: type[WireMessage]) -> Any:
+    """The class that a reader makes of what stands in the file."""
+    files = descriptor_pb2.FileDescriptorSet.FromString(file_descriptor_set(message_type(model)))
     pool = descriptor_pool.DescriptorPool()
     for one in files.file:
         pool.Add(one)
     return message_factory.GetMessageClass(pool.FindMessageTypeByName(f"touchline.{model.__name__}"))
+
+
+def encode(model: type[WireMessage], values: dict[str, Any]) -> bytes:
+    return ParseDict(values, message_factory.GetMessageClass(message_type(model))()).SerializeToString()
 
 
 def test_every_message_of_a_match_is_decoded_to_the_last_bit_by_the_stock_reader(real: Recording, file: Path) -> None:
@@ -120,10 +125,9 @@ def test_the_channels_are_typed_and_the_types_attached(file: Path) -> None:
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
-def test_every_message_of_the_contract_has_a_shape_that_keeps_its_example(model: type[Message]) -> None:
+def test_every_message_of_the_contract_has_a_class_that_keeps_its_example(model: type[WireMessage]) -> None:
     example = examples()[model]
-    payload = encode(shape_of(model), to_jsonable_python(example, by_alias=True))
-    decoded = stock_class(model).FromString(payload)
+    decoded = stock_class(model).FromString(encode(model, example.plain()))
     assert plain(decoded) == as_json(example)
     assert len(UnknownFieldSet(decoded)) == 0
 
@@ -131,16 +135,16 @@ def test_every_message_of_the_contract_has_a_shape_that_keeps_its_example(model:
 @pytest.mark.parametrize("number", [0, 1, -1, 127, 128, 2**31, -(2**31), 2**63 - 1, -(2**63)])
 def test_whole_numbers_of_every_size_come_back(number: int) -> None:
     model = next(model for model in MODELS if model.__name__ == "RecorderProgress")
-    payload = encode(shape_of(model), {"version": "1.0", "tick": number, "messages": 1, "lost": 0})
+    payload = encode(model, {"version": "1.0", "tick": number, "messages": 1, "lost": 0})
     assert stock_class(model).FromString(payload).tick == number
 
 
-def test_nothing_is_told_from_nought() -> None:
+def test_none_differs_from_zero() -> None:
     model = next(model for model in MODELS if model.__name__ == "GameEvent")
-    shape, stock = shape_of(model), stock_class(model)
-    nought = stock.FromString(encode(shape, {"measured": 0.0}))
-    nothing = stock.FromString(encode(shape, {"measured": None}))
-    assert (nought.HasField("measured"), nothing.HasField("measured")) == (True, False)
+    stock = stock_class(model)
+    zero = stock.FromString(encode(model, {"measured": 0.0}))
+    none = stock.FromString(encode(model, {"measured": None}))
+    assert (zero.HasField("measured"), none.HasField("measured")) == (True, False)
 
 
 def test_the_lines_of_the_documents_read_it_in_a_python_that_knows_nothing_of_this_project(
@@ -167,7 +171,7 @@ def test_the_lines_of_the_documents_read_it_in_a_python_that_knows_nothing_of_th
 
 def test_the_proto_text_is_written_for_people() -> None:
     model = next(model for model in MODELS if model.__name__ == "Command")
-    text = proto_text(shape_of(model))
+    text = proto_text(message_type(model))
     assert text.startswith('syntax = "proto3";\npackage touchline;\n')
     assert "  optional int64 acknowledges_order = " in text
     assert text.count("{") == text.count("}")

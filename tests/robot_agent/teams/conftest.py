@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable
 
 import pytest
+from msgspec.structs import asdict, replace
 
 from robot_agent.contract import Briefing, load_brain
 from schemas.messages.command import Command, Motion
@@ -34,12 +35,10 @@ class Squad:
         """One tick: everybody's command."""
         commands = {name: brain.act(self.sight(name, **seen)) for name, brain in self.brains.items()}
         for name, heard in self.said.items():
-            self.said[name] = heard.model_copy(update={"age": heard.age + 0.02})
+            self.said[name] = replace(heard, age=heard.age + 0.02)
         for name, command in commands.items():
             if command.radio is not None:
-                self.said[name] = ReceivedRadio(
-                    age=0.0, **{key: getattr(command.radio, key) for key in type(command.radio).model_fields}
-                )
+                self.said[name] = ReceivedRadio(age=0.0, **asdict(command.radio))
         self.tick += 1
         return commands
 

@@ -1,6 +1,7 @@
 """Test mode in single decisions; what comes of it in the simulated world, `tests/match/test_coach_tests.py` shows."""
 
 import pytest
+from msgspec.structs import replace
 
 from robot_agent.teams.coach_tests import LEAVES
 from schemas.game import Point, TeamPhase
@@ -13,7 +14,7 @@ STARTS = {1: (-10.5, 0.0, 0.0), 2: (2.0, 1.0, 0.0), 3: (-2.0, -1.0, 0.0)}
 
 
 def order(test: CoachTest, sequence: int = 7, **content: object) -> CoachOrder:
-    return CoachOrder.model_validate({"sequence": sequence, "mode": CoachMode.TEST, "test": test, **content})
+    return CoachOrder(sequence=sequence, mode=CoachMode.TEST, test=test, **content)
 
 
 SHOOT = order(CoachTest.SHOOT, robot_a="cyan2")
@@ -28,7 +29,7 @@ def test_whom_the_order_does_not_name_stands_still_and_acknowledges(squad, team,
         commands = made.act(ball=(4.0, 2.0), order=given)
         assert [commands[name].drive for name in ("cyan1", "cyan3")] == [Drive(), Drive()]
         assert all(command.acknowledges_order == 7 for command in commands.values())
-    assert dict(commands["cyan2"].drive) != dict(Drive())
+    assert commands["cyan2"].drive != Drive()
 
 
 @pytest.mark.parametrize("team", TEAMS)
@@ -73,7 +74,7 @@ def test_a_ball_that_is_not_seen_is_looked_for(squad, team):
     made = squad(team, STARTS)
     for _ in range(200):
         commands = made.act(ball=None, order=SHOOT)
-    assert dict(commands["cyan2"].drive) != dict(Drive()) and commands["cyan3"].drive == Drive()
+    assert commands["cyan2"].drive != Drive() and commands["cyan3"].drive == Drive()
 
 
 @pytest.mark.parametrize("team", TEAMS)
@@ -82,7 +83,7 @@ def test_equal_orders_are_shown_alike_by_both_sides(squad, team):
     sides = {side: squad(team, STARTS, side=side) for side in Side}
     for _ in range(30):
         commands = [
-            [dict(one) | {"radio": None} for one in made.act(ball=(4.0, 2.0), order=given[side]).values()]
+            [replace(one, radio=None) for one in made.act(ball=(4.0, 2.0), order=given[side]).values()]
             for side, made in sides.items()
         ]
         assert commands[0] == commands[1]

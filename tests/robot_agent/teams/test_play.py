@@ -4,6 +4,7 @@ import itertools
 import math
 
 import pytest
+from msgspec.structs import replace
 
 from robot_agent.contract import Briefing, load_brain
 from robot_agent.teams.player import RADIO_EVERY
@@ -227,7 +228,7 @@ def test_what_was_believed_is_void_in_another_episode(squad, team):
     for episode, anew in ((1, False), (2, True), (2, False)):
         believed = brain._world
         sight = made.sight("cyan2", ball=(3.0, 1.0))
-        brain.act(sight.model_copy(update={"game": sight.game.model_copy(update={"episode": episode})}))
+        brain.act(replace(sight, game=replace(sight.game, episode=episode)))
         made.tick += 1
         assert (brain._world is not believed) is anew
 
@@ -237,7 +238,7 @@ def test_both_sides_do_the_same_in_the_same_situation(squad, team):
     sides = [squad(team, side=side) for side in Side]
     for _ in range(30):
         commands = [
-            [dict(command) | {"radio": None} for command in made.act(ball=(1.0, 0.5, -0.5, 0.0)).values()]
+            [replace(command, radio=None) for command in made.act(ball=(1.0, 0.5, -0.5, 0.0)).values()]
             for made in sides
         ]
         assert commands[0] == commands[1]

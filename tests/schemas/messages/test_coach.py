@@ -4,10 +4,10 @@ import math
 from typing import Any
 
 import pytest
-from pydantic import ValidationError
 
+from schemas.faults import FaultError
 from schemas.game import Point
-from schemas.message import BadMessageError, reason_of
+from schemas.message import BadMessageError
 from schemas.messages.coach import REQUIRED_FIELDS, CoachMode, CoachOrder, CoachTest
 
 WHOLE: dict[str, Any] = {
@@ -20,14 +20,14 @@ WHOLE: dict[str, Any] = {
 
 
 def refused(**content: Any) -> str:
-    with pytest.raises(ValidationError) as error:
+    with pytest.raises(FaultError) as error:
         CoachOrder(sequence=1, **content)
-    return reason_of(error.value)
+    return error.value.fault.sentence()
 
 
 def test_every_test_has_its_needs_written_down() -> None:
     assert list(REQUIRED_FIELDS) == list(CoachTest)
-    assert {name for needs in REQUIRED_FIELDS.values() for name in needs} <= set(CoachOrder.model_fields)
+    assert {name for needs in REQUIRED_FIELDS.values() for name in needs} <= set(CoachOrder.__struct_fields__)
 
 
 @pytest.mark.parametrize("test", CoachTest)

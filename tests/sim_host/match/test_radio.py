@@ -1,16 +1,18 @@
 """The radio: delay, jitter, loss and budget, the same for equal seeds (reference 13, row 27)."""
 
-import json
 import math
 from dataclasses import replace
 from typing import Any
 
+from msgspec import to_builtins
 from pytest import approx
 
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.sections import RadioChannel
 from schemas.messages.command import Radio
+from schemas.messages.sight import ReceivedRadio
+from schemas.struct import encode
 from sim_host.match.radio import RadioAir
 from sim_host.sensing.random_streams import RandomStreams
 from sim_host.snapshot import Roster
@@ -25,7 +27,7 @@ def radio(air: RadioChannel = CLEAR, seed: int = 1) -> RadioAir:
 
 
 def heard(air: RadioAir, tick: int) -> dict[str, Any]:
-    return {name: json.loads(one) for name, one in zip(ROSTER.names, air.receive(tick), strict=True)}
+    return {name: to_builtins(one) for name, one in zip(ROSTER.names, air.receive(tick), strict=True)}
 
 
 def test_a_word_reaches_all_teammates_and_nobody_else() -> None:
@@ -117,14 +119,14 @@ def test_a_changed_air_is_that_of_all_words_from_now_on() -> None:
 
 def test_teammates_who_stay_when_others_come_and_go_have_heard_what_they_heard() -> None:
     word = Radio(intention="x" * 60)
-    size = 8 * len(word.model_dump_json(exclude_defaults=True))
+    size = 8 * len(encode(word))
     air = radio(replace(CLEAR, delay=0.04, budget=3.0 * size))
     for tick, name in enumerate(("cyan1", "cyan2", "cyan3")):
         air.send(tick, name, word)
     air.receive(2)
     roster = Roster(("cyan2", "cyan1", "cyan9"), ROSTER.sides[:3], {}, ROSTER.models[:3])
     heir = air.with_roster(roster)
-    now = [set(json.loads(one)) for one in heir.receive(3)]
+    now = [set(one) for one in heir.receive(3)]
     assert now == [{"cyan1"}, {"cyan2"}, set()], "one word heard before, one on its way"
     assert "budget" in str(heir.send(4, "cyan9", word)), "the team has said what it has said"
 
@@ -152,7 +154,7 @@ def test_as_many_words_are_lost_as_the_profile_says_each_on_its_own_way() -> Non
 
 def test_a_word_beyond_the_teams_budget_is_refused_until_a_second_has_passed() -> None:
     word = Radio(intention="x" * 60)
-    size = 8 * len(word.model_dump_json(exclude_defaults=True))
+    size = 8 * len(encode(word))
     air = radio(replace(CLEAR, budget=2.5 * size))
     assert air.send(0, "cyan1", word) is None
     assert air.send(1, "cyan2", word) is None
@@ -163,7 +165,7 @@ def test_a_word_beyond_the_teams_budget_is_refused_until_a_second_has_passed() -
 
 def test_the_budget_is_counted_to_the_byte() -> None:
     word = Radio(intention="x" * 60, role="ü")
-    size = 8 * len(word.model_dump_json(exclude_defaults=True).encode())
+    size = 8 * len(encode(word))
     enough, short = radio(replace(CLEAR, budget=3.0 * size)), radio(replace(CLEAR, budget=3.0 * size - 1.0))
     for air, last in ((enough, True), (short, False)):
         assert air.send(0, "cyan1", word) is None and air.send(1, "cyan2", word) is None
@@ -177,7 +179,7 @@ def test_the_league_s_budget_is_the_default() -> None:
 
 
 def test_equal_seeds_lose_equal_words() -> None:
-    def run(seed: int) -> list[bytes]:
+    def run(seed: int) -> list[dict[str, ReceivedRadio]]:
         air = radio(replace(CLEAR, loss=0.5), seed)
         for tick in range(50):
             air.send(tick, "cyan1", Radio(intention=str(tick)))

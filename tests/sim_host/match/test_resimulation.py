@@ -2,20 +2,21 @@
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import Any
 
 import pytest
-from pydantic_core import from_json, to_json
+from msgspec.structs import replace
+from pydantic_core import from_json
 
 from schemas.config.match_config import load_match
 from schemas.config.roster import Placement
 from schemas.config.scene import SceneOperation, SceneRequest
 from schemas.message import VERSION
 from schemas.messages.command import Command, Drive, Kick, KickMode
-from schemas.messages.host import Applied, AppliedInput, without_chain
+from schemas.messages.host import Applied, AppliedInput, chained_part_of
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.world import World
+from schemas.struct import encode
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.resimulation import (
     CheckpointState,
@@ -115,16 +116,16 @@ UNITS = {"method": "", "model": "", "stiffness": "N/m", "damping": "N·s/m"}
 
 
 def notes(ticks: list[TickResult]) -> list[tuple[Applied, bytes]]:
-    return [(Applied.decode(tick.applied_encoded), without_chain(tick.applied_encoded)) for tick in ticks]
+    return [(Applied.decode(tick.applied_encoded), chained_part_of(tick.applied_encoded)) for tick in ticks]
 
 
 def world_of(tick: TickResult) -> World:
     """As it is read from a recording."""
-    return World.decode(to_json({"version": VERSION, **tick.world}))
+    return World.decode(encode({"version": VERSION, **tick.world}))
 
 
 def fields_of(tick: TickResult) -> dict[str, Any]:
-    fields: dict[str, Any] = from_json(to_json(tick.world))
+    fields: dict[str, Any] = from_json(encode(tick.world))
     return fields
 
 
@@ -195,13 +196,13 @@ def edited(plain, tick: int, change: Callable[[AppliedInput], AppliedInput]) -> 
     applied = told[tick][0]
     inputs = {**applied.inputs, "cyan2": change(applied.inputs["cyan2"])}
     fields = {**from_json(ticks[tick].applied_encoded), "inputs": inputs}
-    payload = to_json(fields)
-    told[tick] = (applied.model_copy(update={"inputs": inputs}), without_chain(payload))
+    payload = encode(fields)
+    told[tick] = (applied.model_copy(update={"inputs": inputs}), chained_part_of(payload))
     return told
 
 
 def ulp(one: AppliedInput) -> AppliedInput:
-    return replace(one, drive=one.drive.model_copy(update={"vx": math.nextafter(one.drive.vx, 9.0)}))
+    return replace(one, drive=replace(one.drive, vx=math.nextafter(one.drive.vx, 9.0)))
 
 
 @pytest.mark.parametrize("tick", [1, 17, 40])

@@ -2,7 +2,7 @@
 
 import pytest
 
-from schemas.game import GameView, Point, TeamPhase
+from schemas.game import Point, TeamPhase
 from schemas.side import Side
 from sim_host.referee.game_views import game_views
 
@@ -18,7 +18,7 @@ def test_both_teams_see_a_corner_at_the_end_its_taker_attacks(rig, halves_over):
     rig.ask("corner", Side.CYAN)
     rig.until(lambda state: state.spot is not None)
     inset = rig.book.restarts.corner_inset
-    ours, theirs = [GameView.model_validate_json(view) for view in game_views(rig.state, rig.roster).values()]
+    ours, theirs = game_views(rig.state, rig.roster).values()
     assert (ours.phase, theirs.phase) == (TeamPhase.OUR_CORNER, TeamPhase.THEIR_CORNER)
     assert (ours.our_score, ours.their_score) == (theirs.their_score, theirs.our_score) == (0, 1)
     assert ours.spot.x == pytest.approx(rig.pitch.goal_line - inset)
@@ -29,5 +29,4 @@ def test_both_teams_see_a_corner_at_the_end_its_taker_attacks(rig, halves_over):
 def test_in_play_both_see_the_same_and_no_spot(rig):
     rig.playing()
     cyan, magenta = game_views(rig.state, rig.roster).values()
-    seen = GameView.model_validate_json(cyan)
-    assert cyan == magenta and seen.phase is TeamPhase.PLAY and seen.running and seen.spot is None
+    assert cyan == magenta and cyan.phase is TeamPhase.PLAY and cyan.running and cyan.spot is None

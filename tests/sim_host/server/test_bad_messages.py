@@ -18,15 +18,15 @@ from sim_host.snapshot import Roster
 RUBBISH = {
     "a number that is none": (b'{"answers_tick":1,"drive":{"vx":NaN}}', "drive.vx is nan"),
     "an absurd speed": (b'{"version":"1.0","answers_tick":1,"drive":{"vx":1e9}}', "drive.vx is 1000000000.0"),
-    "a truncated payload": (Command(answers_tick=1).encode()[:-7], "payload is "),
-    "words": (b"drive ahead!", "payload is b'drive ahead!'"),
+    "a truncated payload": (Command(answers_tick=1).encode()[:-7], " is not JSON: "),
+    "words": (b"drive ahead!", "b'drive ahead!' is not JSON"),
     "ten thousand bytes": (b"x" * 10_000, "10000 bytes, at most 4096"),
-    "nothing": (b"", "payload is b''"),
-    "bytes that are no text": (b"\xff\xfe\x00", "payload is "),
+    "nothing": (b"", "b'' is not JSON"),
+    "bytes that are no text": (b"\xff\xfe\x00", " is not JSON: "),
     "an answer to a tick to come": (Command(answers_tick=500).encode(), "answers_tick is 500, the newest sight is 5"),
     "an answer to a tick before the first": (b'{"answers_tick":-1}', "answers_tick is -1"),
     "another major version": (b'{"version":"2.0","answers_tick":1}', "version 2.0 is not spoken here"),
-    "an unknown field": (b'{"version":"1.0","answers_tick":1,"jump":true}', "jump is True"),
+    "an unknown field": (b'{"version":"1.0","answers_tick":1,"jump":true}', "jump is not known"),
 }
 
 
@@ -114,7 +114,7 @@ def test_a_flood_does_not_hold_the_host(monkeypatch):
     ("side", "payload", "reason"),
     [
         ("cyan", b'{"sequence":0}', "sequence is 0"),
-        ("cyan", b"go!", "payload is b'go!'"),
+        ("cyan", b"go!", "b'go!' is not JSON"),
         ("blue", CoachOrder(sequence=9).encode(), "no side is named blue"),
     ],
 )

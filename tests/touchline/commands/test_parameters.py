@@ -28,13 +28,13 @@ def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     server = bus.serve(PARAMETERS)
 
     def answer() -> None:
-        tuning = LiveParameters.of(MatchConfig())
+        live_parameters = LiveParameters.of(MatchConfig())
         while (query := server.receive(None)) is not None:
             request = query.message()
             try:
-                tuning = tuning.changed(request)
+                live_parameters = live_parameters.after_request(request)
                 asked = tuple(request.values) or tuple(request.names)
-                query.reply(ParametersReply(accepted=True, parameters=tuning.describe(asked)))
+                query.reply(ParametersReply(accepted=True, parameters=live_parameters.describe(asked)))
             except TouchlineError as error:
                 query.reply(ParametersReply(accepted=False, reason=str(error)))
 

@@ -99,13 +99,20 @@ def test_the_threads_of_one_process_are_not_handed_on_to_those_it_launches(monke
 
 
 def test_a_process_that_forgets_to_close_its_bus_ends_all_the_same() -> None:
+    endpoint = with_free_port("tcp/127.0.0.1:0")
     code = f"""
-    from schemas.bus.zenoh.bus import open_host
+    from threading import Thread
+    from schemas.bus.zenoh.bus import open_client, open_host
     from schemas.process.clock import WallClock
     from schemas.topics import ACTION, COMMAND
-    bus = open_host("test", WallClock(), {with_free_port("tcp/127.0.0.1:0")!r})
-    bus.subscribe(COMMAND).receive(0.01)
+    bus = open_host("test", WallClock(), {endpoint!r})
+    commands = bus.subscribe(COMMAND)
+    commands.receive(0.01)
     bus.serve(ACTION)
+    Thread(target=commands.receive, daemon=True).start()
+    client = open_client("test", WallClock(), {endpoint!r})
+    watch = client.watch_alive()
+    client.declare_alive("robot", "cyan1")
     raise SystemExit(7)
     """
     ended = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], timeout=60, check=False)

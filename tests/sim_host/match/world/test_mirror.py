@@ -16,6 +16,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import pytest
+from msgspec import structs
 from pytest import approx
 
 from schemas.config.profile import load_profile
@@ -51,7 +52,7 @@ class Mirror(NamedTuple):
 
     def told(self, told: AppliedInput) -> AppliedInput:
         drive = told.drive
-        return replace(told, drive=Drive(vx=drive.vx, vy=self.left * drive.vy, omega=self.left * drive.omega))
+        return structs.replace(told, drive=Drive(vx=drive.vx, vy=self.left * drive.vy, omega=self.left * drive.omega))
 
 
 TURNED = Mirror(-1, -1, 1, math.pi, swaps_sides=True)

@@ -1,0 +1,12 @@
+"""Numbers of messages with their unit, which the protocol and every complaint about such a number name."""
+
+from typing import Annotated
+
+from msgspec import Meta
+
+Metres = Annotated[float, Meta(extra={"unit": "m"})]
+MetresPerSecond = Annotated[float, Meta(extra={"unit": "m/s"})]
+Radians = Annotated[float, Meta(extra={"unit": "rad"})]
+RadiansPerSecond = Annotated[float, Meta(extra={"unit": "rad/s"})]
+Seconds = Annotated[float, Meta(extra={"unit": "s"})]
+Age = Annotated[float, Meta(ge=0, extra={"unit": "s"})]

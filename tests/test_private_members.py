@@ -1,0 +1,86 @@
+"""No private member of another package is used: a new version of it may change any without notice."""
+
+import ast
+import tomllib
+from collections.abc import Iterator
+from io import IOBase
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+OURS = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"]
+SOURCES = {
+    path: ast.parse(path.read_text("utf-8"))
+    for folder in (*OURS, "benchmarks", "docs", "examples", "tests")
+    for path in sorted((ROOT / folder).rglob("*.py"))
+}
+DOCUMENTED = {"__struct_config__", "_asdict", "_exit", "_fields", "_make", "_replace"}
+"""Of named tuples and `os`: public in spite of their names."""
+SPECIAL = {name for thing in (type, ast, ast.walk, list[int], IOBase, Exception()) for name in dir(thing)} | {
+    "__signature__",
+    "__slots__",
+    "__struct_fields__",
+}
+"""Names with two underscores at both ends that Python or msgspec documents."""
+
+
+def is_private(name: str) -> bool:
+    return name.startswith("_") and name not in DOCUMENTED | SPECIAL
+
+
+def defined() -> set[str]:
+    """Every name that this repository defines, in a module, a class, or on `self`."""
+    found = set()
+    for tree in SOURCES.values():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+                found.add(node.name)
+            elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+                found.add(node.id)
+            elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+                found.add(node.attr if ast.unparse(node.value) in ("self", "cls") else "")
+    return {name for name in found if not name.startswith("__")}
+
+
+def private_names(tree: ast.Module, ours: set[str]) -> Iterator[tuple[int, str]]:
+    """Line and name of each private member that is taken from what this repository does not define."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute) and node.attr not in ours:
+            names: tuple[str, ...] = (node.attr,)
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] not in (*OURS, "__future__"):
+            names = (*(node.module or "").split("."), *(alias.name for alias in node.names))
+        elif isinstance(node, ast.Import):
+            names = tuple(part for alias in node.names for part in alias.name.split("."))
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in ("getattr", "setattr"):
+            name = node.args[1]
+            is_known = isinstance(name, ast.Constant) and isinstance(name.value, str) and name.value not in ours
+            names = (name.value,) if is_known else ()
+        else:
+            continue
+        yield from ((node.lineno, name) for name in names if is_private(name))
+
+
+def test_no_private_member_of_another_package_is_used():
+    ours = defined()
+    assert [
+        f"{path.relative_to(ROOT)}:{line}: {name}"
+        for path, tree in SOURCES.items()
+        for line, name in private_names(tree, ours)
+    ] == []
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "writer._Writer__stream",
+        "threading._unknown_hook()",
+        "model.__pydantic_serializer__",
+        "from mcap._chunk_builder import ChunkBuilder",
+        "from mcap.writer import _unknown",
+        "import _thread",
+        'getattr(threading, "_unknown_hook")',
+    ],
+)
+def test_the_search_finds_what_it_is_for(line):
+    assert len(list(private_names(ast.parse(line), defined()))) == 1
