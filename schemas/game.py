@@ -114,10 +114,12 @@ class TeamPhase(StrEnum):
 
 
 class Point(Struct, frozen=True, kw_only=True):
-    """A point on the ground in m, in the frame its owner names."""
+    """A point on the ground, in the frame that its owner names."""
 
     x: Metres
+    """x in the frame of its owner, in m."""
     y: Metres
+    """y in the frame of its owner, in m."""
 
 
 class Score(Part):
@@ -139,15 +141,16 @@ class Score(Part):
 
 
 class DisciplinaryRecord(Struct, frozen=True, kw_only=True):
-    """How one robot stands with the referee."""
+    """The cards of one robot, and whether it is off the field."""
 
     yellow: Annotated[int, Meta(ge=0)] = 0
     """Yellow cards that count toward the next punishment."""
     red: Annotated[int, Meta(ge=0)] = 0
+    """Red cards."""
     off_field: OffField | None = None
-    """Why it does not take part, or nothing."""
+    """Why the robot does not take part; None while it does."""
     left: Seconds | None = None
-    """Off the field: s until it may come back, at the next stoppage; nothing when no time brings it back."""
+    """Time until the robot may return, at the next stoppage, in s; None on the field, and where it may not return."""
 
 
 class GameState(Message):
@@ -191,22 +194,32 @@ class GameState(Message):
 
 
 class GameView(Struct, frozen=True, kw_only=True):
-    """The game as one team sees it; `spot` in the team frame."""
+    """The state of the game from one team's point of view."""
 
     phase: TeamPhase
+    """What is being played, and whose restart it is."""
     running: bool
+    """START was given; before that, robots take their positions and may not play the ball."""
     half: int = 1
+    """The half that is being played; counts on through extra time."""
     clock: Seconds
+    """Game clock in s: playing time of this half and those before it."""
     our_score: int
+    """Our goals, without those of a penalty shoot-out."""
     their_score: int
+    """Their goals, without those of a penalty shoot-out."""
     spot: Point | None = None
+    """Where the ball is placed for the restart, in the team frame; None where the referee has set no spot."""
     stage: GameStage = GameStage.REGULAR
+    """Regular time, extra time, or the penalty shoot-out."""
     left: Seconds | None = None
-    """s until the limit of what is going on: START, ball in play, end of a break or of a shoot-out's attempt."""
+    """Time in s until the limit of the current phase (START, ball in play, end of a break or of a shoot-out's attempt);
+    None without one."""
     robots: dict[Name, DisciplinaryRecord] = msgspec.field(default_factory=dict)
-    """Our robots with a card, or off the field; all others are there and unpunished."""
+    """Our robot → its cards, and why it is off the field; robots without either are left out."""
     episode: int = 1
-    """Another number than before: the world was set up anew, and what was believed of it is void."""
+    """Counts the starts of the world. When the number changes, the world was set up anew, and earlier beliefs are
+    void."""
 
 
 class EventKind(StrEnum):

@@ -91,7 +91,7 @@ class Message(Part):
     max_bytes: ClassVar[int] = 65_536
 
     version: str = VERSION
-    """Version of the contract that the sender implements, "major.minor"."""
+    """Version of the protocol that the sender implements, "major.minor"."""
 
     def encode(self) -> bytes:
         """The message as UTF-8 JSON; floats keep every bit."""

@@ -19,6 +19,7 @@ from msgspec import Meta
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema, from_json
 
+from schemas.described import field_docstrings
 from schemas.faults import Fault, FaultError, FaultKind, fault_in, hints_of, not_json, validated
 from schemas.json_schema import in_one_piece, published
 from schemas.message import VERSION, decoded
@@ -42,8 +43,8 @@ class Struct(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
-        """The JSON Schema of the struct as it is written, whole."""
-        return published(msgspec.json.schema(cls))
+        """The JSON Schema of the struct as it is written, with all definitions."""
+        return published(msgspec.json.schema(cls), {part.__name__: field_docstrings(part) for part in _structs_in(cls)})
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
@@ -66,6 +67,7 @@ class StructMessage(Struct, frozen=True, kw_only=True):
     max_bytes: ClassVar[int] = 65_536
 
     version: str = VERSION
+    """Version of the protocol that the sender implements, "major.minor"."""
 
     def encode(self) -> bytes:
         """The message as UTF-8 JSON; floats keep every bit."""
@@ -207,6 +209,13 @@ def _is_finite(value: Any) -> bool:
     if isinstance(value, dict):
         return all(_is_finite(item) for item in value.values())
     return not isinstance(value, float) or math.isfinite(value)
+
+
+def _structs_in(hint: Any) -> set[type[Struct]]:
+    """The structs that a type is made of: those of its fields included."""
+    if isinstance(hint, type) and issubclass(hint, Struct):
+        return {hint}.union(*[_structs_in(inner) for inner in hints_of(hint).values()])
+    return set[type[Struct]]().union(*[_structs_in(inner) for inner in get_args(hint)])
 
 
 def _snake_case(name: str) -> str:

@@ -22,29 +22,6 @@ from schemas.struct import encode
 Link = Callable[[type], str]
 """How a part or an enumeration is named in the text."""
 
-COMMON_MEANINGS = {
-    "tick": "control ticks since the match began",
-    "time": "simulated time; s",
-    "clock": "game clock; s",
-    "x": "m",
-    "y": "m",
-    "z": "m",
-    "heading": "rad",
-    "vx": "m/s",
-    "vy": "m/s",
-    "vz": "m/s",
-    "omega": "rad/s",
-    "radius": "m",
-    "age": "s",
-    "speed": "m/s",
-    "angle_a": "rad",
-    "angle_b": "rad",
-    "kick_speed": "m/s",
-    "max_speed": "m/s",
-    "max_turn_rate": "rad/s",
-}
-"""What a field of this name means in every message, where its own docstring says nothing else."""
-
 _PLAIN = {str: "text", bool: "true or false", int: "whole number", float: "number"}
 
 
@@ -68,7 +45,7 @@ def rows(part: type, link: Link) -> list[Row]:
     hints = get_type_hints(part, include_extras=True)
     docstrings = field_docstrings(part)
     return [
-        Row(name, type_text(hints[name], link), default, _meaning(name, docstrings, hints[name]))
+        Row(name, type_text(hints[name], link), default, _meaning(docstrings.get(name, ""), hints[name]))
         for name, default in _defaults(part)
         if name != "version"
     ]
@@ -155,9 +132,7 @@ def _limits(kind: Any, metadata: Sequence[Any]) -> str:
     return ", ".join(limits)
 
 
-def _meaning(name: str, docstrings: dict[str, str], hint: Any) -> str:
-    for item in get_args(hint)[1:]:
-        if isinstance(item, Quantity | Choice):
-            return item.description
-    common = "" if any(_named_types(hint)) else COMMON_MEANINGS.get(name, "")
-    return docstrings.get(name) or common
+def _meaning(docstring: str, hint: Any) -> str:
+    """The docstring of a field; of a number of a profile or a rule book, its own sentence with the unit."""
+    declared = [item.description for item in get_args(hint)[1:] if isinstance(item, Quantity | Choice)]
+    return declared[0] if declared else docstring

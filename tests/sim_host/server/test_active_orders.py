@@ -91,7 +91,7 @@ def test_an_order_with_a_smaller_number_does_not_stand_and_its_sender_is_told_ho
     assert {heard.order.sequence for heard in told.all()} == {7}
     (complaint,) = invalid.all()
     assert complaint.key == "team/cyan/order"
-    assert complaint.reason == "sequence 6 is not after 7, which stands; number orders from 8 on"
+    assert complaint.reason == "sequence 6 is not above 7, which is in force; number orders from 8 on"
 
 
 def test_an_order_that_is_said_twice_is_no_fault(rig) -> None:
