@@ -16,8 +16,8 @@ from schemas.described import Described
 from schemas.faults import Fault, fault_of
 from schemas.json_schema import with_definitions
 
-VERSION = "1.0"
-"""Version of the contract that this code speaks, "major.minor"."""
+VERSION = "2.0"
+"""Version of the protocol that this package implements, "major.minor"."""
 
 Name = Annotated[
     str,
@@ -141,7 +141,7 @@ def _fault(kind: type[Message], _payload: bytes, error: Exception) -> Fault:
 
 def _versions(theirs: str) -> str:
     shown = theirs if _PLAIN_VERSION.fullmatch(theirs) else repr(theirs[:20])
-    return f"version {shown} is not spoken here, this side speaks {VERSION}; update the older side"
+    return f"version {shown} is not supported, this side has {VERSION}; update the older side"
 
 
 def _of_another_version(payload: bytes) -> str:

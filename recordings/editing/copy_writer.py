@@ -16,6 +16,7 @@ from recordings.recorder.sequence_tracker import SequenceTracker
 from recordings.viz.viz_channels import VizChannels
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
+from schemas.older_versions import converted
 from schemas.topics import TOPICS
 
 
@@ -65,7 +66,8 @@ class CopyWriter:
             self._mcap.add_message(number, log_ns, payload, sent_ns, sequence)
             topic = TOPICS.get(channel.metadata.get("topic", ""))
             if self._viz_channels is not None and topic is not None:
-                received = ReceivedMessage(topic, channel.key, payload, Stamp(sequence, sent_ns, log_ns))
+                current = converted(payload, channel.version)
+                received = ReceivedMessage(topic, channel.key, current, Stamp(sequence, sent_ns, log_ns))
                 self._viz_channels.draw(received, log_ns)
         self._messages += 1
         if counted:

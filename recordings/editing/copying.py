@@ -9,8 +9,9 @@ from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.manifest import Manifest, Result
 from recordings.container.mcap_file import ChannelRecord, is_derived
 from recordings.editing.copy_writer import CopyWriter
-from recordings.reading.recording import Recording
+from recordings.reading.recording import RecordedMessage, Recording
 from recordings.recorder.latched_messages import LatchedMessages
+from schemas.bus.contract import ReceivedMessage
 from schemas.errors import TouchlineError
 from schemas.topics import APPLIED, WORLD
 
@@ -142,7 +143,7 @@ def _from(entries: Iterable[_Entry], start_ns: int) -> Iterator[_Entry]:
 def _latched_at(recording: Recording, selection: KeySelection, start_ns: int) -> list[_Entry]:
     """What stood at a moment."""
     latched = LatchedMessages()
-    latched.update((recorded.log_ns, recorded.received()) for recorded in recording.messages(end=start_ns / 1e9))
+    latched.update((recorded.log_ns, _as_recorded(recorded)) for recorded in recording.messages(end=start_ns / 1e9))
     channels = {channel.key: channel for channel in recording.mcap_file.channels.values()}
     entries = []
     for log_ns, received in latched.messages():
@@ -150,6 +151,11 @@ def _latched_at(recording: Recording, selection: KeySelection, start_ns: int) ->
             stamp = received.stamp
             entries.append(_Entry(log_ns, channels[received.key], received.payload, stamp.sent_ns, stamp.sequence))
     return entries
+
+
+def _as_recorded(recorded: RecordedMessage) -> ReceivedMessage:
+    """The message with its own bytes, whatever version they are of."""
+    return ReceivedMessage(recorded.topic, recorded.key, recorded.payload, recorded.stamp)
 
 
 def _fields(entry: _Entry) -> tuple[ChannelRecord, int, bytes, int, int]:

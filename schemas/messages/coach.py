@@ -15,8 +15,8 @@ from schemas.struct import StructMessage, check
 MAX_SEQUENCE = 2**53 - 1
 """The largest whole number that every language reads exactly from JSON."""
 MAX_SEQUENCE_STEP = 2**51
-"""How far an order's number may exceed that of the order in force. A clock in microseconds since 1970 fits in; a mistake
-that would leave no number for the next order does not."""
+"""How far an order's number may exceed that of the order in force. A clock in microseconds since 1970 fits in; a
+mistake that would leave no number for the next order does not."""
 MAX_DISTANCE = 100.0
 """m from the centre mark; a point farther away is an error of the sender, perhaps of its units."""
 
@@ -51,8 +51,8 @@ class CoachTest(StrEnum):
     CATCH = "catch"
     """Wait at `point_a`, or where the robot is, and stop an approaching ball."""
     SHOOT = "shoot"
-    """Get the ball, bring it to `point_a` where that is given, and kick it at `point_b`, by default at the middle of the
-    goal."""
+    """Get the ball, bring it to `point_a` where that is given, and kick it at `point_b`, by default at the middle of
+    the goal."""
     MACHINE = "machine"
     """Run the paper's behaviour machine once; it dribbles to `point_a` and returns to `point_b`, by default to points
     of its own."""

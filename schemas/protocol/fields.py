@@ -1,6 +1,6 @@
-"""What a message or a part of one is made of, in words: its fields, their types and limits, and what they mean.
+"""The fields of a message or a part, in words: their types, limits, defaults and meanings.
 
-Meanings are the docstrings in the source; numbers of a profile or a rule book bring theirs, with the unit.
+Meanings are the docstrings in the source; a number of a profile or a rule book declares its own, with the unit.
 """
 
 import dataclasses
@@ -20,7 +20,7 @@ from schemas.message import Name
 from schemas.struct import encode
 
 Link = Callable[[type], str]
-"""How a part or an enumeration is named in the text."""
+"""Gives the name of a part or an enumeration in the text."""
 
 _PLAIN = {str: "text", bool: "true or false", int: "whole number", float: "number"}
 
@@ -31,7 +31,7 @@ class Row(NamedTuple):
     name: str
     type: str
     default: str
-    """JSON, or nothing where the field must be given."""
+    """The default as JSON; empty where the field is required."""
     meaning: str
 
 
@@ -41,7 +41,7 @@ def is_part(kind: Any) -> bool:
 
 
 def rows(part: type, link: Link) -> list[Row]:
-    """The fields of a part, in order, without `version`."""
+    """The fields of a part in order, without `version`."""
     hints = get_type_hints(part, include_extras=True)
     docstrings = field_docstrings(part)
     return [
@@ -52,14 +52,14 @@ def rows(part: type, link: Link) -> list[Row]:
 
 
 def parts_of(part: type) -> Iterator[type]:
-    """The parts and enumerations that the fields of a part are made of, in order."""
+    """The parts and enumerations in the types of the fields, in order."""
     hints = get_type_hints(part, include_extras=True)
     for name, _ in _defaults(part):
         yield from _named_types(hints[name])
 
 
 def type_text(hint: Any, link: Link) -> str:
-    """A type in words, with the limits it is declared with."""
+    """A type in words, with its declared limits."""
     if hint == Name:
         return "name"
     if hint is Any:
@@ -92,7 +92,7 @@ def _named_types(hint: Any) -> Iterator[type]:
 
 
 def _defaults(part: type) -> Iterator[tuple[str, str]]:
-    """Field → its default as JSON; nothing where it must be given."""
+    """Field → its default as JSON; empty where the field is required."""
     if issubclass(part, BaseModel):
         for name, info in part.model_fields.items():
             required = info.is_required()
@@ -133,6 +133,6 @@ def _limits(kind: Any, metadata: Sequence[Any]) -> str:
 
 
 def _meaning(docstring: str, hint: Any) -> str:
-    """The docstring of a field; of a number of a profile or a rule book, its own sentence with the unit."""
+    """The declared meaning of a number of a profile or a rule book, with its unit; otherwise the docstring."""
     declared = [item.description for item in get_args(hint)[1:] if isinstance(item, Quantity | Choice)]
     return declared[0] if declared else docstring

@@ -93,7 +93,7 @@ def test_channels_say_what_they_carry(rig):
         "topic": "command",
         "row": "robot/{robot}/command",
         "message": "Command",
-        "version": "1.0",
+        "version": "2.0",
         "robot": "cyan1",
         "side": "cyan",
         "team": "Team cyan",
@@ -157,7 +157,7 @@ def test_a_sender_without_simulated_time_is_recorded_at_the_hosts(make_rig):
     rig.begin()
     rig.play(range(50))
     rig.recorder.pump()
-    order.put_payload(b'{"version":"1.0","sequence":1}')
+    order.put_payload(b'{"version":"2.0","sequence":1}')
     rig.host.relay(49)
     rig.recorder.pump()
     rig.play(range(50, 100))
@@ -493,7 +493,7 @@ def test_a_stamp_counts_modulo_the_32_bits_of_the_file(rig):
 
 def test_record_batches_that_cannot_be_read_are_counted_and_passed_over(rig):
     rig.play(range(5))
-    odd = b'{"version":"1.0","tick":5,"entries":[{"key":"robot/cyan1/command","octets":"a"}]}'
+    odd = b'{"version":"2.0","tick":5,"entries":[{"key":"robot/cyan1/command","octets":"a"}]}'
     rig.host.bus.publisher(RECORD_BATCH).put_payload(odd)
     rig.play(range(5, 10))
     summary = rig.leave()

@@ -17,7 +17,7 @@ ENTRY = {"key": KEY, "message": {}, "sequence": 7, "sent_ns": 11, "sim_ns": 13, 
 
 def record_batch(*entries: Any, **fields: Any) -> ReceivedMessage:
     return ReceivedMessage(
-        RECORD_BATCH, RECORD_BATCH.key, to_json({"version": "1.0", "tick": 3, "entries": entries} | fields), None
+        RECORD_BATCH, RECORD_BATCH.key, to_json({"version": "2.0", "tick": 3, "entries": entries} | fields), None
     )
 
 
@@ -47,8 +47,8 @@ ODD = {
     "tick": record_batch(ENTRY, tick="soon"),
     "tick that is true": record_batch(ENTRY, tick=True),
     "more fields": record_batch(ENTRY, more=1),
-    "other version": record_batch(ENTRY, version="2.0"),
-    "other version with more fields": record_batch(ENTRY, version="2.0", more=1),
+    "other version": record_batch(ENTRY, version="1.0"),
+    "other version with more fields": record_batch(ENTRY, version="1.0", more=1),
     "entry": record_batch(3),
     "more in an entry": record_batch({**ENTRY, "more": 1}),
     "no key": record_batch({key: value for key, value in ENTRY.items() if key != "key"}),
@@ -61,7 +61,7 @@ ODD = {
     "broken sequence": record_batch({**ENTRY, "sequence": 1.5}),
     "time": record_batch({**ENTRY, "sent_ns": None}),
     "list": ReceivedMessage(RECORD_BATCH, RECORD_BATCH.key, b"[]", None),
-    "cut off": ReceivedMessage(RECORD_BATCH, RECORD_BATCH.key, b'{"version":"1.0","tick":3', None),
+    "cut off": ReceivedMessage(RECORD_BATCH, RECORD_BATCH.key, b'{"version":"2.0","tick":3', None),
     "too long": record_batch({**ENTRY, "message": "x" * RecordBatch.max_bytes}),
 }
 
@@ -73,9 +73,9 @@ def test_what_is_no_record_batch_is_refused_with_a_reason(odd):
 
 
 def test_another_major_version_is_named_whatever_else_is_odd():
-    with pytest.raises(BadMessageError, match=r"version 2\.0 is not spoken here"):
+    with pytest.raises(BadMessageError, match=r"version 1\.0 is not supported"):
         unbatch(ODD["other version with more fields"])
 
 
 def test_a_minor_version_is_read():
-    assert len(unbatch(record_batch(ENTRY, version="1.7"))) == 1
+    assert len(unbatch(record_batch(ENTRY, version="2.7"))) == 1

@@ -110,7 +110,7 @@ def test_an_order_with_a_huge_number_does_not_keep_out_those_after_it(rig, huge)
     invalid = rig.listen(INVALID)
     give(rig.outside, 7)
     rig.ticks(1)
-    payload = b'{"version":"1.0","sequence":%d,"mode":"park"}' % huge
+    payload = b'{"version":"2.0","sequence":%d,"mode":"park"}' % huge
     rig.outside.publisher(ORDER, side="cyan").put_payload(payload)
     rig.ticks(2)
     assert rig.host.simulation.orders[Side.CYAN].sequence == 7
