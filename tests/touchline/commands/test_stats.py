@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from mcap.reader import make_reader
 from typer.testing import CliRunner, Result
 
 from recordings.container.header import make_manifest
@@ -104,8 +105,12 @@ def test_a_recording_that_was_cut_off_is_measured_up_to_the_cut(tmp_path: Path) 
 
 def test_damage_inside_is_said_and_leaves_no_page(tmp_path: Path) -> None:
     path = write(tmp_path / "a.mcap", worlds=5000)
+    with path.open("rb") as file:
+        summary = make_reader(file).get_summary()
+    assert summary is not None
+    chunk = summary.chunk_indexes[len(summary.chunk_indexes) // 2]
     data = bytearray(path.read_bytes())
-    data[len(data) // 2] ^= 0x10
+    data[chunk.chunk_start_offset + chunk.chunk_length // 2] ^= 0x10
     path.write_bytes(data)
     result = stats(path, "--html", tmp_path / "a.html")
     assert (result.exit_code, result.stdout) == (2, "")
