@@ -60,9 +60,8 @@ class Fault(NamedTuple):
             case FaultKind.MISSING:
                 return f"{where} is missing; {remedy or 'it must be given'}"
             case FaultKind.UNKNOWN:
-                return f"{where} is not known" + (
-                    f"; {did_you_mean(str(self.path[-1]), self.known)}" if self.known else ""
-                )
+                others = f"; {did_you_mean(str(self.path[-1]), self.known)}" if self.known else ""
+                return f"{where} is not known{others}"
         if self.kind is FaultKind.RULE and not where:
             return self.expected
         if self.kind is FaultKind.RULE and self.value is None:

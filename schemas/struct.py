@@ -32,7 +32,7 @@ T = TypeVar("T")
 class Struct(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):
     """A part of a message: no extra fields, never changed after it was made.
 
-    What is read is validated. What is made is not, for speed, but where a class has the metaclass `Checked`.
+    What is read is validated. What is made is not, for speed, unless the class has the metaclass `Checked`.
     """
 
     def plain(self) -> dict[str, Any]:
@@ -82,8 +82,9 @@ class StructMessage(Struct, frozen=True, kw_only=True):
 
 
 class Checked(msgspec.StructMeta):
-    """The metaclass of structs that people make in their brains: one that is made by a call is checked like one that is
-    read, and for one that is read, or made by `msgspec.structs.replace`, nothing is done twice.
+    """The metaclass of structs that people make in their brains: what is made by a call is checked as if it were read.
+
+    What is read is checked by msgspec already, and costs nothing more. `msgspec.structs.replace` does not check.
     """
 
     def __call__(cls: type[T], *args: Any, **fields: Any) -> T:  # noqa: N805

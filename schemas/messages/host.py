@@ -189,20 +189,20 @@ class Applied(Message):
     episode: int = 1
     """Which start this tick goes back to: the match's is 1, each scene that is loaded and each reset begin another."""
     chain: str
-    """blake2b over the state of this tick and this message up to its chain, keyed with the chain before it; hex."""
+    """blake2b over the state of this tick and all other fields of this message, keyed with the chain before it; hex."""
 
 
 def chained_part(applied: Mapping[str, Any]) -> bytes:
-    """What the hash chain takes in of the fields of an `Applied`: all but the chain, in their order.
+    """What the hash chain takes in of the fields of an `Applied`: all but `chain`, in their order, as compact JSON.
 
-    As JSON without spaces, floats as short as they can be, up to the brace that ends it; so the same fields give the
-    same bytes, however the host that published them writes its JSON.
+    Floats are as short as they can be, and the brace that ends it is left out. Equal fields give equal bytes, with
+    whatever spaces a host publishes them.
     """
     return encode({name: value for name, value in applied.items() if name != "chain"})[:-1]
 
 
 def chained_part_of(payload: bytes) -> bytes:
-    """The same of an `Applied` as it was published.
+    """What the hash chain takes in of an `Applied` as it was published.
 
     Raises:
         BadMessageError: it is no JSON object.
