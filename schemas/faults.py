@@ -213,6 +213,7 @@ _EXPECTED = {
     "dataclass_type": "an object",
     "enum": "one of {expected}",
     "literal_error": "one of {expected}",
+    "string_pattern_mismatch": "text of the form {pattern}",
     "string_too_long": "text of at most {max_length} characters",
     "string_too_short": "text of at least {min_length} characters",
     "too_long": "at most {max_length} entries",

@@ -19,7 +19,7 @@ class WebServer:
     def __init__(self, bus: Bus, binding: PageBinding, log: Callable[[str], None] = lambda _: None) -> None:
         self._bus, self._binding, self._log = bus, binding, log
         settings = binding.settings
-        self.pages = Pages(settings.pages, settings.pages_each)
+        self.pages = Pages(settings.pages, settings.pages_per_address)
         requests = RequestHandler(bus)
         self._broadcaster = PageBroadcaster(bus, self.pages, requests, settings.beliefs)
         self._endpoint = SocketEndpoint(

@@ -16,6 +16,7 @@ from schemas.config.profile import SHIPPED, Profile, load_profile, profile_of, p
 from schemas.config.roster import MAX_ROBOTS, RESERVED
 from schemas.config.scene import REMEDIES as SCENE_REMEDIES
 from schemas.config.scene import Scene, load_scene
+from schemas.config.settings import DEFAULT_MATCH, RecordOptions
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import OfficiatingMode
@@ -128,34 +129,18 @@ class OfficiatingConfig(Part):
     automatic: bool = True
     """The match starts by itself when all robots are there; otherwise it waits for `touchline coach start`."""
     mode: OfficiatingMode = OfficiatingMode.AUTOMATIC
-    """The referee decides, or people alone, or it proposes and people may overrule it."""
+    """OfficiatingConfig: the referee decides, people decide, or the referee proposes and people may overrule it."""
     proposal: Annotated[float, Field(ge=0, le=60)] = 3.0
     """Mixed officiating: s of simulated time after which what was proposed is decided."""
     winner: bool | None = None
     """A level match goes on with extra time and penalties; by default as the rule book says."""
 
 
-class RecordingConfig(Part):
-    """What is recorded."""
+class RecordingConfig(RecordOptions):
+    """What is recorded, and whether the match waits for it."""
 
-    sights: bool = False
-    """The sights of all robots are recorded, too."""
     wait: bool = False
     """The first tick waits for a recorder to be there, so that nothing is missed."""
-    include: list[str] = Field(default_factory=list)
-    """Key expressions that are recorded, `robot/*/command`; all where there is none."""
-    exclude: list[str] = Field(default_factory=list)
-    """Key expressions that are not."""
-    split_size: Annotated[float, Field(gt=0)] | None = None
-    """MB after which the recording goes on in a next file."""
-    split_duration: Annotated[float, Field(gt=0)] | None = None
-    """Simulated s after which it does."""
-    keep: Annotated[int, Field(ge=1)] | None = None
-    """Number of finished files that are kept, the newest; None for all."""
-    snapshot: Annotated[float, Field(gt=0)] | None = None
-    """Simulated s before a goal that are written, each to a file of its own; nothing else is."""
-    viz: bool = True
-    """What viewers draw is in the file: `/tf` and `/viz/*`, for Foxglove, Lichtblick and Rerun."""
 
 
 class Patience(Part):
@@ -172,7 +157,7 @@ class Patience(Part):
 class MatchConfig(Part):
     """Everything that makes one match, and with equal brains the same match again."""
 
-    name: Name = "friendly"
+    name: Name = DEFAULT_MATCH
     """Name of the match on the bus."""
     seed: Annotated[int, Field(ge=0, lt=2**63)] = 1
     """Whole number that all randomness comes from."""
