@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 from coach_gateway.access.tokens import Tokens, tokens_of
 from coach_gateway.bridges import bridges_of, services_of
-from coach_gateway.match.change_log import watch
-from coach_gateway.match.lines import plain
+from coach_gateway.match.change_log import log_changes
+from coach_gateway.match.lines import printable
 from coach_gateway.service import Service
 from coach_gateway.service import run as run_services
 from coach_gateway.settings import GatewaySettings
@@ -40,7 +40,7 @@ def _show(settings: GatewaySettings) -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.set())
     with open_client(settings.match, WallClock(), settings.connect, _PATIENCE) as bus:
-        watch(bus, say, stop)
+        log_changes(bus, say, stop)
 
 
 def _serve(settings: GatewaySettings) -> None:
@@ -74,5 +74,5 @@ def _page(settings: GatewaySettings, web: WebSettings, tokens: Tokens) -> tuple[
 
 def say(line: str) -> None:
     """A line on stdout, at once."""
-    sys.stdout.write(plain(line) + "\n")
+    sys.stdout.write(printable(line) + "\n")
     sys.stdout.flush()

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from coach_gateway.refbox.framing import Protocol
+from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.web.settings import LOOPBACK, WebSettings
 from schemas.bus.settings import ClientSettings
 from schemas.config.settings import CommandLine, Settings
@@ -21,7 +21,7 @@ class BridgeOptions(Settings):
     """Be a base station at a league's referee box."""
     team: list[Side] = Field(default_factory=list)
     """Whose base station; may be given twice."""
-    refbox_protocol: Protocol = Protocol.AUTO
+    refbox_protocol: BoxProtocol = BoxProtocol.AUTO
     """Protocol of that box; auto: as its first bytes show."""
     refbox_server: Annotated[list[str], CommandLine(metavar="[SIDE:]PORT")] = Field(default_factory=list)
     """Be a referee box for team software; the league's port is 28097."""

@@ -47,9 +47,9 @@ def _serve(settings: HostSettings) -> None:
         log.info("match %s on %s, pace %s, seed %d", config.name, listen, config.pace, config.seed)
         host = Host(config, bus)
         for number in (signal.SIGTERM, signal.SIGINT):
-            signal.signal(number, lambda *_: host.leave())
+            signal.signal(number, lambda *_: host.stop())
         host.run()
-        how = "left before the match was over," if host.leaving else "match over"
+        how = "stopped before the match was over," if host.stopping else "match over"
         log.info("%s at tick %d", how, host.simulation.now.tick)
 
 

@@ -2,7 +2,7 @@
 
 import typer
 
-from touchline.cli_errors import CommandGroup
+from touchline.cli.errors import CommandGroup
 from touchline.commands import (
     agent,
     coach,

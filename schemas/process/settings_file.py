@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from schemas.config.settings import Settings
-from schemas.config.toml_file import validated
+from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError
 
 S = TypeVar("S", bound=Settings)
@@ -50,7 +50,7 @@ def read_settings(model: type[S], source: str) -> S:
         raise TouchlineError(
             f"{name}: not settings; write a JSON object with the fields {', '.join(model.model_fields)}"
         )
-    return validated(model, content, name, {})
+    return validate_tables(model, content, name, {})
 
 
 def run_process(package: str, model: type[S], run: Callable[[S], int], arguments: list[str] | None = None) -> int:

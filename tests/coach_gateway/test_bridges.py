@@ -15,7 +15,7 @@ from pydantic import ValidationError
 
 from coach_gateway import run
 from coach_gateway.bridges import Bridges, bridges_of
-from coach_gateway.process import say
+from coach_gateway.process import say as log
 from coach_gateway.refbox.client import BoxAddress
 from coach_gateway.refbox.server import ServerAddress
 from coach_gateway.settings import BridgeOptions, GatewaySettings

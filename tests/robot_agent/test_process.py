@@ -60,8 +60,8 @@ def test_a_robot_answers_a_host_and_ends_politely(setup, sight_of, tmp_path, tol
         commands, sights = host.subscribe(COMMAND), host.publisher(SIGHT, robot="cyan2")
         robot = subprocess.Popen([sys.executable, "-m", *words], env=os.environ | environment, stderr=subprocess.PIPE)
         try:
-            question = server.receive(LIMIT_S)
-            assert question is not None
+            query = server.receive(LIMIT_S)
+            assert query is not None
             query.reply(setup)
             arrived = presence.receive(LIMIT_S)
             assert arrived is not None and (arrived.kind, arrived.name) == ("agent", "cyan2")

@@ -12,7 +12,7 @@ from coach_gateway.web.settings import WebSettings
 from schemas.bus.contract import BusError
 from schemas.bus.endpoint import is_loopback, parse_endpoint, with_free_port
 from schemas.bus.settings import ListenSettings
-from schemas.config.match_config import MatchConfig, Officiating, load_match
+from schemas.config.match_config import MatchConfig, OfficiatingConfig, load_match
 from schemas.config.profile import SHIPPED as PROFILES
 from schemas.config.robot_model import models_of
 from schemas.config.rule_book import SHIPPED as RULE_BOOKS
@@ -50,7 +50,7 @@ class MatchOptions:
     """Which match a command plays, and how: a file, and what replaces its keys."""
 
     changes: Annotated[dict[str, Any], FieldsOf(MatchConfig, "seed", "pace", "duration", name=("match", "name"))]
-    officiating: Annotated[dict[str, Any], FieldsOf(Officiating, mode="referee")]
+    officiating: Annotated[dict[str, Any], FieldsOf(OfficiatingConfig, mode="referee")]
     listening: ListenSettings
     file: MatchFile = None
     scene: Scene = None

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from touchline.cli import options
-from touchline.cli_errors import FAILED
+from touchline.cli.errors import FAILED
 
 if TYPE_CHECKING:
     from recordings.inspection.difference import Comparison, FieldDifference

@@ -10,8 +10,8 @@ import typer
 from schemas.bus.settings import ClientSettings
 from schemas.messages.recorder import RecorderOperation
 from touchline.cli import options
+from touchline.cli.errors import PREFIX
 from touchline.cli.option_groups import with_option_groups
-from touchline.cli_errors import PREFIX
 
 app = typer.Typer(
     help="Control a recorder while it records: pause, resume, split, snapshot, status.\n\n"

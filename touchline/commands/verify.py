@@ -9,7 +9,7 @@ import typer
 
 from schemas.errors import TouchlineError
 from touchline.cli import options
-from touchline.cli_errors import FAILED
+from touchline.cli.errors import FAILED
 
 if TYPE_CHECKING:
     from touchline.verify.resimulate import Detail, Discrepancy, Verdict

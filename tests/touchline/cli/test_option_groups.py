@@ -14,7 +14,7 @@ from coach_gateway.settings import BridgeOptions, GatewaySettings
 from recordings.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
 from schemas.bus.settings import ClientSettings, ListenSettings
-from schemas.config.match_config import MatchConfig, Recording
+from schemas.config.match_config import MatchConfig, RecordingConfig
 from schemas.config.settings import CommandLine, RecordOptions, Settings
 from schemas.described import field_docstrings
 from schemas.errors import TouchlineError
@@ -90,7 +90,7 @@ def test_an_option_of_the_recorder_is_a_key_of_settings_and_match_file_and_an_op
     field = RecordOptions.model_fields[name]
     assert option_of("match", name).help == option_of("record", name).help == field_docstrings(RecordOptions)[name]
     assert option_of("match", name).default is None  # the match file's value stays
-    assert Recording.model_fields[name].annotation == field.annotation
+    assert RecordingConfig.model_fields[name].annotation == field.annotation
     assert RecorderSettings.model_fields["record"].annotation is RecordOptions
 
 
@@ -131,7 +131,9 @@ def build(first: Annotated[int, typer.Argument()], where: Where, loud: bool = Fa
 
 
 @with_option_groups
-def settle(house: House, changes: Annotated[dict[str, Any], FieldsOf(Recording, "sights", "viz", "keep")]) -> None:
+def settle(
+    house: House, changes: Annotated[dict[str, Any], FieldsOf(RecordingConfig, "sights", "viz", "keep")]
+) -> None:
     typer.echo(f"{house!r} {changes}")
 
 

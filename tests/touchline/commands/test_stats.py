@@ -23,6 +23,10 @@ from schemas.topics import STATE, WORLD
 from touchline.__main__ import app
 
 
+ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
+"""How the compressed records of a chunk begin."""
+
+
 def write(path: Path, *, setup: bool = True, worlds: int = 50, **said: Any) -> Path:
     """A robot that drives 0.02 m in each tick of 0.02 s."""
     clock, config = SteppedClock(), load_match(None, said)
@@ -105,7 +109,8 @@ def test_a_recording_that_was_cut_off_is_measured_up_to_the_cut(tmp_path: Path) 
 def test_damage_inside_is_said_and_leaves_no_page(tmp_path: Path) -> None:
     path = write(tmp_path / "a.mcap", worlds=5000)
     data = bytearray(path.read_bytes())
-    data[len(data) // 2] ^= 0x10
+    frame = data.rindex(ZSTD_MAGIC, 0, len(data) // 2)
+    data[frame + 100] ^= 0x10
     path.write_bytes(data)
     result = stats(path, "--html", tmp_path / "a.html")
     assert (result.exit_code, result.stdout) == (2, "")
