@@ -293,13 +293,15 @@ class RecorderProgress(Message):
     """How far a recorder has come; a lockstep host does not run away from it."""
 
     tick: int
-    """The newest of which all has come that the host says in every tick."""
+    """The newest of which the recorder has everything; −1 before the first."""
     messages: int
     """Messages taken in so far."""
     lost: int
     """Messages known to be missing so far."""
     losses: dict[str, int] = Field(default_factory=dict)
-    """Key → messages known to be missing; keys without loss are left out."""
+    """The same by key; the keys without loss are left out."""
+    sights: bool = False
+    """It records what robots perceive, too: the host puts their sights into its batches."""
     paused: bool = False
     """The recorder leaves out what comes."""
     leaving: bool = False

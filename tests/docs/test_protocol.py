@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from schemas.bus.contract import LEASE_S
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.zenoh import sample, session
 from schemas.config.match_config import load_match
@@ -88,7 +89,7 @@ def test_the_settings_are_those_of_a_client(text: str, fenced: Callable[[str, st
     (settings,) = fenced(text, "json5")
     for name, value in session._RETRY.items():
         assert f"{name}: {value}" in settings
-    assert f"lease: {session._LEASE_MS}" in settings
+    assert f"lease: {round(LEASE_S * 1000)}" in settings
 
 
 def test_the_times_that_it_names_are_those_of_the_host(text: str) -> None:

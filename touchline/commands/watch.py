@@ -51,20 +51,21 @@ def watch_on(bus: "Bus", console: "Console") -> None:
 
     from coach_gateway.match.detailed_follower import DetailedFollower
     from coach_gateway.match.host_client import HostClient
-    from coach_gateway.match.host_presence import HostPresence
+    from schemas.bus.contract import PresenceKind
+    from schemas.bus.host_watch import HostWatch
     from touchline.watch.drawing import draw_match
 
-    client, host = HostClient(bus, PATIENCE), HostPresence(bus)
+    client, host = HostClient(bus, PATIENCE), HostWatch(bus)
     setup = client.setup()
     host.wait(PATIENCE)
-    bus.declare_alive("coach", "watch")
+    bus.declare_alive(PresenceKind.COACH, "watch")
     seen, episode = DetailedFollower(bus), 0
     last = Group()
     try:
         with Live(console=console, auto_refresh=False, screen=True) as live:
             going = True
             while going:
-                going = not host.gone()  # looked at first, so that the last messages are still seen
+                going = not host.has_left()  # looked at first, so that the last messages are still seen
                 seen.update()
                 if going and seen.world is not None and seen.world.episode != episode:
                     setup, episode = client.setup(), seen.world.episode  # others may take part

@@ -226,7 +226,8 @@ def test_a_recorder_that_stood_still_for_three_seconds_at_full_rate_has_lost_not
                 time.sleep(seconds / (share * TICKS))
         host.referee(TICKS - 1, Phase.FULL_TIME, Score())
         while progress.receive(LIMIT).message().messages < 6 * TICKS + 1:
-            host.relay(TICKS - 1)  # as a host does that waits for its recorders
+            host.relay(TICKS - 1)  # publishes, and gives missing batches again, as a host does that waits
+            host.answer()
     recorder.communicate(timeout=LIMIT)
     recording = open_recording(tmp_path / "match.mcap", whole=True)
     assert (recording.result.lost, recording.result.ended) == (0, EndReason.FULL_TIME)

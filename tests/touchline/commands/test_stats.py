@@ -22,7 +22,6 @@ from schemas.process.clock import SteppedClock
 from schemas.topics import STATE, WORLD
 from touchline.__main__ import app
 
-
 ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 """How the compressed records of a chunk begin."""
 

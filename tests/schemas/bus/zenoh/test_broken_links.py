@@ -12,7 +12,7 @@ from schemas.bus.contract import Bus, Subscription
 from schemas.bus.endpoint import parse_endpoint, with_free_port
 from schemas.bus.zenoh.bus import open_client, open_host
 from schemas.process.clock import WallClock
-from schemas.topics import WORLD
+from schemas.topics import STATE
 
 LIMIT = 60.0
 """Seconds after which something that should have happened will not; nothing depends on how soon it does."""
@@ -104,7 +104,7 @@ def test_nothing_is_lost_of_what_was_said_meanwhile_though_the_link_breaks_again
 ) -> None:
     host, cable = ends
     with open_client("test", WallClock(), cable.endpoint, patience=LIMIT) as client:
-        reader, writer = client.subscribe(WORLD), host.publisher(WORLD)
+        reader, writer = client.subscribe(STATE), host.publisher(STATE)
         said = 0
         heard: list[int] = []
 
@@ -134,10 +134,10 @@ def test_the_first_message_of_a_key_is_heard_though_the_link_was_cut_when_it_was
     """Before a first message nobody sees a gap, unless its number says that it is not the first."""
     host, cable = ends
     with open_client("test", WallClock(), cable.endpoint, patience=LIMIT) as client:
-        reader = client.subscribe(WORLD)
+        reader = client.subscribe(STATE)
         cable.whole = False
         wait_until(lambda: not client.connected())
-        writer = host.publisher(WORLD)
+        writer = host.publisher(STATE)
         for _ in range(3):
             writer.put_payload(b"{}")
         cable.whole = True
