@@ -269,6 +269,8 @@ class Recorder:
         self._match.on_roster_change(self._roster.update)
         self._sink.begin(self._make_header, self._make_result, self._roster)
         self._bus.declare_alive(PresenceKind.RECORDER, self._name)  # a lockstep host waits for it from now on
+        if self._sights:
+            self._send_progress()  # from now on the host puts sights into its batches
 
     def _make_header(self) -> tuple[Manifest, dict[str, bytes]]:
         manifest = make_manifest(

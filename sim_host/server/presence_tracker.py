@@ -21,7 +21,7 @@ class PresenceTracker:
         self._progress = bus.subscribe(RECORDER_PROGRESS)
         self._agent_stats = agent_stats
         self._known: dict[PresenceKind, dict[str, bool]] = {kind: {} for kind in _REMEMBERED}
-        """Who ever came, also as an agent of a robot that does not play yet: whether it is there."""
+        """Name → whether the process is there, for all that ever came; agents also of robots that do not play yet."""
         self.recorders: dict[str, int] = {}
         """Recorder → the newest tick it has taken in; one whose link broke is in here until it is given up."""
         self._of_sights: set[str] = set()
