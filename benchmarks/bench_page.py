@@ -9,14 +9,15 @@ import os
 import shutil
 import statistics
 import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
 
 from playwright.sync_api import Page, sync_playwright
-from running_match import running_match
+from running_match import launch, running_match
 
+from coach_gateway.settings import GatewaySettings
+from coach_gateway.web.settings import WebSettings
 from schemas.bus.contract import Bus, Subscription
 from schemas.bus.zenoh.bus import open_client
 from schemas.config.match_config import MatchConfig
@@ -46,8 +47,8 @@ def main() -> None:
         sync_playwright() as playwright,
     ):
         tokens = Path(folder) / "tokens.json"
-        words = ["--web", "--port", "0", "--tokens", str(tokens), "--connect", endpoint, "--match", config.name]
-        gateway = subprocess.Popen([sys.executable, "-m", "coach_gateway", *words], stdout=subprocess.PIPE, text=True)
+        settings = GatewaySettings(connect=endpoint, match=config.name, tokens=tokens, web=WebSettings(port=0))
+        gateway = launch("coach_gateway", settings, subprocess.PIPE)
         try:
             address = _address(gateway)
             root = ["--no-sandbox"] if os.geteuid() == 0 else []
@@ -67,10 +68,10 @@ def main() -> None:
     )
 
 
-def _address(gateway: subprocess.Popen[str]) -> str:
+def _address(gateway: subprocess.Popen[bytes]) -> str:
     """Where the page is, as its server says."""
     assert gateway.stdout is not None
-    for line in gateway.stdout:
+    for line in map(bytes.decode, gateway.stdout):
         if "http://" in line:
             return "http://" + line.split("http://")[1].split("#")[0].strip().rstrip(";,")
     raise RuntimeError("the gateway ended before it said where its page is")

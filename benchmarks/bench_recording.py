@@ -21,6 +21,7 @@ from running_match import HERE, launch, running_match
 
 from recordings.editing.recovery import recover
 from recordings.reading.recording import open_recording
+from recordings.settings import RecorderSettings
 from schemas.bus.contract import Subscription
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_client
@@ -59,7 +60,7 @@ def recorder_share(folder: Path) -> float:
         _,
     ):
         out = folder / "realtime.mcap"
-        recorder = launch("recordings", "--connect", endpoint, "--match", config.name, "--out", str(out))
+        recorder = launch("recordings", RecorderSettings(connect=endpoint, match=config.name, out=out))
         try:
             with open_client(config.name, WallClock(), endpoint, PATIENCE_S) as bus:
                 healths = bus.subscribe(HEALTH)
@@ -108,9 +109,8 @@ def compare(folder: Path) -> list[float]:
                 pass
             without, with_recorder = [speed(healths)], []
             for _ in range(INTERVALS):
-                recorder = launch(
-                    "recordings", "--connect", endpoint, "--match", bus.match, "--out", str(folder / "m.mcap")
-                )
+                settings = RecorderSettings(connect=endpoint, match=bus.match, out=folder / "m.mcap")
+                recorder = launch("recordings", settings)
                 try:
                     while (came := watch.receive(PATIENCE_S)) is not None and (came.kind, came.alive) != (
                         "recorder",

@@ -15,7 +15,9 @@ from pathlib import Path
 
 from running_match import HERE, launch, running_match
 
+from coach_gateway.settings import GatewaySettings
 from coach_gateway.web.listener import free_port
+from coach_gateway.web.settings import WebSettings
 from schemas.bus.contract import Subscription
 from schemas.bus.zenoh.bus import open_client
 from schemas.messages.host import Health
@@ -74,8 +76,8 @@ def main() -> None:
         open_client(config.name, WallClock(), endpoint, 60.0) as bus,
     ):
         port = free_port("127.0.0.1", 0)
-        meeting = ("--connect", endpoint, "--match", config.name)
-        server = launch("coach_gateway", "--web", "--port", str(port), *meeting)
+        settings = GatewaySettings(connect=endpoint, match=config.name, web=WebSettings(port=port))
+        server = launch("coach_gateway", settings)
         try:
             healths = bus.subscribe(HEALTH)
             while newest(healths).tick < 100:

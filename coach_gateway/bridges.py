@@ -1,7 +1,7 @@
-"""The bridges of one gateway process beside the page: which are wanted, by a command's words, and their services."""
+"""The bridges of one gateway process beside the page: which ones its settings ask for, and their services."""
 
 import socket
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass
 
@@ -12,9 +12,9 @@ from coach_gateway.match.live import LiveMatch
 from coach_gateway.ports import port_tried
 from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
-from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from coach_gateway.service import Service
+from coach_gateway.settings import BridgeOptions
 from coach_gateway.udp.server import UdpServer
 from coach_gateway.web.settings import LOOPBACK
 from schemas.bus.contract import Bus
@@ -55,38 +55,26 @@ class Bridges:
                 stack.enter_context(port_tried("--refbox-server", address.host, address.port, socket.SOCK_STREAM))
 
 
-NO_BRIDGES = Bridges()
 _LAST_PORT = 65_535
 
 
-def bridges_of(
-    *,
-    udp: int | None,
-    refbox_at: str | None,
-    teams: Sequence[Side],
-    protocol: BoxProtocol,
-    server_addresses: Sequence[str],
-    audience: Sequence[str],
-    listen: str,
-) -> Bridges:
-    """The bridges that a command's words ask for.
+def bridges_of(options: BridgeOptions) -> Bridges:
+    """The bridges that these options ask for.
 
     Raises:
         TouchlineError: an address, a port or a door that is none, or a referee box without a team.
     """
-    if udp is not None and not 0 <= udp <= _LAST_PORT:
-        raise TouchlineError(f"--udp is {udp}; a port is 0 to {_LAST_PORT}, and 0 takes a free one")
-    if refbox_at is None and teams:
+    if options.refbox is None and options.team:
         raise TouchlineError("--team is for --refbox HOST, which is not given")
-    if refbox_at is not None and not teams:
+    if options.refbox is not None and not options.team:
         raise TouchlineError("--refbox needs the team whose base station this is; add --team cyan or --team magenta")
-    box = _address("--refbox", refbox_at, refbox.DEFAULT_PORT) if refbox_at is not None else None
+    box = _address("--refbox", options.refbox, refbox.DEFAULT_PORT) if options.refbox is not None else None
     return Bridges(
-        udp,
-        tuple(BoxAddress(team, *box, protocol) for team in teams) if box is not None else (),
-        tuple(_server_address(word, listen) for word in server_addresses),
-        tuple(_address("--audience", word, None) for word in audience),
-        listen,
+        options.udp,
+        tuple(BoxAddress(team, *box, options.refbox_protocol) for team in options.team) if box is not None else (),
+        tuple(_server_address(word, options.listen_bridges) for word in options.refbox_server),
+        tuple(_address("--audience", word, None) for word in options.audience),
+        options.listen_bridges,
     )
 
 

@@ -6,7 +6,8 @@ import traceback
 from collections.abc import Callable
 
 from robot_agent.contract import Brain
-from schemas.bus.contract import Bus, NoReplyError
+from schemas.bus.contract import Bus, NoReplyError, PresenceKind
+from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
 from schemas.message import BadMessageError
 from schemas.messages.command import Command
@@ -14,10 +15,6 @@ from schemas.messages.host import Setup, SetupRequest
 from schemas.messages.sight import Sight
 from schemas.topics import COMMAND, SETUP, SIGHT
 
-KIND = "agent"
-"""The kind of an agent's liveliness token."""
-HOST_KIND = "host"
-"""The kind of the host's."""
 _IDLE = 0.25
 """s without a sight after which the host is looked for."""
 _ASK = 1.0
@@ -142,53 +139,26 @@ def serve(bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float
         TouchlineError: the brain that `build` makes cannot be made, or there is no host to begin with.
     """
     runner = Runner(bus, build(ask_setup(bus, patience)), robot)
-    host = _HostWatch(bus)
-    bus.declare_alive(KIND, robot)
+    host = HostWatch(bus)
+    bus.declare_alive(PresenceKind.AGENT, robot)
     gc.collect()
     gc.freeze()
-    gone_since: float | None = None
     is_new_match = False
     while True:
         sight = runner.next_sight(_IDLE)
-        is_new_match = host.left() or is_new_match
+        is_new_match = host.update() or is_new_match
         if sight is not None and not is_new_match:
             try:
                 runner.answer(sight)
             except BrainError as error:
                 sys.stderr.write(error.report())
                 return 1
-        elif host.there():
-            gone_since = None
+        elif host.is_reachable():
             if is_new_match:
                 runner.restart(build(ask_setup(bus, patience)))
                 is_new_match = False
-        elif gone_since is None:
-            gone_since, is_new_match = bus.clock.now(), True
-        elif bus.clock.now() - gone_since >= patience:
+        elif host.unreachable_s() >= patience:
             sys.stderr.write(f"{robot}: the host has been gone for {patience:g} s; leaving\n")
             return 0
-
-
-class _HostWatch:
-    """Knows whether the host is there: its token, and the link to it."""
-
-    def __init__(self, bus: Bus) -> None:
-        self._bus = bus
-        self._watch = bus.watch_alive()
-        self._is_quiet = self._watch.is_empty
-        self._hosts: dict[str, bool] = {}
-
-    def left(self) -> bool:
-        """Whether the host went away since this was last asked, be it back by now or not."""
-        if self._is_quiet():
-            return False
-        left = False
-        while (presence := self._watch.receive()) is not None:
-            if presence.kind == HOST_KIND:
-                left = left or not presence.alive
-                self._hosts[presence.name] = presence.alive
-        return left
-
-    def there(self) -> bool:
-        """Whether it can be reached; a host without a token counts while the link is up."""
-        return self._bus.connected() and (not self._hosts or any(self._hosts.values()))
+        else:
+            is_new_match = True

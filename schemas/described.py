@@ -13,6 +13,9 @@ from pydantic import GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
+_LIBRARIES = frozenset({"builtins", "msgspec", "pydantic"})
+"""Whose classes are bases of ours, and describe no field of a message."""
+
 
 class Described:
     """A model or a dataclass whose JSON Schema describes its fields by their docstrings."""
@@ -33,7 +36,7 @@ def field_docstrings(cls: type) -> dict[str, str]:
     """Field → its docstring in one line; the fields of base classes are included."""
     found: dict[str, str] = {}
     for base in reversed(cls.__mro__):
-        if base.__module__.split(".")[0] == __name__.split(".")[0]:
+        if base.__module__.split(".")[0] not in _LIBRARIES:
             found |= _docstrings_of_module(base.__module__).get(base.__name__, {})
     return found
 

@@ -63,9 +63,8 @@ class Fault(NamedTuple):
             case FaultKind.MISSING:
                 return f"{where} is missing; {remedy or 'it must be given'}"
             case FaultKind.UNKNOWN:
-                return f"{where} is not known" + (
-                    f"; {did_you_mean(str(self.path[-1]), self.known)}" if self.known else ""
-                )
+                others = f"; {did_you_mean(str(self.path[-1]), self.known)}" if self.known else ""
+                return f"{where} is not known{others}"
         if self.kind is FaultKind.RULE and not where:
             return self.expected
         if self.kind is FaultKind.RULE and self.value is None:
@@ -216,6 +215,7 @@ _EXPECTED = {
     "dataclass_type": "an object",
     "enum": "one of {expected}",
     "literal_error": "one of {expected}",
+    "string_pattern_mismatch": "text of the form {pattern}",
     "string_too_long": "text of at most {max_length} characters",
     "string_too_short": "text of at least {min_length} characters",
     "too_long": "at most {max_length} entries",

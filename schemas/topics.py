@@ -11,11 +11,12 @@ from schemas.messages.command import Command
 from schemas.messages.host import Applied, Belief, Health, Invalid, RecorderProgress, Setup, SetupRequest
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParametersReply, ParametersRequest
-from schemas.messages.record_batch import RecordBatch
+from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.messages.recorder import RecorderReply, RecorderRequest
 from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.messages.sight import Sight
 from schemas.messages.world import BallFrame, RobotFrame, World
+from schemas.recovery_window import BATCH_S, BATCH_TICKS, KEPT_BATCHES
 from schemas.topic import Delivery, Party, Topic
 
 _WATCHERS = (Party.COACH, Party.REFEREE, Party.RECORDER, Party.VIEWER)
@@ -29,7 +30,7 @@ WORLD = Topic(
     Party.HOST,
     _WATCHERS,
     _TICK,
-    Delivery.RECOVERED,
+    Delivery.EVERY,
     True,
     "true state of everything on the field at one tick, field frame",
 )
@@ -89,7 +90,7 @@ BELIEF = Topic(
     Party.HOST,
     (Party.COACH, Party.RECORDER),
     "each radio message",
-    Delivery.RECOVERED,
+    Delivery.EVERY,
     True,
     "the newest radio message of this robot",
 )
@@ -183,7 +184,7 @@ APPLIED = Topic(
     Party.HOST,
     (Party.RECORDER, Party.VIEWER),
     _TICK,
-    Delivery.RECOVERED,
+    Delivery.EVERY,
     True,
     "inputs as applied at this tick, and the hash chain",
 )
@@ -203,7 +204,7 @@ INVALID = Topic(
     Party.HOST,
     (Party.COACH, Party.RECORDER, Party.VIEWER),
     "each invalid message, at most 50 Hz",
-    Delivery.RECOVERED,
+    Delivery.EVERY,
     True,
     "an invalid payload, and why it is invalid",
 )
@@ -212,11 +213,21 @@ RECORD_BATCH = Topic(
     RecordBatch,
     Party.HOST,
     (Party.RECORDER,),
-    "every 8 ticks, or 0.15 s of wall time",
-    Delivery.RECOVERED,
+    f"every {BATCH_TICKS} ticks, or {BATCH_S:g} s of wall time",
+    Delivery.EVERY,
     False,
-    "all messages to be recorded, as the host published and received them; recorders write them on their own keys",
-    cache_size=300,
+    "all messages to be recorded, as the host published or received them; recorders record them on their own keys",
+)
+RECORD_BATCHES = Topic(
+    "host/record_batches",
+    RecordBatchesRequest,
+    Party.RECORDER,
+    (Party.HOST,),
+    "when batches are missing",
+    Delivery.QUERY,
+    False,
+    f"batches that the host has published already; it keeps the last {KEPT_BATCHES}",
+    reply=RecordBatchesReply,
 )
 RECORDER_PROGRESS = Topic(
     "record/{name}/progress",
@@ -258,7 +269,7 @@ ALIVE = Topic(
     "while the process lives",
     Delivery.PRESENCE,
     False,
-    "liveliness token of a process: host, agent, coach, recorder; refbox while a league's referee box officiates",
+    "liveliness token of a process: host, agent, coach, recorder, replay; refbox while a referee box officiates",
 )
 
 TOPICS: dict[str, Topic] = {
@@ -281,6 +292,7 @@ TOPICS: dict[str, Topic] = {
     "health": HEALTH,
     "invalid": INVALID,
     "record_batch": RECORD_BATCH,
+    "record_batches": RECORD_BATCHES,
     "recorder_progress": RECORDER_PROGRESS,
     "recorder_control": RECORDER_CONTROL,
     "replay_control": REPLAY_CONTROL,

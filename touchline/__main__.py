@@ -2,7 +2,7 @@
 
 import typer
 
-from touchline.cli.errors import ErrorReportingGroup
+from touchline.cli.errors import CommandGroup
 from touchline.commands import (
     agent,
     coach,
@@ -32,7 +32,7 @@ from touchline.commands import (
 
 app = typer.Typer(
     name="touchline",
-    cls=ErrorReportingGroup,
+    cls=CommandGroup,
     help="A testbed for teams of robots: play a match, or run its parts on several machines.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,

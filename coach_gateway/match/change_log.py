@@ -4,9 +4,9 @@ import threading
 from collections.abc import Callable
 
 from coach_gateway.match.follower import MatchFollower
-from coach_gateway.match.host_presence import HostPresence
 from coach_gateway.match.lines import event_line, state_line
-from schemas.bus.contract import Bus
+from schemas.bus.contract import Bus, PresenceKind
+from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
 from schemas.game import GameEvent, GameState
 from schemas.messages.host import Health
@@ -22,14 +22,14 @@ def log_changes(bus: Bus, log: Callable[[str], None], stop: threading.Event, pat
         TouchlineError: no host shows itself within `patience` s of wall time.
     """
     follower = MatchFollower(bus)
-    host = HostPresence(bus)
-    bus.declare_alive("coach", "watch")
+    host = HostWatch(bus)
+    bus.declare_alive(PresenceKind.COACH, "watch")
     if not host.wait(patience):
         raise TouchlineError(f'match "{bus.match}": no host plays it there; name the match with --match')
     before: GameState | None = None
     going = True
     while going:
-        going = not (host.gone() or stop.is_set())  # looked at first, so that the last messages are still said
+        going = not (host.has_left() or stop.is_set())  # looked at first, so that the last messages are still said
         for message in follower.update():
             line = change_line(before, message)
             before = message if isinstance(message, GameState) else before

@@ -11,9 +11,9 @@ from typing import Any, TypeVar
 
 from coach_gateway.match.host_change import HostChangeDetector
 from coach_gateway.match.host_client import HostClient
-from coach_gateway.match.host_presence import HostPresence
 from coach_gateway.match.orders import OrderFollower
-from schemas.bus.contract import Bus, ReceivedMessage, Subscription
+from schemas.bus.contract import Bus, PresenceKind, ReceivedMessage, Subscription
+from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
 from schemas.game import REFBOX, ActionName, ActionReply, GameEvent, GameState, RefereeAction
 from schemas.message import BadMessageError
@@ -47,7 +47,7 @@ class LiveMatch:
         self._worlds = bus.subscribe(WORLD, newest=True)
         self._beliefs = bus.subscribe(BELIEF, newest=True)
         self._watch = bus.watch_alive()
-        self._presence = HostPresence(bus)
+        self._presence = HostWatch(bus)
         self._threads = ThreadPoolExecutor(_QUESTIONS, thread_name_prefix="question")
         self._urgent = ThreadPoolExecutor(_QUESTIONS, thread_name_prefix="urgent")
         self._ordering = {side: asyncio.Lock() for side in Side}
@@ -91,9 +91,9 @@ class LiveMatch:
     def update(self) -> None:
         """Take in what has come, without waiting, and ask for the setup where it is not known or has changed."""
         while (presence := self._watch.receive()) is not None:
-            if presence.kind == REFBOX and presence.name in set(Side):
+            if presence.kind is PresenceKind.REFBOX and presence.name in set(Side):
                 self._refboxes[Side(presence.name)] = presence.alive
-        there = not self._presence.gone() and self._presence.seen
+        there = not self._presence.has_left() and self._presence.seen
         self._stale = self._stale or (there and not self.there)  # another host may play another match
         self.there = there
         for event in self._messages(self._events):
@@ -141,7 +141,7 @@ class LiveMatch:
 
     def connect_refbox(self, side: Side, *, connected: bool) -> None:
         """Tell everybody whether this side's base station hears a referee box: then others may only stop the game."""
-        (self._bus.declare_alive if connected else self._bus.withdraw_alive)(REFBOX, side.value)
+        (self._bus.declare_alive if connected else self._bus.withdraw_alive)(PresenceKind.REFBOX, side.value)
 
     async def act(self, action: RefereeAction) -> ActionReply:
         """Ask the referee; without a host the answer is a refusal that says so.

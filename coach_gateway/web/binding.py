@@ -3,6 +3,7 @@
 import socket
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 from coach_gateway.access.origins import Origins
 from coach_gateway.access.tokens import Tokens, page_address
@@ -18,6 +19,7 @@ class PageBinding:
     settings: WebSettings
     listener: socket.socket
     tokens: Tokens
+    tokens_file: Path | None
     origins: Origins
 
     @property
@@ -28,18 +30,18 @@ class PageBinding:
     def lines(self) -> Iterator[str]:
         """Where to find the page, and with which token: a log that others may read has none."""
         yield f"page: {self.origin}/"
-        if self.settings.tokens is not None:
-            yield f"tokens: {self.settings.tokens}"
+        if self.tokens_file is not None:
+            yield f"tokens: {self.tokens_file}"
             return
         for role in (Role.REFEREE, Role.CYAN, Role.MAGENTA):
             yield f"{role.value}: {page_address(self.origin, self.tokens.of(role))}"
 
 
-def bind_page(settings: WebSettings, tokens: Tokens) -> PageBinding:
-    """Listen.
+def bind_page(settings: WebSettings, tokens: Tokens, tokens_file: Path | None = None) -> PageBinding:
+    """Listen; `tokens_file` is where the tokens stand, if they are in a file.
 
     Raises:
         TouchlineError: the port is taken, an origin is none.
     """
-    origins = Origins(settings.origins)
-    return PageBinding(settings, listen(settings.listen, settings.port), tokens, origins)
+    origins = Origins(settings.allow_origin)
+    return PageBinding(settings, listen(settings.listen_web, settings.port), tokens, tokens_file, origins)

@@ -2,9 +2,7 @@
 
 from coach_gateway.web.pages import Page
 from coach_gateway.web.protocol import PageDrive
-
-KEPT_S = 0.5
-"""s of wall time for which a robot stays in a hand that says nothing; the host gives it back then, too."""
+from schemas.messages.manual import TIMEOUT_S
 
 
 class ManualControl:
@@ -21,5 +19,5 @@ class ManualControl:
         if request.manual.release:
             self._holders.pop(request.robot, None)
         else:
-            self._holders[request.robot] = page, now + KEPT_S
+            self._holders[request.robot] = page, now + TIMEOUT_S
         return None

@@ -7,11 +7,11 @@ from collections.abc import Iterable
 from typing import Any
 
 from coach_gateway.match.host_change import HostChangeDetector
-from coach_gateway.match.host_presence import HostPresence
 from coach_gateway.match.orders import OrderFollower
 from coach_gateway.web.protocol import EventUpdate, OrdersUpdate, RefBoxUpdate, SideOrders
-from schemas.bus.contract import Bus, ReceivedMessage, Subscription
-from schemas.game import REFBOX, GameEvent
+from schemas.bus.contract import Bus, PresenceKind, ReceivedMessage, Subscription
+from schemas.bus.host_watch import HostWatch
+from schemas.game import GameEvent
 from schemas.message import BadMessageError
 from schemas.messages.host import Setup
 from schemas.messages.world import World
@@ -34,7 +34,7 @@ class PageFeed:
         self._worlds = bus.subscribe(WORLD, newest=True)
         self._belief_subscription = bus.subscribe(BELIEF, newest=True)
         self._orders = OrderFollower(bus)
-        self._presence = HostPresence(bus)
+        self._presence = HostWatch(bus)
         self._others = bus.watch_alive()
         self._refboxes: dict[str, bool] = {}
         self._host_change = HostChangeDetector()
@@ -61,7 +61,7 @@ class PageFeed:
     def update(self) -> list[str]:
         """Take in what has come, without waiting; returns what all pages are to be told, in order."""
         news: list[str] = []
-        there = not self._presence.gone() and self._presence.seen
+        there = not self._presence.has_left() and self._presence.seen
         if there != self.there:
             self.there = there
             self.host_changed = self.host_changed or there
@@ -117,7 +117,7 @@ class PageFeed:
         """Whether a base station has come to a league's referee box, or gone."""
         before = dict(self._refboxes)
         while (presence := self._others.receive()) is not None:
-            if presence.kind == REFBOX:
+            if presence.kind is PresenceKind.REFBOX:
                 self._refboxes[presence.name] = presence.alive
         return self._refboxes != before
 

@@ -10,7 +10,7 @@ from coach_gateway.web.requests import RequestHandler
 from coach_gateway.web.site import site
 from coach_gateway.web.socket_endpoint import SocketEndpoint
 from coach_gateway.web.uvicorn_server import web_server
-from schemas.bus.contract import Bus
+from schemas.bus.contract import Bus, PresenceKind
 
 
 class WebServer:
@@ -19,7 +19,7 @@ class WebServer:
     def __init__(self, bus: Bus, binding: PageBinding, log: Callable[[str], None] = lambda _: None) -> None:
         self._bus, self._binding, self._log = bus, binding, log
         settings = binding.settings
-        self.pages = Pages(settings.pages, settings.pages_each)
+        self.pages = Pages(settings.pages, settings.pages_per_address)
         requests = RequestHandler(bus)
         self._broadcaster = PageBroadcaster(bus, self.pages, requests, settings.beliefs)
         self._endpoint = SocketEndpoint(
@@ -29,7 +29,7 @@ class WebServer:
     async def serve(self, stop: asyncio.Event) -> None:
         """Serve until `stop` is set, then say what was refused; pages are told to come again later."""
         server = web_server(site(self._endpoint.enter), self._binding.settings.pages)
-        self._bus.declare_alive("coach", "page")
+        self._bus.declare_alive(PresenceKind.COACH, "page")
         serving = asyncio.create_task(server.serve([self._binding.listener]))
         following = asyncio.create_task(self._broadcaster.follow(stop))
         try:

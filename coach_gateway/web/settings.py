@@ -1,10 +1,12 @@
-"""How the page is served: where, to whom, with which tokens."""
+"""How the page is served: where, and to whom."""
 
 import importlib.util
-from dataclasses import dataclass
 from enum import StrEnum
-from pathlib import Path
+from typing import Annotated
 
+from pydantic import Field
+
+from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 
 DEFAULT_PORT = 8080
@@ -21,24 +23,21 @@ class BeliefsFor(StrEnum):
     TEAMS = "teams"
 
 
-@dataclass(frozen=True, slots=True)
-class WebSettings:
-    """What whoever runs the gateway may choose."""
+class WebSettings(Settings):
+    """How the page is served."""
 
-    port: int = DEFAULT_PORT
-    """0 takes a free one."""
-    listen: str = LOOPBACK
-    """Address to listen on."""
-    tokens: Path | None = None
-    """File with the tokens, made when it is not there; without one they last as long as the process."""
-    origins: tuple[str, ...] = ()
-    """Further origins that the page may come from, `https://cup.example.org`."""
+    port: Annotated[int, Field(ge=0, le=65_535)] = DEFAULT_PORT
+    """Port of the page; 0 takes a free one."""
+    listen_web: str = LOOPBACK
+    """Address to serve the page on; 0.0.0.0 lets other machines see it."""
+    allow_origin: list[str] = Field(default_factory=list)
+    """A further origin that the page may come from: https://cup.example.org."""
     beliefs: BeliefsFor | None = None
-    """Without a word: for all in a friendly and in a replay, otherwise for the teams."""
-    pages: int = DEFAULT_PAGES
-    """How many pages may be open at once."""
-    pages_each: int = DEFAULT_PAGES_EACH
-    """How many of them from one address; those of this machine are not counted."""
+    """Who is shown what robots believe; by default all in a friendly and in a replay, else each team its own."""
+    pages: Annotated[int, Field(ge=1)] = DEFAULT_PAGES
+    """Number of pages that may be open at once."""
+    pages_per_address: Annotated[int, Field(ge=1)] = DEFAULT_PAGES_EACH
+    """Number of them from one other address; those of this machine are not counted."""
 
 
 def need_web() -> None:

@@ -126,6 +126,9 @@ class Result(Part):
     messages: int = 0
     lost: int = 0
     missed_before_start: int = 0
+    lost_batches: int = 0
+    """Batches of the host that could not be fetched any more, so far; `lost` counts the messages that were in
+    them, on each key that has a later one."""
     unreadable: dict[str, int] = {}
     """Payloads that the recorder itself wanted to read and could not, by key; recorded all the same."""
     keys: dict[str, KeyCount] = {}

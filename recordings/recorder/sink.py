@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, Self
 
 from recordings.container.manifest import EndReason, Manifest, Result
 from recordings.container.numbering import check_free, drop_oldest, numbered
@@ -11,7 +11,7 @@ from recordings.recorder.latched_messages import LatchedMessages, LoggedMessage
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.recording_writer import RecordingWriter
 from recordings.recorder.roster_metadata import RosterMetadata
-from schemas.errors import TouchlineError
+from schemas.config.settings import RecordOptions
 from schemas.process.clock import Clock
 
 MakeHeader = Callable[[], tuple[Manifest, dict[str, bytes]]]
@@ -33,14 +33,11 @@ class FileLimits:
     snapshot: float | None = None
     """Simulated s that are held in memory and written when there is a goal, or on request; nothing else is."""
 
-    def __post_init__(self) -> None:
-        """Check that the limits go together."""
-        if self.keep is not None and not self.is_split:
-            raise TouchlineError(
-                f"--keep {self.keep} is for many files; add --split-size, --split-duration or --snapshot"
-            )
-        if self.snapshot is not None and (self.size is not None or self.duration is not None):
-            raise TouchlineError("--snapshot writes files of its own; leave --split-size and --split-duration out")
+    @classmethod
+    def of(cls, options: RecordOptions) -> Self:
+        """The limits that a recorder was started with, where sizes are in MB."""
+        size = round(options.split_size * 1e6) if options.split_size is not None else None
+        return cls(size, options.split_duration, options.keep, options.snapshot)
 
     @property
     def is_split(self) -> bool:

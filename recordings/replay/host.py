@@ -8,13 +8,14 @@ from recordings.reading.recording import RecordedMessage
 from recordings.replay.listeners import Listeners
 from recordings.replay.player import Player
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Server, Stamp
+from schemas.bus.contract import Bus, PresenceKind, Publisher, ReceivedMessage, Server, Stamp
 from schemas.config.scene import SceneReply
 from schemas.game import ActionReply
 from schemas.message import VERSION, BadMessageError, Message
 from schemas.messages.host import Setup
 from schemas.messages.parameters import ParametersReply
 from schemas.messages.replay import ReplayReply, ReplayRequest
+from schemas.recovery_window import PARTING_S
 from schemas.topic import Party, Topic
 from schemas.topics import ACTION, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
 
@@ -23,8 +24,6 @@ _REPEAT_S = 1.0
 _SLEEP_S = 0.02
 """Longest wall time between two looks for questions."""
 _MIN_SLEEP_S = 0.001
-_RECORDER_PATIENCE_S = 5.0
-"""Wall time that recorders are given at the end to take in the last message."""
 _UNCHANGEABLE = "this is a replay: what is recorded cannot be changed"
 
 _REFUSALS: dict[Topic, Callable[[], Message]] = {
@@ -55,8 +54,8 @@ class ReplayHost:
         self.unknown_keys = 0
         """Messages on keys that no topic has; left out."""
         self._published_at = -math.inf
-        bus.declare_alive("host", "host")
-        bus.declare_alive("replay", "replay")
+        bus.declare_alive(PresenceKind.HOST, "host")
+        bus.declare_alive(PresenceKind.REPLAY, "replay")
 
     def run(self, meanwhile: Callable[[Player], Any] = lambda _: None) -> None:
         """Replay to the end; `meanwhile` is done again and again, some fifty times in a second of wall time.
@@ -94,7 +93,7 @@ class ReplayHost:
         """Give the recorders time to take in the last message."""
         self._batches.end_tick(self._tick())
         self._batches.send()
-        deadline = self._clock.now() + _RECORDER_PATIENCE_S
+        deadline = self._clock.now() + PARTING_S
         while self._listeners.any_behind() and self._clock.now() < deadline:
             self._clock.sleep_until(self._clock.now() + _SLEEP_S)
             self._answer()
@@ -126,10 +125,12 @@ class ReplayHost:
         chunks = recorded.topic.match(recorded.key)
         if chunks is None:
             return None
-        seat = self._batches if recorded.topic.writer is Party.HOST else self._bus
-        return seat.publisher(recorded.topic, **chunks)
+        if recorded.topic.writer is Party.HOST:
+            return self._batches.publisher(recorded.topic, recorded=True, **chunks)
+        return self._bus.publisher(recorded.topic, **chunks)
 
     def _answer(self) -> None:
+        self._batches.process()
         while (query := self._setups.receive()) is not None:
             if self._setup is not None:
                 query.reply(self._setup)

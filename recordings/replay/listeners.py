@@ -1,12 +1,12 @@
 """Who listens to a replay: recorders, which it does not run away from, and others, whom it tells how things stand."""
 
 from recordings.reading.recording import RecordedMessage
-from schemas.bus.contract import Bus
+from schemas.bus.contract import Bus, PresenceKind
 from schemas.message import BadMessageError
+from schemas.recovery_window import RUN_AHEAD_TICKS
 from schemas.topics import APPLIED, RECORDER_PROGRESS
 
-WINDOW = 250
-"""Ticks that a recorder may be behind: well within what a writer keeps for recovery."""
+_HOSTS = (PresenceKind.HOST, PresenceKind.REPLAY)
 _PATIENCE_S = 1.0
 """Wall time that a recorder is waited for without word of it; then it is left behind."""
 
@@ -37,10 +37,10 @@ class Listeners:
         """Take in who came and went, and how far recorders are; whether anybody came."""
         came = False
         while (presence := self._watch.receive()) is not None:
-            came = came or (presence.alive and presence.kind not in ("host", "replay"))
-            if presence.kind == "recorder" and presence.alive:
+            came = came or (presence.alive and presence.kind not in _HOSTS)
+            if presence.kind is PresenceKind.RECORDER and presence.alive:
                 self.recorders[presence.name] = _Recorder(self._clock.now())
-            elif presence.kind == "recorder":
+            elif presence.kind is PresenceKind.RECORDER:
                 self.recorders.pop(presence.name, None)
         while (received := self._progress.receive()) is not None:
             recorder = self.recorders.get(received.chunks["name"])
@@ -62,11 +62,13 @@ class Listeners:
 
     def can_publish(self) -> bool:
         """Whether another tick may be said, without running away from a recorder that is still heard of."""
-        late = [recorder for recorder in self.recorders.values() if len(recorder.unconfirmed) > WINDOW]
+        late = [recorder for recorder in self.recorders.values() if len(recorder.unconfirmed) > RUN_AHEAD_TICKS]
         if not late:
             return True
         self.update()
-        return not any(len(recorder.unconfirmed) > WINDOW and self._is_waited_for(recorder) for recorder in late)
+        return not any(
+            len(recorder.unconfirmed) > RUN_AHEAD_TICKS and self._is_waited_for(recorder) for recorder in late
+        )
 
     def any_behind(self) -> bool:
         """Whether a recorder that is still heard of has not confirmed everything."""

@@ -7,6 +7,7 @@ conformance suite runs over both.
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from enum import StrEnum
 from types import TracebackType
 from typing import Any, NamedTuple, Self
 
@@ -15,6 +16,11 @@ from schemas.message import VERSION, BadMessageError, WireMessage
 from schemas.process.clock import Clock
 from schemas.struct import encode
 from schemas.topic import Delivery, Topic
+
+LEASE_S = 2.0
+"""Wall time without a sign of life after which a link counts as broken."""
+HEARTBEAT_S = 0.5
+"""Wall time after which a reader of a `recovered` topic knows at the latest that it missed the newest message."""
 
 
 class BusError(TouchlineError):
@@ -64,11 +70,26 @@ class ReceivedMessage(NamedTuple):
         return self.topic.message.decode(self.payload)
 
 
+class PresenceKind(StrEnum):
+    """What a process is, by its liveliness token `alive/{kind}/{name}`."""
+
+    HOST = "host"
+    REPLAY = "replay"
+    """Beside `host`: this host plays a recording."""
+    AGENT = "agent"
+    """Its name is that of its robot."""
+    RECORDER = "recorder"
+    COACH = "coach"
+    """A page or a terminal that shows the match."""
+    REFBOX = "refbox"
+    """A base station that hears a league's referee box; its name is the side's."""
+
+
 @dataclass(frozen=True, slots=True)
 class Presence:
     """A process came or went."""
 
-    kind: str
+    kind: PresenceKind
     name: str
     alive: bool
 
@@ -114,10 +135,6 @@ class Subscription(ABC):
         return received.payload if received is not None else None
 
     @abstractmethod
-    def skip_missing(self) -> None:
-        """Wait no more for what is missing of a `recovered` topic: what came after it is given out, behind a gap."""
-
-    @abstractmethod
     def close(self) -> None:
         """Stop listening; a waiting `receive` returns nothing."""
 
@@ -144,6 +161,10 @@ class Query(ABC):
         """Send the reply; once."""
 
     @abstractmethod
+    def reply_payload(self, payload: bytes) -> None:
+        """Answer it, once, with bytes that are a reply already."""
+
+    @abstractmethod
     def fail(self, reason: str) -> None:
         """Report that there is no reply, and why; once."""
 
@@ -159,12 +180,25 @@ class Server(ABC):
 class PendingReply(ABC):
     """A reply that is on its way."""
 
-    @abstractmethod
+    def __init__(self, topic: Topic) -> None:
+        self._topic = topic
+
     def result(self, timeout: float) -> Any:
         """The reply, waiting up to `timeout` s.
 
         Raises:
             NoReplyError: no reply came, or the server reported that there is none, with the reason.
+            BadMessageError: the payload is not a reply of this topic.
+        """
+        assert self._topic.reply is not None
+        return self._topic.reply.decode(self.payload(timeout))
+
+    @abstractmethod
+    def payload(self, timeout: float) -> bytes:
+        """The bytes of the reply, waiting up to `timeout` s.
+
+        Raises:
+            NoReplyError: as `result`.
         """
 
 
@@ -205,20 +239,26 @@ class Bus(ABC):
         """Serve the queries of this topic; every chunk must be given."""
 
     @abstractmethod
-    def query(self, topic: Topic, request: WireMessage, timeout: float = 2.0, **chunks: str) -> PendingReply:
-        """Send a query; `timeout` is how long it stays open, in s."""
+    def query(
+        self, topic: Topic, request: WireMessage, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
+    ) -> PendingReply:
+        """Send a query; `timeout` is how long it stays open, in s.
+
+        With `droppable`, a question or an answer that finds no room on its way is dropped: no process waits for the
+        room, as one that answers at length would for an asker that stands still.
+        """
 
     @abstractmethod
-    def declare_alive(self, kind: str, name: str) -> None:
+    def declare_alive(self, kind: PresenceKind, name: str) -> None:
         """Be seen as `alive/{kind}/{name}` until that is withdrawn, this bus is closed or its process dies."""
 
     @abstractmethod
-    def withdraw_alive(self, kind: str, name: str) -> None:
+    def withdraw_alive(self, kind: PresenceKind, name: str) -> None:
         """Be seen so no more; nothing where one was not."""
 
     @abstractmethod
     def watch_alive(self) -> PresenceWatch:
-        """See others come and go."""
+        """See others come and go; tokens of other kinds are passed over."""
 
     @abstractmethod
     def connected(self) -> bool:

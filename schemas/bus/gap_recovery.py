@@ -131,11 +131,6 @@ class GapRecovery:
         if stream.expected > expected:
             stream.give_up_at = now + GIVE_UP_S
 
-    def skip_missing(self) -> None:
-        """Wait for nothing that is missing."""
-        for key in list(self._with_gaps):
-            self._skip_all(key)
-
     def _first_of(self, stamp: Stamp) -> int:
         """The number to begin a key with whose first message that came has this stamp."""
         return max(0, stamp.sequence - self._lookback) if stamp.sent_ns >= self._since_ns else stamp.sequence

@@ -16,6 +16,7 @@ from schemas.config.profile import SHIPPED, Profile, load_profile, profile_of, p
 from schemas.config.roster import MAX_ROBOTS, RESERVED
 from schemas.config.scene import REMEDIES as SCENE_REMEDIES
 from schemas.config.scene import Scene, load_scene
+from schemas.config.settings import DEFAULT_MATCH, RecordOptions
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import OfficiatingMode
@@ -135,28 +136,11 @@ class OfficiatingConfig(Part):
     """A level match continues with extra time and penalties; None for the rule book's setting."""
 
 
-class RecordingConfig(Part):
-    """What is recorded, and into which files."""
+class RecordingConfig(RecordOptions):
+    """What is recorded, and whether the match waits for a recorder."""
 
-    sights: bool = False
-    """The sights of all robots are recorded as well."""
     wait: bool = False
     """The first tick waits for a recorder, so that the recording is complete."""
-    include: list[str] = Field(default_factory=list)
-    """Key expressions that are recorded, `robot/*/command`; where the list is empty, all keys."""
-    exclude: list[str] = Field(default_factory=list)
-    """Key expressions that are not recorded."""
-    split_size: Annotated[float, Field(gt=0)] | None = None
-    """Size after which the recording continues in another file, in MB; None for one file."""
-    split_duration: Annotated[float, Field(gt=0)] | None = None
-    """Simulated time after which the recording continues in another file, in s; None for one file."""
-    keep: Annotated[int, Field(ge=1)] | None = None
-    """Number of finished files that are kept, newest first; None for all."""
-    snapshot: Annotated[float, Field(gt=0)] | None = None
-    """Simulated time before a goal that is written to a file of its own, in s, instead of everything; None for
-    everything."""
-    viz: bool = True
-    """The recording has drawings for viewers: `/tf` and `/viz/*`, for Foxglove, Lichtblick and Rerun."""
 
 
 class Patience(Part):
@@ -173,7 +157,7 @@ class Patience(Part):
 class MatchConfig(Part):
     """The complete description of a match; with the same brains, it gives the same match again."""
 
-    name: Name = "friendly"
+    name: Name = DEFAULT_MATCH
     """Name of the match on the bus."""
     seed: Annotated[int, Field(ge=0, lt=2**63)] = 1
     """Seed of all random numbers."""

@@ -188,7 +188,7 @@ class Applied(Message):
     """The episode that this tick belongs to: the start of the match is 1, and each scene that is loaded and each reset
     begin another."""
     chain: str
-    """blake2b over the state of this tick and this message up to its chain, keyed with the chain before it; hex."""
+    """blake2b over the state of this tick and all other fields of this message, keyed with the chain before it; hex."""
 
 
 def chained_part(applied: Mapping[str, Any]) -> bytes:
@@ -293,13 +293,15 @@ class RecorderProgress(Message):
     """Progress of a recorder; a lockstep host limits its lead over it."""
 
     tick: int
-    """The newest tick of which every message of the host has arrived."""
+    """The newest tick of which the recorder has everything; −1 before the first."""
     messages: int
     """Messages received so far."""
     lost: int
     """Messages known to be missing so far."""
     losses: dict[str, int] = Field(default_factory=dict)
     """Key → messages known to be missing; keys without losses are left out."""
+    sights: bool = False
+    """The recorder also records sights: the host adds them to its batches."""
     paused: bool = False
     """The recorder is paused and leaves out what arrives."""
     leaving: bool = False

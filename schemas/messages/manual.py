@@ -3,6 +3,9 @@
 from schemas.message import Message
 from schemas.messages.command import Drive, Kick
 
+TIMEOUT_S = 0.5
+"""Wall time without a message after which a robot is given back to its brain."""
+
 
 class ManualDrive(Message):
     """Drives a robot while such messages arrive; after half a second without one, its brain has control again."""

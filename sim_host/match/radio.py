@@ -13,6 +13,7 @@ from schemas.messages.command import Radio
 from schemas.messages.sight import ReceivedRadio
 from schemas.side import Side
 from schemas.struct import encode
+from sim_host.sensing.digits import DIGITS
 from sim_host.sensing.random_streams import BatchedDraws, RandomStreams, StreamId
 from sim_host.snapshot import Roster
 
@@ -21,8 +22,6 @@ _WINDOW_S = 1.0
 
 Delays = NDArray[np.int64]
 """Ticks from each member of a team to each, shape (members, members)."""
-_DIGITS = 4
-"""Of the age of a word in s, behind the point."""
 _LOST = -1
 """In place of a delay in ticks: the word never arrives."""
 _ROUNDING = 1e-6
@@ -34,24 +33,10 @@ class _RadioMessage:
     sent_at: int
     """Tick."""
     content: Radio
-    heard: ReceivedRadio | None = None
-    """As it is heard in one tick, by all alike."""
-
-    def at(self, tick: int, tick_s: float) -> ReceivedRadio:
-        """As it is heard in one tick, of this length in s."""
-        age = round((tick - self.sent_at) * tick_s, _DIGITS)
-        if self.heard is None or self.heard.age != age:
-            message = self.content
-            self.heard = ReceivedRadio(
-                self=message.self,
-                ball=message.ball,
-                role=message.role,
-                intention=message.intention,
-                pass_to=message.pass_to,
-                extra=message.extra,
-                age=age,
-            )
-        return self.heard
+    heard: ReceivedRadio
+    """As all listeners hear it."""
+    at: int
+    """The tick in which it is heard so."""
 
 
 @dataclass(slots=True)
@@ -122,7 +107,7 @@ class RadioAir:
             return f"radio: the team's budget of {self._air.budget / 1e6:g} Mbit/s is used up"
         team.sent.append((tick, bits))
         team.bits += bits
-        self._deliver(index, _RadioMessage(tick, content))
+        self._deliver(index, _RadioMessage(tick, content, _received(content, 0.0), tick))
         return None
 
     def _deliver(self, speaker: int, message: _RadioMessage) -> None:
@@ -155,12 +140,27 @@ class RadioAir:
                 before = self._received[mate].get(speaker)
                 if before is None or message.sent_at > before.sent_at:
                     self._received[mate][speaker] = message
-        names, tick_s = self._roster.names, self._tick_s
-        return [
-            {names[speaker]: message.at(tick, tick_s) for speaker, message in heard.items()} for heard in self._received
-        ]
+        for heard in self._received:
+            for message in heard.values():
+                if message.at != tick:
+                    message.heard = _received(message.content, round((tick - message.sent_at) * self._tick_s, DIGITS))
+                    message.at = tick
+        names = self._roster.names
+        return [{names[speaker]: message.heard for speaker, message in heard.items()} for heard in self._received]
 
     def _drop_old(self, team: _TeamAir, tick: int) -> None:
         oldest = tick - _WINDOW_S / self._tick_s
         while team.sent and team.sent[0][0] <= oldest:
             team.bits -= team.sent.popleft()[1]
+
+
+def _received(content: Radio, age: float) -> ReceivedRadio:
+    return ReceivedRadio(
+        self=content.self,
+        ball=content.ball,
+        role=content.role,
+        intention=content.intention,
+        pass_to=content.pass_to,
+        extra=content.extra,
+        age=age,
+    )

@@ -6,6 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from schemas.config.sections import Sensing
+from schemas.messages.sight import Obstacle
+from sim_host.sensing.digits import DIGITS
 from sim_host.sensing.hulls import Hulls
 from sim_host.sensing.random_streams import (
     SMALL_BATCH,
@@ -27,8 +29,8 @@ _NO_DISTANCE = np.array(1e-9)
 """m; in what direction from itself a robot is, nobody asks."""
 _NOWHERE = np.array(np.inf)
 """m; how far away what was not found is."""
-PER_OBSTACLE = 3
-"""Numbers that a picture has of each obstacle."""
+_PER_OBSTACLE = 3
+"""x, y, radius."""
 
 
 class Picture(NamedTuple):
@@ -40,8 +42,8 @@ class Picture(NamedTuple):
     """Per robot: x, y, z in m and vx, vy in m/s; meaningless where it was not found."""
     found: list[bool]
     """Per robot: whether the ball was."""
-    obstacles: list[list[float]]
-    """Per robot: x, y, radius in m of each obstacle, one after the other, the nearest first."""
+    obstacles: list[list[Obstacle]]
+    """Per robot: the obstacles, the nearest first."""
 
     @classmethod
     def nothing(cls, robots: int) -> "Picture":
@@ -60,10 +62,7 @@ class Picture(NamedTuple):
 
     def rotated(self) -> "Picture":
         """The same picture in team frames that have turned by π since."""
-        obstacles = [
-            [-number if place % PER_OBSTACLE < 2 else number for place, number in enumerate(numbers)]
-            for numbers in self.obstacles
-        ]
+        obstacles = [[Obstacle(x=-one.x, y=-one.y, radius=one.radius) for one in seen] for seen in self.obstacles]
         return Picture(self.tick, [rotated_ball(ball) for ball in self.ball], self.found, obstacles)
 
 
@@ -103,7 +102,7 @@ class Camera:
         robots = len(roster.names)
         self._blur = np.empty((robots, 1 + bodies), dtype=complex)
         self._blur_parts = np.moveaxis(self._blur.view(float).reshape(robots, 1 + bodies, 2), 2, 0)
-        self._bodies = np.empty((robots, bodies, PER_OBSTACLE))
+        self._bodies = np.empty((robots, bodies, _PER_OBSTACLE))
         self._bodies[..., 2] = self._hulls.reach
         self._first_body = bodies * self._rows
 
@@ -155,17 +154,20 @@ class Camera:
         np.multiply(draws[1:], sigma, out=seen[3:])
         seen[3] += velocity.real
         seen[4] += velocity.imag
-        numbers: list[list[float]] = seen.T.tolist()
+        numbers: list[list[float]] = seen.T.round(DIGITS).tolist()
         return numbers
 
-    def _nearest_first(self, away: Floats, places: Vectors, found: Flags) -> list[list[float]]:
+    def _nearest_first(self, away: Floats, places: Vectors, found: Flags) -> list[list[Obstacle]]:
         """The bodies that were found, in the order of their distance: it tells nobody's name."""
         order = away.argsort(axis=1, kind="stable")
         order += self._first_body
         numbers = self._bodies
         numbers[..., 0], numbers[..., 1] = places.real, places.imag
-        rows = numbers.reshape(-1, PER_OBSTACLE).take(order, axis=0).reshape(len(away), -1).tolist()
-        return [row[: PER_OBSTACLE * them.count(True)] for row, them in zip(rows, found.tolist(), strict=True)]
+        rows = numbers.reshape(-1, _PER_OBSTACLE).take(order, axis=0).round(DIGITS).tolist()
+        return [
+            [Obstacle(x=x, y=y, radius=radius) for x, y, radius in row[:count]]
+            for row, count in zip(rows, found.sum(axis=1).tolist(), strict=True)
+        ]
 
     def _ticks(self, numbers: range) -> list[int]:
         return [self._shutter.tick_of(number) for number in numbers]

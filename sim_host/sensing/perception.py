@@ -12,7 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from schemas.config.sections import Sensing
+from schemas.messages.sight import Obstacle
 from sim_host.sensing.camera import Camera, Picture, rotated_ball
+from sim_host.sensing.digits import DIGITS
 from sim_host.sensing.drift import Drift
 from sim_host.sensing.own_motion import OwnMotion
 from sim_host.sensing.random_streams import BatchedDraws, RandomStreams
@@ -32,8 +34,8 @@ class Percept(NamedTuple):
     """s since the picture that the ball was seen in."""
     visible: bool
     """The ball is in the newest picture."""
-    obstacles: list[float]
-    """x, y, radius in m of each obstacle, the nearest first."""
+    obstacles: list[Obstacle]
+    """The nearest first; the same list in every tick until the next picture."""
     obstacles_age: float
     """s since the picture that they were seen in."""
 
@@ -105,14 +107,18 @@ class Perception:
         while self._under_way and self._under_way[0].tick <= tick - self._shutter.latency:
             self._receive(self._under_way.popleft())
         own = self._own.at(tick, robots, frames)
-        known, tick_s = self._known, self._tick_s
-        age = (tick - known.tick) * tick_s
+        known = self._known
+        age = self._age(known.tick, tick)
         return [
             Percept(me, None, 0.0, False, obstacles, age)
             if ball is None
-            else Percept(me, ball.place, (tick - ball.tick) * tick_s, ball.tick == known.tick, obstacles, age)
+            else Percept(me, ball.place, self._age(ball.tick, tick), ball.tick == known.tick, obstacles, age)
             for me, ball, obstacles in zip(own, self._balls, known.obstacles, strict=True)
         ]
+
+    def _age(self, since: int, now: int) -> float:
+        """How long ago a tick was, in s."""
+        return round((now - since) * self._tick_s, DIGITS)
 
     def develop(self) -> None:
         """Work out a picture that was taken and is not known before a later tick; robots can think meanwhile."""

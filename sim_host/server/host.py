@@ -3,10 +3,11 @@
 from collections.abc import Callable
 
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus
+from schemas.bus.contract import HEARTBEAT_S, Bus, PresenceKind
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.game import EventKind, GameEvent
+from schemas.recovery_window import PARTING_S
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.server.active_order_publisher import ActiveOrderPublisher
 from sim_host.server.health_reporter import HealthReporter
@@ -18,11 +19,9 @@ from sim_host.server.pace import Lockstep, Pace, Realtime
 from sim_host.server.presence_tracker import PresenceTracker
 from sim_host.server.services import Services
 
-_FULL_TIME_GRACE_S = 0.75
+_FULL_TIME_GRACE_S = 1.5 * HEARTBEAT_S
 """Wall time that the host stays after full time for those who watch: what they missed of the end shows with the bus's
 next heartbeat, half a second after it, and can be fetched again as long as the host is there."""
-_RECORDER_GRACE_S = 5.0
-"""Wall time that the host waits at the end for its recorders to take in the last tick."""
 
 
 class Host:
@@ -31,7 +30,7 @@ class Host:
     def __init__(self, config: MatchConfig, bus: Bus) -> None:
         self.simulation = Simulation(config)
         self._invalid_log = InvalidLog()
-        self._batches = BatchPublisher(bus)
+        self._batches = BatchPublisher(bus, self._invalid_log.add)
         self.inbox = Inbox(bus, self.simulation.roster, self._invalid_log, self._batches)
         self.presence = PresenceTracker(bus, self.inbox.agent_stats, config.patience.recorder)
         self._manual = ManualControl(bus, self._invalid_log)
@@ -40,7 +39,7 @@ class Host:
         self._services = Services(bus, self.simulation, self._invalid_log, self._batches, self.presence.has_referee_box)
         self.pace = _pace(config, bus, self.inbox, self.presence, self._while_waiting, self.simulation.profile)
         tick_s = self.simulation.profile.time.tick
-        self._outbox = Outbox(self._batches, self.simulation.roster, tick_s, sights_kept=config.record.sights)
+        self._outbox = Outbox(self._batches, self.simulation.roster, tick_s)
         self._active_orders = ActiveOrderPublisher(
             self._batches, self.simulation.orders, self.inbox.agent_stats, tick_s
         )
@@ -50,7 +49,7 @@ class Host:
         self.stopping = False
         """Somebody has told the host to end the match."""
         self._set_sim_time(0)
-        bus.declare_alive("host", "host")
+        bus.declare_alive(PresenceKind.HOST, "host")
 
     def run(self) -> None:
         """Play the match to its end, or until somebody tells the host to leave."""
@@ -80,6 +79,7 @@ class Host:
 
     def begin(self) -> None:
         """Tell everyone of tick 0."""
+        self._look_for_sight_recorders()
         first = self.simulation.now
         for robot, sight in first.sights.items():
             self._send_sight(robot, sight)
@@ -92,6 +92,7 @@ class Host:
         commands = self.pace.gather(self.simulation.now.tick, self._outbox.resend_sight)
         self.presence.update()
         self._process_requests()
+        self._look_for_sight_recorders()
         self._set_sim_time(self.simulation.now.tick + 1)
         commands = self._manual.override(self.simulation.now.tick, self._roster.names, commands)
         silent = {name for name, is_silent in self._silent.items() if is_silent and name not in commands}
@@ -108,7 +109,7 @@ class Host:
         """Give the recorders time to take in the last tick, and after full time those who watch to hear of it."""
         last = self.simulation.now.tick
         self._batches.send()
-        deadline = self._clock.now() + _RECORDER_GRACE_S
+        deadline = self._clock.now() + PARTING_S
         while self._clock.now() < deadline:
             self.presence.update(timeout=0.005)
             self._services.process()
@@ -138,8 +139,8 @@ class Host:
         self._roster = roster
 
     def _while_waiting(self) -> None:
-        """While answers are missing: whoever joins must know the match, and what was said must not wait as long."""
-        self._services.answer_setup()
+        """While robots or recorders are waited for: what was published must not wait as long to be recorded."""
+        self._services.attend_meanwhile()
         self._batches.send_if_due()
 
     def _send_sight(self, robot: str, sight: bytes) -> None:
@@ -147,6 +148,10 @@ class Host:
         if robot == self.simulation.roster.names[0]:
             self.inbox.sights_sent(self.simulation.world.tick, self._clock.unix_ns())
         self._outbox.publish_sight(robot, sight)
+
+    def _look_for_sight_recorders(self) -> None:
+        """Sights are recorded if the match file says so, or while a recorder asks for them."""
+        self._outbox.sights_recorded = self._config.record.sights or self.presence.wants_sights
 
     def _set_sim_time(self, tick: int) -> None:
         """What is sent from now on belongs to this tick."""

@@ -6,12 +6,9 @@ from dataclasses import dataclass
 from schemas.bus.contract import Bus
 from schemas.message import BadMessageError
 from schemas.messages.command import Command, Kick
-from schemas.messages.manual import ManualDrive
+from schemas.messages.manual import TIMEOUT_S, ManualDrive
 from schemas.topics import MANUAL
 from sim_host.server.invalid_log import InvalidLog
-
-TIMEOUT_S = 0.5
-"""Wall time without a word after which a robot is given back."""
 
 
 @dataclass(slots=True)

@@ -7,8 +7,9 @@ from typing import Protocol
 from schemas.config.match_config import Patience
 from schemas.messages.command import Command
 from schemas.process.clock import Clock
+from schemas.recovery_window import RUN_AHEAD_TICKS
 from sim_host.server.inbox import SILENT_TICKS, Inbox
-from sim_host.server.presence_tracker import MAX_RECORDER_LAG, PresenceTracker
+from sim_host.server.presence_tracker import PresenceTracker
 
 _RESEND_S = 0.05
 """Wall time after which an unanswered sight is sent again: a lost message is not waited for."""
@@ -82,7 +83,7 @@ class Lockstep:
         patience: Patience,
         while_waiting: Callable[[], None] = lambda: None,
     ) -> None:
-        """`while_waiting` is done now and then while answers are missing."""
+        """`while_waiting` is done now and then while robots or recorders are waited for."""
         self._clock = clock
         self._while_waiting = while_waiting
         self._inbox = inbox
@@ -164,6 +165,7 @@ class Lockstep:
             elif now > deadline:
                 self._stalled.update(late)
                 return
+            self._while_waiting()
             if self.step_agents is not None:
                 self.step_agents()
             else:
@@ -174,5 +176,5 @@ class Lockstep:
         return {
             name: newest
             for name, newest in self._presence.recorders.items()
-            if tick - newest > MAX_RECORDER_LAG and self._stalled.get(name) != newest
+            if tick - newest > RUN_AHEAD_TICKS and self._stalled.get(name) != newest
         }

@@ -7,7 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from schemas.bus.contract import LEASE_S
+from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.zenoh import sample, session
+from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.message import BadMessageError, Message
 from schemas.messages.command import Command
@@ -16,7 +19,7 @@ from schemas.protocol.fields import is_part, parts_of, rows, type_text
 from schemas.protocol.page import page
 from schemas.topics import TOPICS
 from sim_host.server import inbox, pace
-from touchline.launch.processes import PROCESSES, ProcessKind
+from touchline.launch.processes import MatchPlan, ProcessKind, processes_of
 from touchline.launch.supervisor import AFTER_THE_MATCH
 
 MESSAGES = list(dict.fromkeys(kind for row in TOPICS.values() for kind in (row.message, row.reply) if kind is not None))
@@ -68,10 +71,13 @@ def test_limits_and_choices_are_said_in_words() -> None:
 
 
 def test_the_environment_is_the_one_that_a_robot_is_launched_with(text: str) -> None:
-    row = PROCESSES[ProcessKind.AGENT]
+    config = load_match(None, {"teams.cyan.command": ["./robot"]})
+    robot = next(
+        one for one in processes_of(MatchPlan(config, DEFAULT_ENDPOINT, Path(), None)) if one.kind is ProcessKind.AGENT
+    )
     said = set(re.findall(r"^\| `(TOUCHLINE_\w+)` \|", text, re.MULTILINE))
-    assert said == {name for name in row.environment if name.startswith("TOUCHLINE_")}
-    assert row.restarts == 3 and "at most three times" in text
+    assert said == {name for name in robot.environment if name.startswith("TOUCHLINE_")}
+    assert robot.restarts == 3 and "at most three times" in text
 
 
 def test_the_attachment_is_the_one_that_is_sent(text: str) -> None:
@@ -83,7 +89,7 @@ def test_the_settings_are_those_of_a_client(text: str, fenced: Callable[[str, st
     (settings,) = fenced(text, "json5")
     for name, value in session._RETRY.items():
         assert f"{name}: {value}" in settings
-    assert f"lease: {session._LEASE_MS}" in settings
+    assert f"lease: {round(LEASE_S * 1000)}" in settings
 
 
 def test_the_times_that_it_names_are_those_of_the_host(text: str) -> None:

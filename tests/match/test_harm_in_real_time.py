@@ -68,8 +68,8 @@ class Story:
         listener.update()
 
     def stopped(self):
-        pid = self.program.child("--robot", "cyan2")
-        self.policies = {os.sched_getscheduler(one) for one in (pid, self.program.child("sim_host"))}
+        pid = self.program.process("cyan2")
+        self.policies = {os.sched_getscheduler(one) for one in (pid, self.program.process("host"))}
         self.heard.until(lambda heard: turns(heard, "cyan2"), "cyan2 driving")
         self.before_stop = self.heard.tick
         os.kill(pid, signal.SIGSTOP)
@@ -84,7 +84,7 @@ class Story:
 
     def killed(self):
         before = self.heard.robot("magenta1").answers
-        os.kill(self.program.child("--robot", "magenta1"), signal.SIGKILL)
+        os.kill(self.program.process("magenta1"), signal.SIGKILL)
         self.heard.until(lambda heard: not heard.robot("magenta1").alive, "magenta1 leaving")
         self.without = self.heard.tick
         self.program.says("magenta1 was ended by SIGKILL; started again (1 of 3)")
@@ -92,7 +92,7 @@ class Story:
 
     def recorder_killed(self):
         self.heard.until(lambda heard: 0 <= heard.healths[-1].recorders.get("recorder", -1) < 50, "the recorder")
-        os.kill(self.program.child("recordings"), signal.SIGKILL)
+        os.kill(self.program.process("recorder"), signal.SIGKILL)
         self.heard.update()
         self.killed_recorder_at = self.heard.tick
         self.heard.for_ticks(60)

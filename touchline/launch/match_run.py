@@ -79,7 +79,7 @@ class MatchRun:
         self._losses = losses
         self._recorded = recorded
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
-        self._fork_server = ForkServer(plan.folder / "fork_server.log")
+        self._fork_server = ForkServer()
         self._supervisor = Supervisor(processes_of(plan), self._launch, clock)
 
     def play(self) -> MatchResult:
@@ -92,10 +92,7 @@ class MatchRun:
         """
         with StopSignals() as stop:
             try:
-                try:
-                    self._supervisor.start()
-                finally:
-                    self._fork_server.close()  # who is started again begins from nothing
+                self._supervisor.start()
                 follower = self._follow(stop)
             except BaseException:
                 self._supervisor.end(AT_ONCE)

@@ -13,6 +13,7 @@ from schemas.bus.contract import (
     Bus,
     BusError,
     PendingReply,
+    PresenceKind,
     PresenceWatch,
     Publisher,
     Server,
@@ -86,14 +87,16 @@ class ZenohBus(Bus):
         self._mailboxes.append(server.mailbox)
         return server
 
-    def query(self, topic: Topic, request: WireMessage, timeout: float = 2.0, **chunks: str) -> PendingReply:
-        return ZenohPendingReply(topic, full_key(topic, chunks), request, timeout, self._open())
+    def query(
+        self, topic: Topic, request: WireMessage, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
+    ) -> PendingReply:
+        return ZenohPendingReply(topic, full_key(topic, chunks), request, timeout, droppable, self._open())
 
-    def declare_alive(self, kind: str, name: str) -> None:
+    def declare_alive(self, kind: PresenceKind, name: str) -> None:
         key = self._context.prefix + TOPICS["alive"].fill(kind=kind, name=name)
         self._tokens[key] = self._open().session.liveliness().declare_token(key)
 
-    def withdraw_alive(self, kind: str, name: str) -> None:
+    def withdraw_alive(self, kind: PresenceKind, name: str) -> None:
         self._open()
         token = self._tokens.pop(self._context.prefix + TOPICS["alive"].fill(kind=kind, name=name), None)
         if token is not None:

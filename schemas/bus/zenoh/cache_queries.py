@@ -30,7 +30,6 @@ class CacheQueries:
         self._answers: SimpleQueue[tuple[Gap, list[zenoh.Sample]]] = SimpleQueue()
         self.accept_if_next = self._recovery.accept_if_next
         self.due_at = self._recovery.due_at
-        self.skip_missing = self._recovery.skip_missing
 
     def insert(self, received: ReceivedMessage, sample: zenoh.Sample) -> None:
         """A message that does not pass."""

@@ -35,9 +35,6 @@ class ZenohNewest(ZenohReader):
         newest = self._newest(timeout)
         return newest[1] if newest is not None else None
 
-    def skip_missing(self) -> None:
-        """Nothing older than the newest is ever waited for."""
-
     def _newest(self, timeout: float | None) -> tuple[zenoh.Sample, bytes] | None:
         """The sample that came last, and its payload."""
         until = NO_WAIT if self._ended else self._deadline_of(timeout)

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 
 import zenoh
 
-from schemas.bus.contract import Bus, BusError
+from schemas.bus.contract import LEASE_S, Bus, BusError
 from schemas.bus.zenoh.wait_timer import WaitTimer
 from schemas.process.clock import Clock
 
-_LEASE_MS = 2000
 _THREADS = "ZENOH_RUNTIME"
 """Environment variable that Zenoh reads its threads from."""
 _CLIENT_THREADS = "(app: (worker_threads: 1), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
@@ -111,7 +110,7 @@ def _config(mode: str, more: dict[str, object]) -> zenoh.Config:
         "scouting/gossip/enabled": False,
         "scouting/delay": 0,
         "transport/shared_memory/enabled": False,
-        "transport/link/tx/lease": _LEASE_MS,
+        "transport/link/tx/lease": round(LEASE_S * 1000),
         **more,
     }
     for key, value in settings.items():

@@ -5,7 +5,7 @@ from typing import Any
 import zenoh
 from zenoh import ext
 
-from schemas.bus.contract import BusError, Publisher, ReceivedMessage, Stamp
+from schemas.bus.contract import HEARTBEAT_S, BusError, Publisher, ReceivedMessage, Stamp
 from schemas.bus.gap_recovery import GapRecovery
 from schemas.bus.zenoh.cache_queries import CacheQueries
 from schemas.bus.zenoh.reader import ZenohReader
@@ -35,7 +35,7 @@ class ZenohPublisher(Publisher):
                 context.session,
                 full,
                 cache=ext.CacheConfig(max_samples=topic.cache_size),
-                sample_miss_detection=ext.MissDetectionConfig(heartbeat=0.5, sporadic_heartbeat=None),
+                sample_miss_detection=ext.MissDetectionConfig(heartbeat=HEARTBEAT_S, sporadic_heartbeat=None),
                 publisher_detection=True,
                 **quiet,
             )
@@ -94,10 +94,6 @@ class ZenohSubscription(ZenohReader):
             kept[received.key] = received
             received = self._next(0.0)
         return kept.pop(next(iter(kept))) if kept else None
-
-    def skip_missing(self) -> None:
-        if self._gaps is not None:
-            self._gaps.skip_missing()
 
     def _next(self, timeout: float | None) -> ReceivedMessage | None:
         """The next message of this topic; a wake-up ends the wait at its deadline, or when a missing one came."""

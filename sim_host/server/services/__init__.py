@@ -25,6 +25,7 @@ class Services:
         has_referee_box: Callable[[], bool],
     ) -> None:
         """`has_referee_box` tells whether a league's referee box decides: then nobody else does."""
+        self._batches = batches
         self._setup = QueryHandler(bus, SETUP, lambda _: simulation.setup(), invalid_log)
         self._parameters = QueryHandler(bus, PARAMETERS, simulation.handle_parameters, invalid_log)
         self._scene = QueryHandler(bus, SCENE, simulation.handle_scene, invalid_log)
@@ -43,10 +44,15 @@ class Services:
         """
         for handler in (self._orders, self._parameters, self._scene, self._setup, self._actions):
             handler.process()
+        self._batches.process()
 
-    def answer_setup(self) -> None:
-        """Say how the match is set up to whoever asks; an agent that is waited for may have to know first."""
+    def attend_meanwhile(self) -> None:
+        """Answer what may not wait for the end of a tick.
+
+        An agent that is waited for may have to know the setup first, a recorder that is waited for may need batches.
+        """
         self._setup.process()
+        self._batches.process()
 
     def reply(self, replies: Sequence[ActionReply]) -> None:
         """Answer the actions noted, in order, and forget them."""

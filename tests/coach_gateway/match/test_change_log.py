@@ -3,7 +3,6 @@ import threading
 import pytest
 
 from coach_gateway.match.change_log import log_changes
-from coach_gateway.match.host_presence import HostPresence
 from schemas.bus.in_process_bus import Medium
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, GameEvent, GameState, Phase, Score
@@ -79,14 +78,3 @@ def test_a_stop_ends_the_watch_while_the_host_goes_on() -> None:
     stop.set()
     log_changes(host.medium.open_bus("friendly", SteppedClock()), lambda line: None, stop)
     assert host.bus.connected()
-
-
-def test_a_host_that_was_never_seen_is_not_gone() -> None:
-    medium = Medium()
-    presence = HostPresence(medium.open_bus("friendly", SteppedClock()))
-    assert not presence.gone()
-    host = medium.open_bus("friendly", SteppedClock())
-    host.declare_alive("host", "host")
-    assert not presence.gone()
-    host.close()
-    assert presence.gone()

@@ -7,7 +7,6 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -153,9 +152,9 @@ class FakeHost:
 class Gateway:
     """The page's server in a thread of its own."""
 
-    def __init__(self, medium: Medium, settings: WebSettings) -> None:
+    def __init__(self, medium: Medium, settings: WebSettings, tokens: Path | None) -> None:
         self.said: list[str] = []
-        self.binding = bind_page(settings, tokens_of(settings.tokens))
+        self.binding = bind_page(settings, tokens_of(tokens), tokens)
         self.origin = self.binding.origin
         self.bus = medium.open_bus("friendly", WallClock())
         self._stop = asyncio.Event()
@@ -254,11 +253,11 @@ def medium() -> Medium:
 
 
 @pytest.fixture
-def settings(tmp_path: Path) -> WebSettings:
-    tokens = tmp_path / "tokens.json"
-    tokens.touch(0o600)
-    tokens.write_text(json.dumps(TOKENS))
-    return WebSettings(port=0, tokens=tokens)
+def tokens(tmp_path: Path) -> Path:
+    file = tmp_path / "tokens.json"
+    file.touch(0o600)
+    file.write_text(json.dumps(TOKENS))
+    return file
 
 
 @pytest.fixture
@@ -280,11 +279,11 @@ def host(host_of: Callable[..., FakeHost]) -> FakeHost:
 
 
 @pytest.fixture
-def gateway_of(medium: Medium, settings: WebSettings) -> Iterator[Callable[..., Gateway]]:
+def gateway_of(medium: Medium, tokens: Path) -> Iterator[Callable[..., Gateway]]:
     made: list[Gateway] = []
 
-    def make(**words: Any) -> Gateway:
-        made.append(Gateway(medium, replace(settings, **words)))
+    def make(tokens_file: Path | None = tokens, **words: Any) -> Gateway:
+        made.append(Gateway(medium, WebSettings(**{"port": 0, **words}), tokens_file))
         return made[-1]
 
     yield make

@@ -42,7 +42,7 @@ def test_a_page_from_elsewhere_does_not_come_in(
 
 
 def test_a_page_from_an_allowed_origin_comes_in(host: FakeHost, gateway_of: Callable[..., Gateway]) -> None:
-    gateway = gateway_of(origins=("https://cup.example.org",))
+    gateway = gateway_of(allow_origin=["https://cup.example.org"])
     page = Visitor(gateway.origin, claims="https://cup.example.org")
     assert page.hear("welcome")["role"] == "spectator"
     page.close()

@@ -57,7 +57,7 @@ def test_who_is_refused_for_its_address_is_told_so_and_others_come_in(
 ) -> None:
     """Addresses of loopback stand for those of other machines."""
     monkeypatch.setattr(socket_endpoint, "client_network", lambda address: address)
-    gateway = gateway_of(pages_each=1)
+    gateway = gateway_of(pages_per_address=1)
     first, second = (Visitor(gateway.origin, source_address=("127.0.0.2", 0)) for _ in range(2))
     other = Visitor(gateway.origin, source_address=("127.0.0.3", 0))
     assert second.hear("refusal")["reason"].startswith("1 pages of your address are open")

@@ -7,12 +7,12 @@ from typing import Any
 import pytest
 
 from coach_gateway.match.host_client import HostClient
-from coach_gateway.web.manual_control import KEPT_S, ManualControl
+from coach_gateway.web.manual_control import ManualControl
 from coach_gateway.web.pages import Page
 from coach_gateway.web.protocol import PageDrive
 from schemas.game import ActionName
 from schemas.messages.coach import CoachMode, CoachOrder
-from schemas.messages.manual import ManualDrive
+from schemas.messages.manual import TIMEOUT_S, ManualDrive
 from schemas.side import Side
 
 from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, wait_for
@@ -180,4 +180,4 @@ def test_a_second_hand_on_a_robot_is_refused_until_the_first_has_let_go() -> Non
     assert hands.refusal(second, drive, 10.8) is not None
     assert hands.refusal(first, release, 10.8) is None
     assert hands.refusal(second, drive, 10.8) is None
-    assert hands.refusal(first, drive, 10.8 + KEPT_S) is None  # silent for so long, it has let go
+    assert hands.refusal(first, drive, 10.8 + TIMEOUT_S) is None  # silent for so long, it has let go

@@ -240,6 +240,6 @@ def test_what_the_server_says_first_has_no_token_where_they_stand_in_a_file(gate
     said = list(gateway.binding.lines())
     assert said[0] == f"page: {gateway.origin}/"
     assert not any(token in line for line in said for token in TOKENS.values())
-    own = list(gateway_of(tokens=None).binding.lines())
+    own = list(gateway_of(None).binding.lines())
     assert [line.partition(":")[0] for line in own] == ["page", "referee", "cyan", "magenta"]
     assert all("/#token=" in line for line in own[1:])

@@ -10,11 +10,13 @@ import sys
 import threading
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from coach_gateway.access.tokens import tokens_of
+from coach_gateway.settings import GatewaySettings
 from coach_gateway.web.binding import PageBinding, bind_page
 from coach_gateway.web.settings import WebSettings
 from coach_gateway.web.waiting_page import WaitingPage
@@ -25,6 +27,7 @@ from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.messages.host import Setup
 from schemas.process.clock import WallClock
+from schemas.process.settings_file import write_settings
 from schemas.topics import SETUP
 
 from .conftest import SOON, TOKENS, Visitor
@@ -45,9 +48,17 @@ def waiting_page(binding: PageBinding) -> Iterator[None]:
         loop.close()
 
 
+def served(settings: GatewaySettings, folder: Path) -> subprocess.Popen[str]:
+    """A gateway process that reads these settings."""
+    write_settings(settings, folder / "page.json")
+    command = [sys.executable, "-m", "coach_gateway", "--settings", "page.json"]
+    pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+    return subprocess.Popen(command, text=True, env=os.environ, cwd=folder, **pipes)
+
+
 @pytest.fixture
-def binding(settings: WebSettings) -> Iterator[PageBinding]:
-    binding = bind_page(settings, tokens_of(settings.tokens))
+def binding(tokens: Path) -> Iterator[PageBinding]:
+    binding = bind_page(WebSettings(port=0), tokens_of(tokens), tokens)
     yield binding
     binding.listener.close()
 
@@ -87,10 +98,7 @@ def test_whoever_serves_next_takes_the_same_address(binding: PageBinding) -> Non
 def test_a_served_page_waits_for_its_host_and_meets_it(tmp_path: Path) -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
     tokens = tmp_path / "tokens.json"
-    command = [sys.executable, "-m", "coach_gateway", "--connect", endpoint, "--web", "--port", "0"]
-    process = subprocess.Popen(
-        [*command, "--tokens", str(tokens)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=os.environ
-    )
+    process = served(GatewaySettings(connect=endpoint, tokens=tokens, web=WebSettings(port=0)), tmp_path)
     try:
         assert process.stdout is not None
         said = [process.stdout.readline().rstrip() for _ in range(3)]
@@ -122,10 +130,7 @@ def test_a_served_page_waits_for_its_host_and_meets_it(tmp_path: Path) -> None:
 @pytest.mark.processes
 def test_a_page_that_waits_for_a_host_ends_when_it_is_told(tmp_path: Path) -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
-    command = [sys.executable, "-m", "coach_gateway", "--connect", endpoint, "--web", "--port", "0"]
-    process = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=os.environ, cwd=tmp_path
-    )
+    process = served(GatewaySettings(connect=endpoint, web=WebSettings(port=0)), tmp_path)
     try:
         assert process.stdout is not None
         while "waiting for it" not in process.stdout.readline():

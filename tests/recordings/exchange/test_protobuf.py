@@ -26,7 +26,7 @@ from schemas.protocol.examples import examples
 from schemas.topics import TOPICS, WORLD
 
 MODELS = list(dict.fromkeys(topic.message for topic in TOPICS.values() if topic.message not in (None, RecordBatch)))
-"""All messages but record batches, which hold others as they are and stand in no recording."""
+"""All messages but batches, which hold others as they are and stand in no recording."""
 
 
 @pytest.fixture(scope="module")

@@ -80,7 +80,7 @@ def test_a_recording_of_a_replay_has_equal_payloads_in_equal_order(recorded, roo
 
 
 def test_as_fast_as_possible_does_not_run_away_from_a_recorder(recorded, room, monkeypatch):
-    monkeypatch.setattr("recordings.replay.listeners.WINDOW", 20)
+    monkeypatch.setattr("recordings.replay.listeners.RUN_AHEAD_TICKS", 20)
     bus = room.seat()
     loss_counts = LossCounts()
     sink = open_sink(recorded.path.with_name("late.mcap"), bus.clock, room.match, loss_counts)
@@ -107,7 +107,7 @@ def test_as_fast_as_possible_does_not_run_away_from_a_recorder(recorded, room, m
 
 
 def test_a_recorder_that_is_silent_is_left_behind(recorded, room, monkeypatch):
-    monkeypatch.setattr("recordings.replay.listeners.WINDOW", 20)
+    monkeypatch.setattr("recordings.replay.listeners.RUN_AHEAD_TICKS", 20)
     seat = room.seat()
     seat.declare_alive("recorder", "stuck")
     host = room.host(recorded.path, rate=None)

@@ -108,12 +108,13 @@ def test_one_reading_in_a_hundred_is_noisy_with_simatchs_noise(errors):
     of = errors(n, sensing=sensing_of("simatch", PERFECT))(0)
     for kind, columns in {"own": (0, 1, 3, 4), "ball": (0, 1, 3, 4), "obstacle": (0, 1)}.items():
         error = np.stack([of[kind, i] - TRUE[kind][i] for i in columns])
-        noisy = np.abs(error) > 1e-9
-        assert (noisy == noisy[0]).all()
-        assert noisy[0].mean() == approx(0.01, abs=4 * math.sqrt(0.01 * 0.99 / n))
-        chosen = error[:, noisy[0]]
+        differs = np.abs(error) > 1e-9
+        noisy = differs.any(axis=0)
+        assert differs[:, noisy].mean() > 0.99, "together, but for noise below 0.1 mm"
+        assert noisy.mean() == approx(0.01, abs=4 * math.sqrt(0.01 * 0.99 / n))
+        chosen = error[:, noisy]
         assert chosen.std() == approx(0.10, rel=4 / math.sqrt(2 * chosen.size))
-        gaps = np.diff(np.flatnonzero(noisy[0]))
+        gaps = np.diff(np.flatnonzero(noisy))
         assert gaps.mean() == approx(100, abs=4 * 100 / math.sqrt(len(gaps))), "as rare at any time"
     assert np.ptp(of["own", 2]) < 1e-12 and np.ptp(of["own", 5]) == 0.0
     assert SIMATCH.noise_rate == 0.01
@@ -146,10 +147,10 @@ def test_drift_moves_everything_a_robot_sees_as_it_moves_itself(scenery):
         one = made.look()[0]
         x, y, heading = one.own[:3]
         bearing = math.atan2(one.ball[1] - y, one.ball[0] - x) - heading
-        assert math.hypot(one.ball[0] - x, one.ball[1] - y) == approx(5.0)
-        assert math.remainder(bearing - (math.atan2(4.0, 3.0) - 0.7), math.tau) == approx(0, abs=1e-9)
-        assert math.hypot(one.ball[3], one.ball[4]) == approx(math.hypot(1.0, 2.0))
-        assert math.dist(one.obstacles[0][:2], (x, y)) == approx(3.0)
+        assert math.hypot(one.ball[0] - x, one.ball[1] - y) == approx(5.0, abs=2e-4)
+        assert math.remainder(bearing - (math.atan2(4.0, 3.0) - 0.7), math.tau) == approx(0, abs=2e-4)
+        assert math.hypot(one.ball[3], one.ball[4]) == approx(math.hypot(1.0, 2.0), abs=2e-4)
+        assert math.dist(one.obstacles[0][:2], (x, y)) == approx(3.0, abs=2e-4)
 
 
 def test_two_robots_drift_apart(errors):

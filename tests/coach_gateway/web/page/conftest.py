@@ -156,7 +156,7 @@ class Gateway:
         self.bus = medium.open_bus("friendly", WallClock()) if medium is not None else None
         self._stop = asyncio.Event()
         self._ready = threading.Event()
-        self._binding = bind_page(WebSettings(port=port, tokens=tokens), tokens_of(tokens))
+        self._binding = bind_page(WebSettings(port=port), tokens_of(tokens))
         self.origin = self._binding.origin
         self._thread = threading.Thread(target=self._run)
         self._thread.start()
