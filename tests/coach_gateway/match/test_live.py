@@ -23,7 +23,7 @@ def test_without_a_host_the_answer_is_a_refusal_that_says_so(opened: Any, until:
             bench.stage.bus.close()
             await until(lambda: not bench.live.there)
             reply = await bench.live.act(RefereeAction(action=ActionName.STOP))
-            assert not reply.accepted and "nobody answers game/action" in reply.reason
+            assert not reply.accepted and "no process answers game/action" in reply.reason
 
     asyncio.run(play())
 
