@@ -1,4 +1,4 @@
-"""What benchmarks with real processes share: a host and its agents, launched and ended."""
+"""A host and its agents as processes, for benchmarks."""
 
 import contextlib
 import subprocess
@@ -16,7 +16,7 @@ HERE = Path(__file__).parent
 
 
 def launch(module: str, *arguments: str) -> subprocess.Popen[bytes]:
-    """A Python module as a quiet process; it finds brains beside the benchmarks."""
+    """Run a Python module as a process without output, in the folder of the benchmarks, whose brains it can import."""
     return subprocess.Popen(
         [sys.executable, "-m", module, *arguments], cwd=HERE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )
@@ -24,7 +24,7 @@ def launch(module: str, *arguments: str) -> subprocess.Popen[bytes]:
 
 @contextlib.contextmanager
 def running_match(brain: str, overrides: dict[str, Any]) -> Iterator[tuple[MatchConfig, str, subprocess.Popen[bytes]]]:
-    """A host with an agent process for every robot: the match, its endpoint, and the host's process."""
+    """Run a host with an agent process for every robot: yields the match, its endpoint, and the host's process."""
     config = load_match(None, overrides)
     endpoint = with_free_port("tcp/127.0.0.1:0")
     with tempfile.TemporaryDirectory() as folder:

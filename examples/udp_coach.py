@@ -24,7 +24,7 @@ class Coach:
         self._sequence = 0
         self._session = ""
         self.frame: dict = {}
-        """The newest."""
+        """The newest frame."""
         self.beliefs: dict = {}
         """Robot → its newest radio message."""
         self.events: list = []
