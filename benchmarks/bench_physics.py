@@ -138,7 +138,7 @@ class TickRig:
         self.step_world()
         ruling = self.referee.step(self.state, self.snapshot, (), self.profile.time.tick)
         self.state = ruling.state
-        self.sights.at(self.snapshot, self.state, 1, self.advance.stuck, {}, {}, {}, nobody)
+        self.sights.at(self.snapshot, self.state, 1, self.advance.stuck, {}, {}, {}, discard)
 
     def ready(self) -> None:
         """Set the raw engine to the world's state."""
@@ -146,7 +146,7 @@ class TickRig:
         self._drives = [(robot.vx, robot.vy, robot.omega) for robot in self.snapshot.robots]
 
 
-def nobody(_robot: str, _sight: bytes) -> None:
+def discard(_robot: str, _sight: bytes) -> None:
     """A publisher without readers."""
 
 
