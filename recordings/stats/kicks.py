@@ -18,7 +18,7 @@ from schemas.messages.world import BallTruth
 from schemas.side import Side
 
 MIN_PASS_M = 1.0
-"""m between kick and receiver from which a pass counts; the league's own measure of a pass (reference 10)."""
+"""m between kick and receiver from which a pass counts; the league's own measure of a pass."""
 
 
 class KickOutcome(StrEnum):

@@ -1,7 +1,7 @@
 """The league's axes and ours: +y toward the opponents' goal, +x to the right of it, heading 0 toward that goal.
 
-That is each team's own frame (reference 9.4): the team frame of this project turned by a quarter, with headings that
-count from the direction of play in both. All functions take numbers or arrays; m, rad; `attack` is +1 or −1, the x
+That is each team's own frame (RefBox, schema MSLWMD): the team frame of this project turned by a quarter, with headings
+that count from the direction of play in both. All functions take numbers or arrays; m, rad; `attack` is +1 or −1, the x
 direction of the field frame that the team attacks.
 """
 

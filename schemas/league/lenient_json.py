@@ -21,7 +21,7 @@ KEYS = (
     ),
     *("id", "pose", "targetPose", "velocity", "batteryLevel", "ballEngaged", "position", "confidence", "radius"),
 )
-"""As the schema spells them (reference 9.4)."""
+"""Keys as the league's schema MSLWMD spells them."""
 REQUIRED = ("type", "teamName", "intention", "robots", "balls", "obstacles", "ageMs")
 """Of a world state, by the schema."""
 _OTHER_NAMES = {

@@ -8,7 +8,7 @@ from schemas.side import Side
 
 @dataclass(frozen=True, slots=True)
 class Signal:
-    """One signal; `character` is that of cyan where a side is meant, magenta's is the small letter (reference 9.2)."""
+    """One signal; `character` is that of cyan where a side is meant, magenta's is the small letter."""
 
     name: str
     character: str

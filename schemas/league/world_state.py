@@ -1,4 +1,4 @@
-"""A team's view of the world as the league's referee box takes it in (reference 9.4), made from the field frame.
+"""A team's view of the world in the schema MSLWMD of the league's RefBox, made from the field frame.
 
 `world_state` gives the plain object of the league's JSON: metres, m/s, rad, in that team's own axes.
 """

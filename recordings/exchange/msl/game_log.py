@@ -42,7 +42,7 @@ class GameLog:
 
 
 def _part(state: GameState) -> str:
-    """What the box calls this part of the game (reference 9.3)."""
+    """What RefBox calls this part of the game."""
     if state.phase is Phase.PRE_GAME:
         return "Pre-Game"
     if state.phase is Phase.FULL_TIME:

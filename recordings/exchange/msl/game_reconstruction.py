@@ -103,7 +103,7 @@ class GameReconstruction:
         self._add_state()
 
     def _begin_half(self, half: int) -> None:
-        """The teams change sides (reference 9.4: each team's own axes turn with it)."""
+        """The teams change sides (each team's own axes turn with it)."""
         turned = (half - self._now["half"]) % 2 == 1
         attacks = self._now.get("cyan_attacks", 1)
         self._now |= {"half": half, "cyan_attacks": -attacks if turned else attacks}

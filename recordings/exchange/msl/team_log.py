@@ -1,6 +1,6 @@
 """One team's file of a log: its records read one by one, as far as each can be read.
 
-Real logs deviate from their schema in many ways (reference 9.6); each way is counted, and what is left out is told.
+Real logs deviate from their schema in many ways; each way is counted, and what is left out is told.
 """
 
 import json

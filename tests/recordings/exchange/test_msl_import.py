@@ -1,4 +1,4 @@
-"""Real logs deviate from their schema (reference 9.6): what can be read is, what cannot is counted and told."""
+"""Real logs deviate from their schema: what can be read is, what cannot is counted and told."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""Scenes in a running match (reference 13, rows 22 and 42): loaded, changed, begun anew, and simulated again."""
+"""Scenes in a running match: loaded, changed, reset, and simulated again."""
 
 import json
 from collections.abc import Callable, Iterator
@@ -133,7 +133,7 @@ def test_bodies_are_placed_while_the_match_runs_with_a_velocity(simulation) -> N
 def test_a_ball_that_is_set_down_with_a_velocity_rolls_and_is_slowed_as_it_is_set(simulation) -> None:
     """v² = 2 a s: from 2 m/s a ball stops after 4 m at 0.5 m/s², and after 1 m at 2 m/s²; tolerance 2 %.
 
-    Reference 13, row 21: the effect of a parameter that was set while the match runs.
+    The parameter is set while the match runs.
     """
 
     def way() -> float:

@@ -1,4 +1,4 @@
-"""Cards and people: who leaves the field, for how long, and who comes back when (reference 9.3, 10.3, 10.6)."""
+"""Cards and people: who leaves the field, for how long, and who comes back when."""
 
 import pytest
 
@@ -34,7 +34,7 @@ def halted(rig):
 
 @pytest.mark.parametrize("name", ["cyan1", "cyan5", "magenta1", "magenta4"])
 def test_two_yellow_cards_suspend_and_the_third_is_red_for_whichever_robot(rig, name):
-    """Reference 14, defect 13: only robots 2 to 5 could be sent off."""
+    """simatch's referee can send off robots 2 to 5 only."""
     halted(rig)
     rig.ask("yellow_card", robot=name)
     assert away(rig, name) is None and not is_beside(rig, name)
@@ -84,7 +84,7 @@ def test_a_red_card_is_for_good_and_the_robot_is_beside_the_field_in_both_halves
 
 
 def test_in_the_simulation_league_reds_last_longer_each_time_and_the_fifth_is_for_good(new_rig):
-    """Reference 10.6: 30 s, 5 s more for each later one of the side; every five reds one robot for good."""
+    """China simulation league 2020: 30 s, 5 s more for each later one of a side; every five reds one robot for good."""
     rig = halted(new_rig(rules="china-sim-2020"))
     durations = []
     for name in ("cyan1", "cyan2", "cyan3", "cyan4", "cyan5"):

@@ -1,4 +1,4 @@
-"""Extra time and penalties: when they are played, how long, and who wins (reference 10.3, 10.4)."""
+"""Extra time and penalties: when they are played, how long, and who wins."""
 
 import pytest
 

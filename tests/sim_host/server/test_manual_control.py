@@ -1,4 +1,4 @@
-"""A person drives a robot in place of its brain, and gives it back (reference 13, row 43)."""
+"""A person drives a robot in place of its brain, and gives it back."""
 
 import pytest
 
