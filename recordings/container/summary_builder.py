@@ -52,9 +52,14 @@ class SummaryBuilder:
         return message_count(self._channels, self._counts)
 
     def add_channels(self, schemas: dict[int, Schema], channels: dict[int, Channel]) -> None:
-        """What messages are of."""
+        """Add channels and their schemas.
+
+        A channel whose schema is lost is left out: readers that use the index fail on it. Schema 0 means that a channel
+        has none.
+        """
         self._schemas.update(schemas)
-        self._channels.update(channels)
+        known = {0, *self._schemas}
+        self._channels |= {number: channel for number, channel in channels.items() if channel.schema_id in known}
 
     def knows(self, channels: Iterable[int]) -> bool:
         """Whether all these channels are known."""

@@ -98,6 +98,8 @@ class _Findings:
     """Of what stays."""
     messages: int = 0
     cut: int = 0
+    cut_chunks: bool = False
+    """What is cut off holds whole chunks, whose channels or schemas are lost."""
     damaged: int = 0
     indexes: bytes = b""
     """Of the last chunk, to be written anew."""
@@ -169,7 +171,7 @@ class _Repair:
         if self._summary.empty:
             raise TouchlineError(f"{self._path}: cut off before its first whole record; nothing in it can be recovered")
         rest = None
-        if found.cut > CHUNK_BYTES:
+        if found.cut > CHUNK_BYTES or found.cut_chunks:
             rest = self._path.with_name(self._path.name + ".rest"), self._content[self._size - found.cut :]
         note = {"cut_bytes": str(found.cut), "damaged_records": str(found.damaged)}
         checksum = self._checksum(found)
@@ -208,7 +210,7 @@ class _Repair:
                 if raw.at in damaged:
                     self._leave_out(found, raw, *chunk.indexes)
                 elif not is_known:
-                    found.cut, found.end = self._size - raw.at, raw.at
+                    found.cut, found.end, found.cut_chunks = self._size - raw.at, raw.at, True
                     return
             elif raw.opcode in (Opcode.ATTACHMENT, Opcode.METADATA):
                 self._keep_attachment_or_metadata(raw, found)
@@ -223,7 +225,7 @@ class _Repair:
         found.patches += [(raw.at, RECORD_HEADER.pack(PRIVATE, raw.end - raw.content)) for raw in raw_records]
 
     def _keep_chunk(self, chunk: RawChunk, found: _Findings, *, trusted: bool, is_last: bool) -> bool:
-        """Whether the channels of all its messages are known; where its indexes are not `trusted` it is read."""
+        """Whether channels and schemas of all its messages are known; without `trusted` indexes it is read."""
         counted = index_counts(self._content, chunk)
         if trusted and not is_last and not chunk.broken and self._summary.knows(counted):
             self._add(chunk.raw, counted, chunk.end - chunk.raw.end)
