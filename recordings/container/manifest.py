@@ -1,30 +1,24 @@
-"""What a recording says of itself: the manifest, its first metadata record, and the result, its last.
+"""What a recording says of itself: the manifest, its first metadata record, and the result, its last."""
 
-MCAP metadata maps text to text: a field that is text stands as it is, any other as JSON, one that is nothing is left
-out.
-"""
-
-import hashlib
-import types
+from datetime import UTC, datetime
 from enum import StrEnum
-from typing import Any, Self, TypeVar, get_args
+from typing import Any, Self
 
-from pydantic import ValidationError, model_validator
-from pydantic_core import from_json, to_json, to_jsonable_python
+from pydantic import model_validator
 
+from recordings.container.environment import libm_fingerprint, versions
+from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.scene_by_name import with_scene
 from schemas.config.match_config import MatchConfig
-from schemas.errors import TouchlineError
-from schemas.faults import fault_of
 from schemas.game import Phase, Score
-from schemas.message import Name, Part
+from schemas.message import VERSION, Name, Part
 from schemas.messages.host import Setup
+from schemas.process.clock import Clock
 from schemas.topics import EVENT
 
 MANIFEST = "manifest"
 RESULT = "result"
 """Names of the two metadata records."""
-_DIGEST = "digest"
 
 
 class Manifest(Part):
@@ -140,54 +134,32 @@ class Result(Part):
 _SUMMED_COUNTS = ("messages", "lost", "missed_before_start")
 
 
-def to_metadata(part: Part) -> dict[str, str]:
-    """The fields of a part as MCAP metadata, sealed."""
-    fields = to_jsonable_python(part)
-    return sealed(
-        {
-            name: value if isinstance(value, str) else to_json(value).decode()
-            for name, value in fields.items()
-            if value is not None
-        }
+def make_manifest(
+    match: str,
+    recorder: str,
+    clock: Clock,
+    setup: Setup | None,
+    config: MatchConfig | None,
+    *,
+    sights: bool,
+    selection: KeySelection = EVERYTHING,
+) -> Manifest:
+    """The manifest of a recording that begins now, on this machine."""
+    return Manifest(
+        contract=VERSION,
+        match=match,
+        recorder=recorder,
+        started=timestamp(clock),
+        sights=sights,
+        versions=versions(),
+        libm=libm_fingerprint(),
+        setup=setup,
+        config=config,
+        include=list(selection.include),
+        exclude=list(selection.exclude),
     )
 
 
-def sealed(metadata: dict[str, str]) -> dict[str, str]:
-    """The metadata with a digest over all its fields: MCAP guards its chunks with checksums, but not its metadata."""
-    fields = {name: value for name, value in metadata.items() if name != _DIGEST}
-    return {**fields, _DIGEST: digest(to_json(sorted(fields.items())))}
-
-
-def digest(content: bytes) -> str:
-    """blake2b of bytes, hex."""
-    return hashlib.blake2b(content, digest_size=16).hexdigest()
-
-
-def is_sealed(metadata: dict[str, str]) -> bool:
-    """Whether metadata is as it was written, and all of it is there."""
-    return metadata.get(_DIGEST) == sealed(metadata)[_DIGEST]
-
-
-P = TypeVar("P", Manifest, Result)
-
-
-def from_metadata(model: type[P], metadata: dict[str, str]) -> P:
-    """The part that stands in MCAP metadata; fields that a later version added are passed over.
-
-    Raises:
-        TouchlineError: it does not hold such a part.
-    """
-    known = {name: field.annotation for name, field in model.model_fields.items() if name in metadata}
-    try:
-        fields = {name: metadata[name] if _is_text(kind) else from_json(metadata[name]) for name, kind in known.items()}
-        return model.model_validate_json(to_json(fields))
-    except ValidationError as error:
-        raise TouchlineError(fault_of(error, model).sentence()) from None
-    except ValueError as error:
-        raise TouchlineError(f"not JSON: {error}") from None
-
-
-def _is_text(kind: Any) -> bool:
-    if isinstance(kind, types.UnionType):
-        return any(_is_text(choice) for choice in get_args(kind))
-    return isinstance(kind, type) and issubclass(kind, str)
+def timestamp(clock: Clock) -> str:
+    """The clock's wall time, ISO 8601, UTC, to the millisecond."""
+    return datetime.fromtimestamp(clock.unix_ns() / 1e9, UTC).isoformat(timespec="milliseconds")

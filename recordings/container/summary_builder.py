@@ -22,9 +22,9 @@ from mcap.records import (
 from mcap.writer import MCAP0_MAGIC
 
 from recordings.container.environment import library
-from recordings.container.manifest import sealed
 from recordings.container.mcap_file import bytes_of, is_derived
 from recordings.container.raw_records import ChunkHeader, RawRecord
+from recordings.container.sealed_metadata import sealed
 
 RECOVERED = "recovered"
 """Name of the metadata record that a repair leaves."""

@@ -6,12 +6,13 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+from recordings.container.attachments import MEDIA_TYPES
 from recordings.container.environment import library
-from recordings.container.header import MEDIA_TYPES
-from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
+from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
 from recordings.container.mcap_file import ChannelRecord
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.partial_file import PartialFile
+from recordings.container.sealed_metadata import digest, to_metadata
 from recordings.recorder.sequence_tracker import SequenceTracker
 from recordings.viz.viz_channels import VizChannels
 from schemas.bus.contract import ReceivedMessage, Stamp

@@ -15,7 +15,7 @@ from mcap.records import Attachment, Metadata
 from mcap.writer import MCAP0_MAGIC
 
 from recordings.container.chunks import BROKEN, RECORD_HEADER
-from recordings.container.manifest import MANIFEST, RESULT, is_sealed
+from recordings.container.manifest import MANIFEST, RESULT
 from recordings.container.mcap_file import stream_of, summary_is_whole, summary_of
 from recordings.container.mcap_writer import CHUNK_BYTES
 from recordings.container.partial_file import locked
@@ -33,6 +33,7 @@ from recordings.container.raw_records import (
     raw_records_of,
     unpacked,
 )
+from recordings.container.sealed_metadata import is_sealed
 from recordings.container.summary_builder import SummaryBuilder, message_count
 from schemas.errors import TouchlineError
 

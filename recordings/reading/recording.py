@@ -6,16 +6,9 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from recordings.container.manifest import (
-    MANIFEST,
-    RESULT,
-    Manifest,
-    Result,
-    digest,
-    from_metadata,
-    is_sealed,
-)
+from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
 from recordings.container.mcap_file import ChannelRecord, McapFile, is_derived, open_mcap_file
+from recordings.container.sealed_metadata import digest, from_metadata, is_sealed
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
 from schemas.message import VERSION, BadMessageError

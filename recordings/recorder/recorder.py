@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
-from recordings.container.header import make_attachments, make_manifest, timestamp
+from recordings.container.attachments import make_attachments
 from recordings.container.key_selection import EVERYTHING, KeySelection
-from recordings.container.manifest import EndReason, Manifest, Result
+from recordings.container.manifest import EndReason, Manifest, Result, make_manifest, timestamp
 from recordings.recorder.control_service import ControlService
 from recordings.recorder.host_watch import HostWatch
 from recordings.recorder.latched_messages import LoggedMessage

@@ -13,12 +13,13 @@ from threading import Thread
 
 from pydantic_core import to_json
 
+from recordings.container.attachments import MEDIA_TYPES
 from recordings.container.environment import library
-from recordings.container.header import MEDIA_TYPES
 from recordings.container.json_schema import flat_schema
-from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
+from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.partial_file import PartialFile
+from recordings.container.sealed_metadata import digest, to_metadata
 from recordings.recorder.latched_messages import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.viz.drawing import READS

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from recordings.container.attachments import make_attachments
 from recordings.container.environment import libm_fingerprint, versions
-from recordings.container.header import make_attachments
 from recordings.container.manifest import Manifest, Result
 from recordings.editing.compose import TimedMessage, compose
 from recordings.exchange.msl import LOG_PERIOD

@@ -286,7 +286,7 @@ from pathlib import Path
 sys.path.insert(0, sys.argv[1])
 from conftest import make_world
 import recordings.recorder.recording_writer as module
-from recordings.container.header import make_manifest
+from recordings.container.manifest import make_manifest
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.process.clock import WallClock
 from schemas.topics import WORLD

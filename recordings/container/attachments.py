@@ -1,19 +1,12 @@
-"""The header of a recording, before the first message: its manifest, and the files attached to it."""
-
-from datetime import UTC, datetime
+"""The files attached to a recording, before its first message."""
 
 from pydantic_core import to_json
 
-from recordings.container.environment import libm_fingerprint, versions
 from recordings.container.json_schema import whole_schema
-from recordings.container.key_selection import EVERYTHING, KeySelection
-from recordings.container.manifest import Manifest
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import profile_tables
 from schemas.config.rule_book import rule_book_text
-from schemas.message import VERSION, WireMessage
-from schemas.messages.host import Setup
-from schemas.process.clock import Clock
+from schemas.message import WireMessage
 from schemas.topic import Delivery
 from schemas.topics import TOPICS
 
@@ -21,32 +14,6 @@ MEDIA_TYPES = {".json": "application/json", ".toml": "application/toml"}
 """Suffix of an attachment → its media type."""
 PROFILE = "profile.json"
 """The attachment with the whole profile: with those that it extends, for `schemas.config.profile.profile_of`."""
-
-
-def make_manifest(
-    match: str,
-    recorder: str,
-    clock: Clock,
-    setup: Setup | None,
-    config: MatchConfig | None,
-    *,
-    sights: bool,
-    selection: KeySelection = EVERYTHING,
-) -> Manifest:
-    """The manifest of a recording that begins now, on this machine."""
-    return Manifest(
-        contract=VERSION,
-        match=match,
-        recorder=recorder,
-        started=timestamp(clock),
-        sights=sights,
-        versions=versions(),
-        libm=libm_fingerprint(),
-        setup=setup,
-        config=config,
-        include=list(selection.include),
-        exclude=list(selection.exclude),
-    )
 
 
 def make_attachments(config: MatchConfig | None) -> dict[str, bytes]:
@@ -62,8 +29,3 @@ def make_attachments(config: MatchConfig | None) -> dict[str, bytes]:
         files[PROFILE] = to_json(config.profile_tables or profile_tables(config.profile))
         files["rules.toml"] = rule_book_text(config.rules).encode()
     return files
-
-
-def timestamp(clock: Clock) -> str:
-    """The clock's wall time, ISO 8601, UTC, to the millisecond."""
-    return datetime.fromtimestamp(clock.unix_ns() / 1e9, UTC).isoformat(timespec="milliseconds")
