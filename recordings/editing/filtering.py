@@ -1,0 +1,73 @@
+"""A copy of a part of a recording. Every message keeps its bytes, times and number."""
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from recordings.container.key_selection import EVERYTHING, KeySelection
+from recordings.editing.copy_writer import CopyWriter
+from recordings.editing.message_copies import (
+    CopySummary,
+    MessageCopy,
+    check_output,
+    copy_manifest,
+    fields_of,
+    message_copies,
+)
+from recordings.reading.recording import Recording
+from recordings.recorder.latched_messages import LatchedMessages
+
+
+def filter_recording(
+    recording: Recording,
+    out: Path,
+    selection: KeySelection = EVERYTHING,
+    start: float | None = None,
+    end: float | None = None,
+) -> CopySummary:
+    """Copy what is wanted of a recording, from `start` up to and without `end`, s of simulated time.
+
+    A copy that begins later than the recording begins with what stood then.
+
+    Raises:
+        TouchlineError: the recording is damaged inside, or the copy cannot be written.
+    """
+    check_output(out, [recording])
+    start_ns, end_ns = _ns(start), _ns(end)
+    entries = message_copies(recording, selection, end_ns)
+    latched: list[MessageCopy] = []
+    rest: Iterator[MessageCopy] = iter(())
+    if start_ns is None:
+        repeated = [entry for _, entry in zip(range(recording.manifest.standing), entries, strict=False)]
+        latched, rest = [entry for entry in repeated if selection.includes(entry.channel.key)], entries
+    else:
+        latched, rest = _latched_at(recording, selection, start_ns), _from(entries, start_ns)
+    manifest = copy_manifest(recording.manifest, "filtered", selection)
+    with CopyWriter(out) as writer:
+        writer.begin(manifest, recording.attachments, len(latched), viz=bool(recording.drawn))
+        for entry in latched:
+            writer.add(*fields_of(entry), counted=False)
+        for entry in rest:
+            if selection.includes(entry.channel.key):
+                writer.add(*fields_of(entry))
+        return CopySummary(out, writer.finish(recording.result), 0)
+
+
+def _from(entries: Iterable[MessageCopy], start_ns: int) -> Iterator[MessageCopy]:
+    return (entry for entry in entries if entry.log_ns >= start_ns)
+
+
+def _latched_at(recording: Recording, selection: KeySelection, start_ns: int) -> list[MessageCopy]:
+    """What stood at a moment."""
+    latched = LatchedMessages()
+    latched.update((recorded.log_ns, recorded.received()) for recorded in recording.messages(end=start_ns / 1e9))
+    channels = {channel.key: channel for channel in recording.mcap_file.channels.values()}
+    entries = []
+    for log_ns, received in latched.messages():
+        if selection.includes(received.key) and received.stamp is not None:
+            stamp = received.stamp
+            entries.append(MessageCopy(log_ns, channels[received.key], received.payload, stamp.sent_ns, stamp.sequence))
+    return entries
+
+
+def _ns(seconds: float | None) -> int | None:
+    return round(seconds * 1e9) if seconds is not None else None
