@@ -13,6 +13,7 @@ from recordings.container.mcap_file import ChannelRecord
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.partial_file import PartialFile
 from recordings.container.sealed_metadata import digest, to_metadata
+from recordings.editing.message_copies import MessageCopy
 from recordings.recorder.sequence_tracker import SequenceTracker
 from recordings.viz.viz_channels import VizChannels
 from schemas.bus.contract import ReceivedMessage, Stamp
@@ -50,28 +51,18 @@ class CopyWriter:
                     0, 0, name, MEDIA_TYPES.get(Path(name).suffix, "application/octet-stream"), data
                 )
 
-    def add(
-        self,
-        channel: ChannelRecord,
-        log_ns: int,
-        payload: bytes,
-        sent_ns: int,
-        sequence: int,
-        *,
-        counted: bool = True,
-    ) -> None:
+    def add(self, copy: MessageCopy, *, counted: bool = True) -> None:
         """Write a message as it was; one that is not `counted` is in the counts of another file."""
+        channel, stamp = copy.channel, Stamp(copy.sequence, copy.sent_ns, copy.log_ns)
         with self._disk_errors_explained():
             number = self._channels.get(channel.key) or self._open_channel(channel)
-            self._mcap.add_message(number, log_ns, payload, sent_ns, sequence)
+            self._mcap.add_message(number, copy.log_ns, copy.payload, copy.sent_ns, copy.sequence)
             topic = TOPICS.get(channel.metadata.get("topic", ""))
             if self._viz_channels is not None and topic is not None:
-                received = ReceivedMessage(topic, channel.key, payload, Stamp(sequence, sent_ns, log_ns))
-                self._viz_channels.draw(received, log_ns)
+                self._viz_channels.draw(ReceivedMessage(topic, channel.key, copy.payload, stamp), copy.log_ns)
         self._messages += 1
         if counted:
-            tracker = self._trackers.setdefault(channel.key, SequenceTracker())
-            tracker.add(Stamp(sequence, sent_ns, log_ns), len(payload))
+            self._trackers.setdefault(channel.key, SequenceTracker()).add(stamp, len(copy.payload))
 
     def finish(self, result: Result | None) -> int:
         """Write the result with the counts of this file, give the file its name; returns how many messages it has."""

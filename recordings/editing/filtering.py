@@ -10,7 +10,6 @@ from recordings.editing.message_copies import (
     MessageCopy,
     check_output,
     copy_manifest,
-    fields_of,
     message_copies,
 )
 from recordings.reading.recording import Recording
@@ -45,10 +44,10 @@ def filter_recording(
     with CopyWriter(out) as writer:
         writer.begin(manifest, recording.attachments, len(latched), viz=bool(recording.drawn))
         for entry in latched:
-            writer.add(*fields_of(entry), counted=False)
+            writer.add(entry, counted=False)
         for entry in rest:
             if selection.includes(entry.channel.key):
-                writer.add(*fields_of(entry))
+                writer.add(entry)
         return CopySummary(out, writer.finish(recording.result), 0)
 
 

@@ -11,7 +11,6 @@ from recordings.editing.message_copies import (
     MessageCopy,
     check_output,
     copy_manifest,
-    fields_of,
     message_copies,
 )
 from recordings.reading.recording import Recording
@@ -39,10 +38,10 @@ def merge_recordings(recordings: list[Recording], out: Path) -> CopySummary:
         writer.begin(manifest, _all_attachments(recordings), len(repeated), viz=is_drawn)
         for entry in repeated:
             seen.is_new(entry)
-            writer.add(*fields_of(entry), counted=False)
+            writer.add(entry, counted=False)
         for entry in heapq.merge(*streams, key=lambda entry: entry.log_ns):
             if seen.is_new(entry):
-                writer.add(*fields_of(entry))
+                writer.add(entry)
             else:
                 dropped += 1
         return CopySummary(out, writer.finish(_last_result(recordings)), dropped)
@@ -92,9 +91,7 @@ def _all_attachments(recordings: list[Recording]) -> dict[str, bytes]:
 
 def _last_result(recordings: list[Recording]) -> Result | None:
     """The result of the file that goes on longest; nothing where its recorder did not finish it."""
-    return max(
-        recordings, key=lambda recording: max((channel.end for channel in recording.channels), default=0.0)
-    ).result
+    return max(recordings, key=_end).result
 
 
 def _check_same_match(recordings: list[Recording]) -> None:

@@ -40,10 +40,6 @@ def message_copies(recording: Recording, selection: KeySelection, end_ns: int | 
         yield MessageCopy(message.log_time, channels[key], message.data, message.publish_time, message.sequence)
 
 
-def fields_of(entry: MessageCopy) -> tuple[ChannelRecord, int, bytes, int, int]:
-    return entry.channel, entry.log_ns, entry.payload, entry.sent_ns, entry.sequence
-
-
 def copy_manifest(manifest: Manifest, how: str, selection: KeySelection) -> Manifest:
     """The manifest of a copy: part 1, whatever the original was."""
     return manifest.model_copy(
