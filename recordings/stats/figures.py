@@ -5,10 +5,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from recordings.container.lineup import Lineup
 from recordings.stats.ball_control import BallControl
 from recordings.stats.dribbles import DribbleStats, DribbleTracker
 from recordings.stats.kicks import ON_GOAL, PASSES, SHOTS, KickOutcome, KickRecord
-from recordings.stats.lineup import Lineup
 from recordings.stats.momentum import Momentum
 from recordings.stats.motion import MotionStats, MotionTracker
 from recordings.stats.referee_calls import Goal, RefereeCalls
@@ -207,7 +207,7 @@ class _FigureBuilder:
         return bool(self.coverage.states and self.coverage.touched)
 
     def side(self, side: Side, team: str) -> SideFigures:
-        names = [name for name in self.motions if self.lineup.sides.get(name) is side]
+        names = [name for name in self.motions if self.lineup.side(name) is side]
         motions = [self.motions[name] for name in names]
         dribbles = [self.dribbles[name] for name in names if name in self.dribbles]
         in_play = sum(motion.in_play for motion in motions)
@@ -236,7 +236,7 @@ class _FigureBuilder:
         motion, dribbles, side = (
             self.motions[name],
             self.dribbles.get(name, DribbleStats()),
-            self.lineup.sides.get(name),
+            self.lineup.side(name),
         )
         held = bool(self.coverage.held)
         goals = sum(goal.robot == name and goal.side is side for goal in self.calls.goals)

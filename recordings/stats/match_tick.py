@@ -6,7 +6,7 @@ from itertools import groupby
 from operator import itemgetter
 from typing import Any
 
-from recordings.stats.lineup import Lineup
+from recordings.container.lineup import Lineup
 from schemas.game import GameEvent, GameState, Phase
 from schemas.messages.command import Kick
 from schemas.messages.host import Applied, Setup
@@ -56,7 +56,7 @@ class MatchTick:
 
     def side(self, robot: str | None) -> Side | None:
         """Whose robot it is; nothing for one that nobody ever named."""
-        return self.lineup.sides.get(robot) if robot is not None else None
+        return self.lineup.side(robot) if robot is not None else None
 
     def keeps(self, robot: str) -> bool:
         """Whether a robot keeps its side's goal: its goalkeeper, or who stands in for one off the field."""

@@ -65,8 +65,8 @@ class Tracks:
 
     def update(self, match_tick: MatchTick) -> None:
         """One more tick."""
-        for name, side in match_tick.lineup.sides.items():
-            self.sides[name] = side.value
+        for robot in match_tick.lineup.robots.values():
+            self.sides[robot.name] = robot.side.value
         world = match_tick.world
         while self._time() < world.time - self._tick / 2:
             self._sample(self._newest or world)

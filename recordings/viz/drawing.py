@@ -7,6 +7,7 @@ from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
 from recordings.container.applied_changes import changes_in
+from recordings.container.lineup import Lineup
 from recordings.viz.drawn_world import DrawnWorld, decode_world
 from recordings.viz.field import field_entities, obstacle_entity
 from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE
@@ -15,7 +16,6 @@ from recordings.viz.primitives import encode_scene, scene_update
 from recordings.viz.robots import RobotAppearance, ball_entities, robot_entity
 from recordings.viz.transforms import Transforms
 from schemas.bus.contract import ReceivedMessage
-from schemas.config.profile import STANDARD
 from schemas.game import GameEvent, GameState
 from schemas.message import BadMessageError
 from schemas.messages.host import Applied, Setup
@@ -67,13 +67,7 @@ class Drawing:
         self._drawn_ns: int | None = None
         self._layers: dict[str, _Layer] = {}
         """Topic → what was drawn there last."""
-        self._appearances = {
-            robot: RobotAppearance(
-                robot, side, team.types.get(robot, STANDARD), team.goalkeeper and robot == team.robots[0]
-            )
-            for side, team in setup.teams.items()
-            for robot in team.robots
-        }
+        self._lineup = Lineup.of(setup)
         self._handlers: dict[str, Callable[[ReceivedMessage, int], list[VizMessage]]] = {
             WORLD.key: self._world,
             STATE.key: self._state,
@@ -124,13 +118,16 @@ class Drawing:
         return [*field_entities(self._setup.pitch), *entities]
 
     def _robots(self, appearance: list[tuple[str, str | None]]) -> list[SceneEntity]:
-        return [robot_entity(self._appearance(name)._replace(off_field=why), self._setup) for name, why in appearance]
+        return [robot_entity(self._appearance(name, why), self._setup) for name, why in appearance]
 
     def _ball(self, possession: str | None) -> list[SceneEntity]:
         return ball_entities(self._setup, self._appearance(possession) if possession is not None else None)
 
-    def _appearance(self, name: str) -> RobotAppearance:
-        return self._appearances.get(name) or RobotAppearance(name, None)
+    def _appearance(self, name: str, off_field: str | None = None) -> RobotAppearance:
+        robot = self._lineup.robots.get(name)
+        if robot is None:
+            return RobotAppearance(name, None, off_field=off_field)
+        return RobotAppearance(name, robot.side, robot.type, robot.keeper, off_field)
 
     def _state(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
         state: GameState = received.message()
@@ -145,8 +142,7 @@ class Drawing:
         del log_ns
         if changes_in(received.payload).robots is not None:
             applied: Applied = received.message()
-            for entry in applied.robots or ():
-                self._appearances[entry.name] = RobotAppearance(entry.name, entry.side, entry.type, entry.keeper)
+            self._lineup = self._lineup.changed(applied.robots or [])
             if ROBOTS in self._layers:
                 self._layers[ROBOTS] = self._layers[ROBOTS]._replace(appearance=None)
         return []
