@@ -13,15 +13,15 @@ from schemas.topics import TOPICS
 MEDIA_TYPES = {".json": "application/json", ".toml": "application/toml"}
 """Suffix of an attachment → its media type."""
 PROFILE = "profile.json"
-"""The attachment with the whole profile: with those that it extends, for `schemas.config.profile.profile_of`."""
+"""The attachment with the profile and the profiles that it extends, for `schemas.config.profile.profile_of`."""
 
 
 def make_attachments(config: MatchConfig | None) -> dict[str, bytes]:
-    """What goes into the file beside the messages: their whole schemas, the match file, profile and rule book."""
+    """Return the full schemas of all messages, and match file, profile and rule book if there is a `config`."""
     models: dict[str, type[WireMessage]] = {
         topic.message.__name__: topic.message
         for topic in TOPICS.values()
-        if topic.message is not None and topic.delivery is not Delivery.QUERY  # questions are in no recording
+        if topic.message is not None and topic.delivery is not Delivery.QUERY  # queries are not recorded
     }
     files = {"message_schemas.json": to_json({name: whole_schema(model) for name, model in models.items()})}
     if config is not None:

@@ -1,7 +1,7 @@
-"""MCAP metadata that holds a message part, sealed with a digest over all its fields.
+"""A message part as MCAP metadata, sealed with a digest over all its fields.
 
-MCAP metadata maps text to text: a field that is text stands as it is, any other as JSON, one that is nothing is left
-out.
+MCAP metadata maps strings to strings: a field that is a string is stored as it is, any other field as JSON. Fields that
+are None are left out.
 """
 
 import hashlib
@@ -33,7 +33,7 @@ def to_metadata(part: Part) -> dict[str, str]:
 
 
 def sealed(metadata: dict[str, str]) -> dict[str, str]:
-    """The metadata with a digest over all its fields: MCAP guards its chunks with checksums, but not its metadata."""
+    """The metadata with a digest over all its fields. MCAP has checksums for chunks, but none for metadata."""
     fields = {name: value for name, value in metadata.items() if name != _DIGEST}
     return {**fields, _DIGEST: digest(to_json(sorted(fields.items())))}
 
@@ -44,15 +44,15 @@ def digest(content: bytes) -> str:
 
 
 def is_sealed(metadata: dict[str, str]) -> bool:
-    """Whether metadata is as it was written, and all of it is there."""
+    """Whether metadata is complete and unchanged since it was written."""
     return metadata.get(_DIGEST) == sealed(metadata)[_DIGEST]
 
 
 def from_metadata(model: type[P], metadata: dict[str, str]) -> P:
-    """The part that stands in MCAP metadata; fields that a later version added are passed over.
+    """Read a part from MCAP metadata. Fields that a later version added are ignored.
 
     Raises:
-        TouchlineError: it does not hold such a part.
+        TouchlineError: the metadata is not a valid part of this kind.
     """
     known = {name: field.annotation for name, field in model.model_fields.items() if name in metadata}
     try:

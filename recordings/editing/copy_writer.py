@@ -1,4 +1,4 @@
-"""Writes a recording that is made of messages of others, each as it was."""
+"""Writes a recording from the unchanged messages of other recordings."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -22,7 +22,7 @@ from schemas.topics import TOPICS
 
 
 class CopyWriter:
-    """One file that is made of messages of others; leaves nothing when it is left before it is finished."""
+    """One file. Leaving the context before `finish` removes it."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -35,9 +35,9 @@ class CopyWriter:
         self._viz_channels: VizChannels | None = None
 
     def begin(self, manifest: Manifest, attachments: dict[str, bytes], latched: int, *, viz: bool) -> None:
-        """Write what stands before the first message; the first `latched` messages are such that stood then.
+        """Write manifest and attachments; the first `latched` messages repeat the state at the beginning of the copy.
 
-        With `viz`, what viewers draw is written, too.
+        With `viz`, the channels for viewers are written, too.
         """
         if viz and manifest.setup is not None:
             self._viz_channels = VizChannels(self._mcap, manifest.setup)
@@ -52,7 +52,7 @@ class CopyWriter:
                 )
 
     def add(self, copy: MessageCopy, *, counted: bool = True) -> None:
-        """Write a message as it was; one that is not `counted` is in the counts of another file."""
+        """Write a message; one that is not `counted` is in the counts of another file."""
         channel, stamp = copy.channel, Stamp(copy.sequence, copy.sent_ns, copy.log_ns)
         with self._disk_errors_explained():
             number = self._channels.get(channel.key) or self._open_channel(channel)
@@ -65,7 +65,7 @@ class CopyWriter:
             self._trackers.setdefault(channel.key, SequenceTracker()).add(stamp, len(copy.payload))
 
     def finish(self, result: Result | None) -> int:
-        """Write the result with the counts of this file, give the file its name; returns how many messages it has."""
+        """Write the result with the counts of this file, and rename the file; returns its number of messages."""
         with self._disk_errors_explained():
             self._mcap.flush()  # type: ignore[no-untyped-call]
             if result is not None:
@@ -87,7 +87,7 @@ class CopyWriter:
 
     @contextmanager
     def _disk_errors_explained(self) -> Iterator[None]:
-        """What the disk refuses is said in one line."""
+        """Turn errors of the file system into one line with a remedy."""
         try:
             yield
         except OSError as error:

@@ -1,6 +1,7 @@
-"""A copy of a part of a recording. Every message keeps its bytes, times and number."""
+"""Copies a part of a recording. Each message keeps its payload, times and sequence number."""
 
 from collections.abc import Iterable, Iterator
+from itertools import islice
 from pathlib import Path
 
 from recordings.container.key_selection import EVERYTHING, KeySelection
@@ -23,9 +24,9 @@ def filter_recording(
     start: float | None = None,
     end: float | None = None,
 ) -> CopySummary:
-    """Copy what is wanted of a recording, from `start` up to and without `end`, s of simulated time.
+    """Copy the selected keys of a recording, from `start` up to but not including `end`, in s of simulated time.
 
-    A copy that begins later than the recording begins with what stood then.
+    A copy that begins later than the recording begins with the latched messages of that time.
 
     Raises:
         TouchlineError: the recording is damaged inside, or the copy cannot be written.
@@ -33,10 +34,8 @@ def filter_recording(
     check_output(out, [recording])
     start_ns, end_ns = _ns(start), _ns(end)
     entries = message_copies(recording, selection, end_ns)
-    latched: list[MessageCopy] = []
-    rest: Iterator[MessageCopy] = iter(())
     if start_ns is None:
-        repeated = [entry for _, entry in zip(range(recording.manifest.standing), entries, strict=False)]
+        repeated = islice(entries, recording.manifest.standing)
         latched, rest = [entry for entry in repeated if selection.includes(entry.channel.key)], entries
     else:
         latched, rest = _latched_at(recording, selection, start_ns), _from(entries, start_ns)
@@ -56,7 +55,7 @@ def _from(entries: Iterable[MessageCopy], start_ns: int) -> Iterator[MessageCopy
 
 
 def _latched_at(recording: Recording, selection: KeySelection, start_ns: int) -> list[MessageCopy]:
-    """What stood at a moment."""
+    """The latched messages at a time, as copies."""
     latched = LatchedMessages()
     latched.update((recorded.log_ns, recorded.received()) for recorded in recording.messages(end=start_ns / 1e9))
     channels = {channel.key: channel for channel in recording.mcap_file.channels.values()}

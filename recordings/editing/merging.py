@@ -1,6 +1,7 @@
-"""Several recordings of one match in one. Every message keeps its bytes, times and number."""
+"""Merges recordings of one match. Each message keeps its payload, times and sequence number."""
 
 import heapq
+from itertools import islice
 from pathlib import Path
 
 from recordings.container.key_selection import EVERYTHING
@@ -19,7 +20,7 @@ from schemas.topics import APPLIED, WORLD
 
 
 def merge_recordings(recordings: list[Recording], out: Path) -> CopySummary:
-    """Write several recordings of one match into one, by log time; a message that several have is written once.
+    """Write several recordings of one match into one, by log time; a message in several of them is written once.
 
     Raises:
         TouchlineError: they are of different matches, one is damaged inside, or the copy cannot be written.
@@ -30,7 +31,7 @@ def merge_recordings(recordings: list[Recording], out: Path) -> CopySummary:
     first = recordings[0]
     seen = _WrittenMessages(out)
     streams = [message_copies(recording, EVERYTHING, None) for recording in recordings]
-    repeated = [entry for _, entry in zip(range(first.manifest.standing), streams[0], strict=False)]
+    repeated = list(islice(streams[0], first.manifest.standing))
     dropped = 0
     with CopyWriter(out) as writer:
         is_drawn = any(recording.drawn for recording in recordings)
@@ -48,7 +49,7 @@ def merge_recordings(recordings: list[Recording], out: Path) -> CopySummary:
 
 
 class _WrittenMessages:
-    """Which messages were written already, by key, number and time of sending."""
+    """The messages already written, by key, sequence number and time of sending."""
 
     def __init__(self, out: Path) -> None:
         self._out = out
@@ -56,10 +57,10 @@ class _WrittenMessages:
         self._of_host: dict[tuple[str, int], int] = {}
 
     def is_new(self, entry: MessageCopy) -> bool:
-        """Whether the message was not written before.
+        """Whether a message has not been written before; it counts as written from then on.
 
         Raises:
-            TouchlineError: the host said two things under one number: these are two matches.
+            TouchlineError: the host sent different messages with one number, so these are different runs.
         """
         key, number, sent_ns = entry.channel.key, entry.sequence, entry.sent_ns
         written = self._written.setdefault(key, set())
@@ -69,7 +70,7 @@ class _WrittenMessages:
         if key in (WORLD.key, APPLIED.key) and self._of_host.setdefault((key, number), sent_ns) != sent_ns:
             raise TouchlineError(
                 f"{self._out}: {key} number {number} is not the same in all files; "
-                "these are recordings of different runs, merge those of one"
+                "these are recordings of different runs; merge recordings of one run"
             )
         return True
 
@@ -90,19 +91,19 @@ def _all_attachments(recordings: list[Recording]) -> dict[str, bytes]:
 
 
 def _last_result(recordings: list[Recording]) -> Result | None:
-    """The result of the file that goes on longest; nothing where its recorder did not finish it."""
+    """The result of the file with the newest message; None if its recorder did not finish it."""
     return max(recordings, key=_end).result
 
 
 def _check_same_match(recordings: list[Recording]) -> None:
-    def said(recording: Recording) -> tuple[object, ...]:
+    def identity(recording: Recording) -> tuple[object, ...]:
         manifest = recording.manifest
         setup, config = manifest.setup, manifest.config
         return manifest.match, setup and (setup.teams, setup.profile, setup.rules), config and config.seed
 
-    first = said(recordings[0])
+    first = identity(recordings[0])
     for recording in recordings[1:]:
-        for one, other in zip(first, said(recording), strict=True):
+        for one, other in zip(first, identity(recording), strict=True):
             if one is not None and other is not None and one != other:
                 raise TouchlineError(
                     f"{recording.path}: of another match than {recordings[0].path}; merge recordings of one match"

@@ -1,4 +1,4 @@
-"""Messages on their way from recordings into a copy, and what every copy needs: a manifest and a path of its own."""
+"""What filtering and merging have in common: messages to copy, the manifest of a copy, and its path."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,16 +12,16 @@ from schemas.errors import TouchlineError
 
 
 class CopySummary(NamedTuple):
-    """What was written."""
+    """The result of a filter or merge."""
 
     path: Path
     messages: int
     dropped: int
-    """Messages that more than one of the files had."""
+    """Messages left out because another file has them, too."""
 
 
 class MessageCopy(NamedTuple):
-    """A message on its way from one file to another."""
+    """A message to be copied, with the channel of its original."""
 
     log_ns: int
     channel: ChannelRecord
@@ -31,7 +31,10 @@ class MessageCopy(NamedTuple):
 
 
 def message_copies(recording: Recording, selection: KeySelection, end_ns: int | None) -> Iterator[MessageCopy]:
-    """The messages of a recording; those that stand at its beginning all the same, as somebody counts them."""
+    """Yield the messages of a recording.
+
+    The latched messages at its beginning are not filtered, as callers count them.
+    """
     channels = {
         channel.key: channel for channel in recording.mcap_file.channels.values() if not is_derived(channel.metadata)
     }
@@ -53,6 +56,11 @@ def copy_manifest(manifest: Manifest, how: str, selection: KeySelection) -> Mani
 
 
 def check_output(out: Path, recordings: list[Recording]) -> None:
+    """Make sure that a copy does not overwrite one of its originals.
+
+    Raises:
+        TouchlineError: `out` is one of the recordings.
+    """
     for recording in recordings:
         if out.exists() and recording.path.exists() and out.samefile(recording.path):
-            raise TouchlineError(f"{out}: would be written over what is read; give another name for --out")
+            raise TouchlineError(f"{out}: would overwrite the recording that is read; give another name for --out")

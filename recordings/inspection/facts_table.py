@@ -1,13 +1,13 @@
-"""The facts of a recording as texts, for a terminal."""
+"""Formats the facts of a recording for a terminal."""
 
 from recordings.inspection.recording_facts import RecordingFacts
 
 HEADINGS = ("key", "message", "messages", "per s", "bytes", "lost")
-"""Of the table that `key_rows` gives."""
+"""Column headings for `key_rows`."""
 
 
 def key_rows(facts: RecordingFacts) -> list[tuple[str, ...]]:
-    """The table of keys as texts, below `HEADINGS`."""
+    """One row for each key, with the columns `HEADINGS`."""
     return [
         (key.key, key.message, str(key.messages), f"{key.rate:.1f}", str(key.bytes), str(key.lost))
         for key in facts.keys
@@ -15,7 +15,7 @@ def key_rows(facts: RecordingFacts) -> list[tuple[str, ...]]:
 
 
 def summary_lines(facts: RecordingFacts) -> list[tuple[str, str]]:
-    """The facts themselves as texts: name and value, what is unknown left out."""
+    """Name and value of each fact, without unknown ones."""
     score = f"{facts.score['cyan']} : {facts.score['magenta']}" if facts.score is not None else None
     values: dict[str, str | None] = {
         "match": facts.match,
@@ -34,7 +34,7 @@ def summary_lines(facts: RecordingFacts) -> list[tuple[str, str]]:
         "lost on": ", ".join(f"{key.key} {key.lost}" for key in facts.keys if key.lost) or None,
         "keys": " ".join([*facts.include, *(f"not {key}" for key in facts.exclude)]) or None,
         "made": facts.made if facts.made != "recorded" else None,
-        "part": f"{facts.part}, begins with {facts.standing} messages that stood" if facts.standing else None,
+        "part": f"{facts.part}, begins with {facts.standing} repeated messages" if facts.standing else None,
         "for viewers": " ".join(facts.drawn) or None,
         "damaged": ", ".join(facts.damaged) or None,
         "events": str(facts.events),

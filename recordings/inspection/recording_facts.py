@@ -1,4 +1,4 @@
-"""The facts of a recording: what was played, how it ended, what was recorded and what was lost."""
+"""Facts of a recording: the match, how it ended, the recorded messages and the losses."""
 
 import dataclasses
 from collections.abc import Iterator
@@ -13,12 +13,12 @@ from schemas.game import Phase, Score
 from schemas.topics import EVENT
 
 CUT_OFF = "cut_off"
-"""How a recording ended whose recorder did not finish it."""
+"""Stands for the end reason of a recording that its recorder did not finish."""
 
 
 @dataclass(frozen=True, slots=True)
 class KeyFacts:
-    """One key."""
+    """Facts of one key."""
 
     key: str
     message: str
@@ -33,11 +33,11 @@ class KeyFacts:
 
 @dataclass(frozen=True, slots=True)
 class RecordingFacts:
-    """A recording in figures."""
+    """Facts of a recording."""
 
     path: str
     complete: bool
-    """Not cut off."""
+    """Whether its recorder finished the file."""
     match: str
     pace: str | None
     profile: str | None
@@ -48,7 +48,7 @@ class RecordingFacts:
     started: str
     """Wall time, ISO 8601, UTC."""
     duration: float
-    """Simulated s."""
+    """Simulated time in s."""
     tick: int
     """The last tick whose inputs were recorded."""
     phase: str | None
@@ -59,32 +59,32 @@ class RecordingFacts:
     lost: int
     missed_before_start: int
     left_out: int
-    """Messages that came while the recorder was paused."""
+    """Messages received while the recorder was paused."""
     part: int
-    """Which file of a recording that was split, from 1."""
+    """Number of this file in a split recording, from 1."""
     standing: int
-    """So many messages at the beginning of the file repeat what stood when it began."""
+    """Number of latched messages repeated at the beginning of the file."""
     made: str
-    """`recorded`, or how it was made of other recordings."""
+    """`recorded`, or how it was made from other recordings."""
     include: list[str]
-    """Key expressions that were recorded; all where there is none."""
+    """Key expressions of the recorded keys; empty if all keys were recorded."""
     exclude: list[str]
-    """Key expressions that were not."""
+    """Key expressions of the keys that were left out."""
     damaged: list[str]
-    """Attachments that are missing, or whose bytes have changed."""
+    """Attachments that are missing or have changed."""
     drawn: dict[str, int]
-    """Topic → messages that are there for viewers alone; none of them is in the counts."""
+    """Topic → messages for viewers, which are not in the other counts."""
     size: int
     """Bytes of the file."""
     keys: list[KeyFacts]
 
     def to_json(self) -> dict[str, Any]:
-        """The facts as plain lists, numbers and texts."""
+        """The facts as plain lists, numbers and strings."""
         return dataclasses.asdict(self)
 
 
 def facts_of(recording: Recording) -> RecordingFacts:
-    """The facts of a recording; those of a file that was cut off are gathered from its messages."""
+    """The facts of a recording; those of a truncated file are collected from its messages."""
     manifest, setup, config = recording.manifest, recording.manifest.setup, recording.manifest.config
     ending = _ending(recording)
     described = setup or config

@@ -1,4 +1,4 @@
-"""The index of a match's ticks as recorded: what was noted of each tick, where one can begin, what is missing."""
+"""Index of the recorded ticks of a match: those a simulation can start with, and those that are missing."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -16,28 +16,28 @@ from schemas.topics import APPLIED, STATE, WORLD
 
 _CHANGES = ("parameters", "robots", "obstacles")
 _SETTLING_TICKS = 50
-"""Ticks after which a recorder that sets in has every command."""
+"""Ticks after its start from which a recorder has every command."""
 
 
 class StartTick(NamedTuple):
-    """A tick that a simulation can begin with: tick 0, or one before which the world was rebuilt."""
+    """A tick that a simulation can start with: tick 0, or one before which the world was rebuilt."""
 
     tick: int
     kick_off: int | None
-    """Counted from 1; nothing where it is no kick-off."""
+    """Number of the kick-off, from 1; None if the tick is not a kick-off."""
     changes: tuple[Applied, ...]
-    """What was noted before of changes to numbers, robots and obstacles."""
+    """Earlier changes of parameters, robots and obstacles."""
 
 
 class SkipReason(StrEnum):
     """Why ticks cannot be simulated again."""
 
     BEFORE = "before"
-    """They are older than the recording."""
+    """They were played before the recording began."""
     MISSING = "missing"
-    """They are not in the recording, and others before them are."""
+    """They are missing within the recording."""
     NO_START = "no_start"
-    """They stand before the first tick that a simulation can begin with."""
+    """They precede the first tick that a simulation can start with."""
 
 
 class SkippedTicks(NamedTuple):
@@ -49,30 +49,30 @@ class SkippedTicks(NamedTuple):
 
 
 class Segment(NamedTuple):
-    """Ticks that are simulated again in one go."""
+    """Consecutive ticks that are simulated again from one start."""
 
     ticks: range
     start: StartTick
     seconds: tuple[float, float]
-    """Simulated time of the first and the last of them."""
+    """Simulated time of the first and the last of them, in s."""
     answers_from: int
     """The answers to the sights of this tick and later ones must have been recorded."""
 
 
 @dataclass(slots=True)
 class TickIndex:
-    """A recording seen from its ticks."""
+    """The ticks of a recording."""
 
     starts: list[StartTick] = field(default_factory=list)
     runs: list[range] = field(default_factory=list)
-    """Ticks that were noted one after the other; between two runs some are missing."""
+    """Ranges of consecutive ticks; between two of them ticks are missing."""
     times: dict[int, float] = field(default_factory=dict)
     """Tick → simulated time in s."""
     unreadable: int = 0
-    """Notes that are no valid message."""
+    """Payloads of `host/applied` that are not valid messages."""
 
     def segments(self, since: int, worth: float) -> Iterator[Segment]:
-        """Everything from a tick on that can be simulated again, in segments of at least `worth` ticks."""
+        """Yield all that can be simulated again from tick `since` on, in segments of at least `worth` ticks."""
         for run in self.runs:
             starts = [start for start in self.starts if start.tick in run and start.tick >= since]
             while starts:
@@ -80,12 +80,12 @@ class TickIndex:
                 while starts and starts[0].tick - first.tick < worth:
                     starts.pop(0)
                 ticks = range(first.tick, starts[0].tick if starts else run.stop)
-                # where a recording sets in, commands may set in a little later
+                # at the start of a recording, commands may start a little later
                 answers_from = max(ticks.start - 1, run.start + _SETTLING_TICKS if run.start else 0)
                 yield Segment(ticks, first, (self.times[ticks.start], self.times[ticks[-1]]), answers_from)
 
     def skipped(self, since: int) -> Iterator[SkippedTicks]:
-        """Ticks from one on that are in no segment."""
+        """Yield the ticks from `since` on that are in no segment."""
         after = since
         for number, run in enumerate(self.runs):
             if run.stop <= since:
@@ -105,7 +105,7 @@ class TickIndex:
 
 
 def tick_index_of(recording: Recording) -> TickIndex:
-    """The tick index of a recording, from one pass over what was noted of each tick."""
+    """The tick index of a recording, from one pass over `host/applied`."""
     index = TickIndex()
     changes: list[Applied] = []
     began, kick_offs = _kick_offs(recording), 0
@@ -123,7 +123,9 @@ def tick_index_of(recording: Recording) -> TickIndex:
             if is_next and index.runs and index.runs[-1].stop == tick:
                 index.runs[-1] = range(index.runs[-1].start, tick + 1)
             else:
-                index.runs.append(range(tick - is_next, tick + 1))  # what stood at the last tick counts with it
+                index.runs.append(
+                    range(tick - is_next, tick + 1)
+                )  # the run includes a latched tick before it
         if tick == 0 or (summary.checkpoint and is_next and before is not None and before.log_ns in worlds):
             is_kick_off = tick - 1 in began
             kick_offs += is_kick_off
@@ -136,7 +138,7 @@ def tick_index_of(recording: Recording) -> TickIndex:
 
 
 def _latched_ticks(recording: Recording) -> set[int]:
-    """Ticks whose notes were repeated when the file was begun, because they stood then."""
+    """Ticks whose `host/applied` is among the latched messages at the beginning of the file."""
     repeated = islice(recording.messages(), recording.manifest.standing)
     summaries = [_summary_of(recorded) for recorded in repeated if recorded.topic is APPLIED]
     return {summary.tick for summary in summaries if summary is not None}
@@ -151,7 +153,7 @@ class _AppliedSummary(NamedTuple):
 
 
 def _summary_of(recorded: RecordedMessage) -> _AppliedSummary | None:
-    """What a note says beside the inputs; nothing when it is no valid message."""
+    """The fields of `host/applied` besides the inputs; None if the payload is not a valid message."""
     try:
         fields: dict[str, Any] = from_json(recorded.payload)
         tick, time = fields["tick"], fields["time"]
@@ -164,7 +166,7 @@ def _summary_of(recorded: RecordedMessage) -> _AppliedSummary | None:
 
 
 def _kick_offs(recording: Recording) -> set[int]:
-    """The ticks at which a kick-off was started: the state of the game says that it is running now."""
+    """The ticks at which a kick-off was started, from the game state."""
     ticks, was_running = set(), False
     state: GameState
     for _, state in recording.decoded(STATE.key):

@@ -1,4 +1,4 @@
-"""What was recorded of each tick of a segment: its note, its world, and the commands of its time."""
+"""The recorded messages of each tick of a segment: `host/applied`, `world`, and the commands."""
 
 from collections.abc import Iterator
 from typing import Any, NamedTuple
@@ -16,26 +16,26 @@ from schemas.topics import APPLIED, COMMAND, EVENT, WORLD
 
 _BEFORE_S = 0.5
 _AFTER_S = 2.0
-"""Simulated time around a segment in which messages are looked for that belong to it: some are recorded late."""
+"""Simulated time before and after a segment that is searched for its messages: some are recorded late."""
 _SETTLED_NS = 200_000_000
-"""Simulated time after which the world of a tick has been recorded, if it was at all."""
+"""Simulated time, in ns, after which the world of a tick has been recorded, if at all."""
 
 
 class TickRecord(NamedTuple):
-    """Everything that was recorded of one tick."""
+    """The messages recorded of one tick."""
 
     tick: int
     recorded: RecordedMessage
     applied: Applied | None
-    """What was recorded of it; nothing where that is no valid message."""
+    """The message `host/applied`; None if it is not valid."""
     world: dict[str, Any] | None
-    """The fields of the `schemas.messages.world.World`; nothing where it is missing."""
+    """The fields of `schemas.messages.world.World`; None if it is missing."""
 
 
 def command_check_of(recording: Recording, segment: Segment) -> CommandCheck:
-    """Ready to compare what robots were told in a segment with what their programs said.
+    """Return a check of the applied inputs of a segment against the recorded commands.
 
-    A robot that was ever driven by hand is left out: a hand's words are not recorded.
+    A robot that was ever under manual control is left out: manual commands are not recorded.
     """
     keys = [channel.key for channel in recording.channels if channel.topic == "command"]
     driven_manually = {event.robot for _, event in recording.decoded(EVENT.key) if _is_manual_control(event)}
@@ -54,9 +54,9 @@ def _none_missing(count: KeyCount | None) -> bool:
 
 
 def tick_records(recording: Recording, segment: Segment, check: CommandCheck) -> Iterator[TickRecord]:
-    """What was recorded of the tick before a segment and of those in it, in order.
+    """Yield the records of the tick before a segment and of the ticks in it, in order.
 
-    `check` gets to know the commands of their time.
+    The commands of that time are added to `check`.
     """
     held: list[TickRecord] = []
     worlds: dict[int, dict[str, Any]] = {}
@@ -92,7 +92,7 @@ def _tick_record(recorded: RecordedMessage) -> TickRecord:
 
 
 def _fields(payload: bytes) -> dict[str, Any]:
-    """The fields of a message; none when it is not JSON."""
+    """The fields of a payload; none if it is not a JSON object."""
     try:
         fields = from_json(payload)
     except ValueError:
