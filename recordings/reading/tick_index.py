@@ -123,9 +123,7 @@ def tick_index_of(recording: Recording) -> TickIndex:
             if is_next and index.runs and index.runs[-1].stop == tick:
                 index.runs[-1] = range(index.runs[-1].start, tick + 1)
             else:
-                index.runs.append(
-                    range(tick - is_next, tick + 1)
-                )  # the run includes a latched tick before it
+                index.runs.append(range(tick - is_next, tick + 1))  # the run includes a latched tick before it
         if tick == 0 or (summary.checkpoint and is_next and before is not None and before.log_ns in worlds):
             is_kick_off = tick - 1 in began
             kick_offs += is_kick_off
