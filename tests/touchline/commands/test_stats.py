@@ -83,7 +83,7 @@ def test_the_page_is_written_beside_them(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("made", "said"), [({"setup": False}, "its manifest has no setup"), ({"worlds": 0}, "no world in it")]
+    ("made", "said"), [({"setup": False}, "its manifest has no setup"), ({"worlds": 0}, "has no world")]
 )
 def test_a_recording_that_cannot_be_measured_is_said_so_in_one_line(tmp_path: Path, made, said: str) -> None:
     result = stats(write(tmp_path / "a.mcap", **made), "--html", tmp_path / "a.html")
