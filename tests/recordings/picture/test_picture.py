@@ -97,7 +97,7 @@ def test_a_picture_of_another_kind_is_refused(recorded, tmp_path):
 
 def test_without_matplotlib_the_pip_line_is_named(recorded, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(TouchlineError, match=r"pip install touchline\[viz\]"):
+    with pytest.raises(TouchlineError, match=r"pip install 'touchline\[viz\]'"):
         draw(recorded.path, tmp_path / "match.png")
 
 

@@ -133,7 +133,7 @@ def test_another_major_version_is_refused_with_both_versions(recorded, tmp_path)
         writer.start()
         writer.add_metadata("manifest", sealed({**metadata, "contract": "2.3"}))
         writer.finish()
-    with pytest.raises(TouchlineError, match=r"version 2\.3.*speaks 1\.0"):
+    with pytest.raises(TouchlineError, match=r"version 2\.3.*reads version 1\.0"):
         open_recording(path)
 
 

@@ -150,7 +150,7 @@ def test_a_snapshot_is_taken_on_request(make_rig):
     rig = make_rig(limits=FileLimits(snapshot=1.0))
     rig.begin()
     refused = ask(rig, RecorderOperation.SNAPSHOT)
-    assert (refused.accepted, refused.reason) == (False, "it holds nothing yet")
+    assert (refused.accepted, refused.reason) == (False, "it has no messages yet")
     rig.play(range(100))
     rig.recorder.pump()
     assert ask(rig, RecorderOperation.SNAPSHOT).accepted
