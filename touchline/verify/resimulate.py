@@ -15,16 +15,8 @@ from typing import Any, NamedTuple
 
 from recordings.reading.command_check import CommandMismatch
 from recordings.reading.recording import Recording, open_recording
-from recordings.reading.tick_index import (
-    Segment,
-    SkippedTicks,
-    SkipReason,
-    TickIndex,
-    TickRecord,
-    command_check_of,
-    tick_index_of,
-    tick_records,
-)
+from recordings.reading.tick_index import Segment, SkippedTicks, SkipReason, TickIndex, tick_index_of
+from recordings.reading.tick_records import TickRecord, command_check_of, tick_records
 from schemas.errors import TouchlineError
 from schemas.message import BadMessageError
 from schemas.messages.host import Applied, chained_part_of

@@ -145,7 +145,7 @@ def test_the_commands_say_what_they_wrote_and_read(real: Recording, tmp_path: Pa
     assert said["not_read"] == []
     assert said["score"] == open_recording(back).result.score.model_dump()  # type: ignore[union-attr]
     again = run.invoke(app, ["import", str(out), "--out", str(back)])
-    assert again.exit_code == 2 and "is there already" in again.stderr
+    assert again.exit_code == 2 and "already exists" in again.stderr
 
 
 def test_figures_of_an_imported_match_are_those_of_the_match(real: Recording, back: Recording) -> None:

@@ -2,8 +2,9 @@ import pytest
 from mcap.reader import make_reader
 from mcap.writer import Writer
 
-from recordings.container.manifest import MANIFEST, sealed
+from recordings.container.manifest import MANIFEST
 from recordings.container.mcap_file import open_mcap_file
+from recordings.container.sealed_metadata import sealed
 from recordings.reading.recording import open_recording
 from schemas.errors import TouchlineError
 from schemas.messages.world import World
@@ -132,7 +133,7 @@ def test_another_major_version_is_refused_with_both_versions(recorded, tmp_path)
         writer.start()
         writer.add_metadata("manifest", sealed({**metadata, "contract": "2.3"}))
         writer.finish()
-    with pytest.raises(TouchlineError, match=r"version 2\.3.*speaks 1\.0"):
+    with pytest.raises(TouchlineError, match=r"version 2\.3.*reads version 1\.0"):
         open_recording(path)
 
 

@@ -207,10 +207,10 @@ def test_it_follows_a_match_that_is_still_recorded(rig, room, wait_until_written
 @pytest.mark.parametrize(
     ("wanted", "word"),
     [
-        ({"start": "99"}, "--from 99 is behind the end"),
+        ({"start": "99"}, "--from 99 is after the end"),
         ({"start": "2", "end": "1"}, "--to 1 is before the beginning"),
         ({"selection": KeySelection(("wrld",))}, 'did you mean "world"'),
-        ({"selection": KeySelection((), ("robot/blue1/command",))}, "fits no key"),
+        ({"selection": KeySelection((), ("robot/blue1/command",))}, "matches no key"),
         ({"follow": True, "loop": True}, "--follow and --loop"),
         ({"start": "goal:7"}, "goal happened 1 times"),
     ],
