@@ -7,7 +7,8 @@ from typing import Protocol
 from schemas.config.match_config import Patience
 from schemas.messages.command import Command
 from schemas.process.clock import Clock
-from sim_host.server.inbox import SILENT_TICKS, Inbox
+from sim_host.server.agent_stats import SILENT_TICKS
+from sim_host.server.inbox import Inbox
 from sim_host.server.presence_tracker import MAX_RECORDER_LAG, PresenceTracker
 
 _RESEND_S = 0.05

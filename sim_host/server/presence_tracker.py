@@ -4,7 +4,7 @@ from schemas.bus.contract import Bus, Presence
 from schemas.game import REFBOX
 from schemas.message import BadMessageError
 from schemas.topics import RECORDER_PROGRESS
-from sim_host.server.inbox import AgentStats
+from sim_host.server.agent_stats import AgentStats
 
 MAX_RECORDER_LAG = 250
 """Ticks; a lockstep host runs this far ahead of a recorder at most, well within what its writers keep for recovery."""
