@@ -11,7 +11,8 @@ from sim_host.actuation.carrying import METHODS, HeldBall
 from sim_host.actuation.kick import KickRefusedError, Launch, PlannedKick, launch
 from sim_host.actuation.kickers import Kickers
 from sim_host.actuation.possession import can_hold, holder, why_not_held
-from sim_host.physics.engine import BallContacts, BodyState, Engine
+from sim_host.physics.body_state import BallContacts, BodyState
+from sim_host.physics.engine import Engine
 from sim_host.physics.free_ball import FreeBall
 from sim_host.physics.vectors import FieldTwist, Vector
 from sim_host.snapshot import BallState, RobotState

@@ -28,7 +28,7 @@ from sim_host.match.start_scene import opening_layout
 from sim_host.match.subsystems import Subsystems
 from sim_host.match.world import World
 from sim_host.match.world_fields import Fields, world_fields
-from sim_host.physics.engine import fingerprint
+from sim_host.physics.fingerprint import fingerprint
 from sim_host.referee.core import Referee, Ruling
 from sim_host.referee.evidence import NO_EVIDENCE
 from sim_host.snapshot import Roster, Snapshot

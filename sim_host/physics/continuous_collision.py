@@ -10,8 +10,9 @@ from collections.abc import Mapping, Sequence
 
 from schemas.config.profile import Profile
 from sim_host.physics.bodies import upright
+from sim_host.physics.body_state import BodyState
 from sim_host.physics.collision_candidates import MAX_DEPTH, IndexPairs
-from sim_host.physics.engine import BodyState, Engine
+from sim_host.physics.engine import Engine
 from sim_host.physics.vectors import FieldTwist, Vector
 
 _CONTACT_DEPTH = 0.001

@@ -3,12 +3,11 @@
 With `bodies`, which makes what this moves, the only module that knows PyBullet.
 """
 
-import importlib.metadata
 import math
 import struct
 from collections.abc import Sequence
 from itertools import chain
-from typing import Any, NamedTuple
+from typing import Any
 
 import pybullet
 
@@ -16,9 +15,10 @@ from schemas.config.profile import Profile
 from schemas.config.roster import Placement
 from schemas.frames import wrap
 from sim_host.physics.bodies import NO_TURN, BodyMaker, upright
+from sim_host.physics.body_state import NO_CONTACTS, BallContacts, BodyState, Gap
 from sim_host.physics.bounce import MIN_BOUNCE_SPEED
 from sim_host.physics.gravity import GRAVITY
-from sim_host.physics.vectors import FieldTwist, Quaternion, Vector
+from sim_host.physics.vectors import FieldTwist, Vector
 from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster
 
 _ITERATIONS = 200
@@ -32,15 +32,6 @@ _STATE_SIZE = 13
 _OBSTACLE = struct.Struct("<7d")
 
 _ZERO: Vector = (0.0, 0.0, 0.0)
-
-
-class BodyState(NamedTuple):
-    """What determines a body's future: position m, orientation quaternion xyzw, velocity m/s, spin rad/s."""
-
-    position: Vector
-    orientation: Quaternion
-    velocity: Vector
-    spin: Vector
 
 
 class Engine:
@@ -210,7 +201,7 @@ class Engine:
         """Bodies that nothing moves beside the ground: the boxes of the pitch, then the obstacles."""
         return self._boxes + [body for _, body in self._obstacles.values()]
 
-    def gap(self, one: int, other: int, within: float) -> "Gap | None":
+    def gap(self, one: int, other: int, within: float) -> Gap | None:
         """What lies between two bodies that are at most `within` m apart, where they are nearest to each other."""
         near = pybullet.getClosestPoints(one, other, within, physicsClientId=self.client)
         if not near:
@@ -253,11 +244,11 @@ class Engine:
         self._ball_now = None
         pybullet.stepSimulation(physicsClientId=self.client)
 
-    def ball_contacts(self, holder: int | None) -> "BallContacts":
+    def ball_contacts(self, holder: int | None) -> BallContacts:
         """What the ball touched in the last step, beside the ground; against its holder it is never pressed."""
         contacts = pybullet.getContactPoints(self.ball, physicsClientId=self.client)
         if len(contacts) < 2 and (not contacts or contacts[0][2] == self._ground):
-            return _NO_CONTACTS
+            return NO_CONTACTS
         depth = {contact[2]: -contact[8] for contact in contacts if contact[2] != self._ground}
         robots = [place for place, body in enumerate(self.robots) if body in depth]
         if holder is not None:
@@ -288,33 +279,3 @@ def _robot_state(state: BodyState, holding: bool) -> RobotState:
 def _distance_of(point: tuple[Any, ...]) -> float:
     distance: float = point[8]
     return distance
-
-
-class Gap(NamedTuple):
-    """Two bodies where they are nearest."""
-
-    on_one: Vector
-    """m."""
-    on_other: Vector
-    """m."""
-    normal: Vector
-    """From the other to the one, of unit length."""
-    width: float
-    """m; negative where they overlap."""
-
-
-class BallContacts(NamedTuple):
-    """Robots that touch the ball, in roster order, and how deep it is pressed into others than ground and holder, m."""
-
-    robots: list[int]
-    depth: float
-
-
-_NO_CONTACTS = BallContacts([], 0.0)
-
-
-def fingerprint() -> dict[str, str]:
-    """What two machines must share to compute the same world: the engine, and the maths library's answers."""
-    answers = (math.sin(1e5), math.cos(2.5), math.exp(1.1), math.atan2(0.3, -0.7), math.pow(1.1, 7.3), math.log(3.3))
-    version = importlib.metadata.version("pybullet")
-    return {"engine": f"pybullet {version}, api {pybullet.getAPIVersion()}", "libm": struct.pack("<6d", *answers).hex()}

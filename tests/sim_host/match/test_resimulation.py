@@ -21,13 +21,12 @@ from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.resimulation import (
     CheckpointState,
     Conditions,
-    Difference,
     ImpossibleTickError,
     Resimulation,
-    differences,
     parameters_of,
 )
 from sim_host.match.simulation import Simulation, TickResult
+from sim_host.match.world_difference import Difference, differences
 
 CRATE = {"name": "crate", "shape": "box", "place": [1.5, 1.0], "heading": 0.4, "size": [0.4, 0.8, 0.6]}
 KINDS: dict[str, dict[str, Any]] = {
