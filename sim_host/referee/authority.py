@@ -19,7 +19,8 @@ from sim_host.referee.game.restart import Restart
 from sim_host.referee.game.timing import reached
 from sim_host.referee.placement.bench import bench_pose, entry_pose
 from sim_host.referee.placement.spots import restart_at
-from sim_host.referee.procedures import penalties, periods, restart
+from sim_host.referee.procedures import penalties, restart
+from sim_host.referee.procedures.decision import carry_out
 from sim_host.referee.rules import Rule
 from sim_host.referee.ruling_draft import RulingDraft
 
@@ -41,7 +42,7 @@ def decide(draft: RulingDraft, rule: str, decision: Decision) -> None:
     """Carry a decision out, and remember how it was before."""
     save_for_undo(draft)
     draft.state = draft.state._replace(proposal=None)
-    periods.carry_out(draft, rule, decision)
+    carry_out(draft, rule, decision)
 
 
 def propose(draft: RulingDraft, rule: str, decision: Decision) -> None:

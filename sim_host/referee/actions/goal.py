@@ -7,7 +7,7 @@ from schemas.game import EventKind, GameStage, RefereeAction
 from sim_host.referee.actions.legality import no_half, no_side, no_such_robot
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.game.restart import kick_off_after_goal
-from sim_host.referee.procedures import periods
+from sim_host.referee.procedures.decision import carry_out
 from sim_host.referee.ruling_draft import RulingDraft
 
 
@@ -24,7 +24,7 @@ def apply(draft: RulingDraft, action: RefereeAction) -> None:
     if draft.state.stage is GameStage.SHOOT_OUT:
         text = f"penalty of {side} scored by the word of {action.source}"
         shot = Decision(EventKind.SHOT, text, shot_scored=True, side=side, robot=action.robot)
-        periods.carry_out(draft, action.action, shot)
+        carry_out(draft, action.action, shot)
         return
     decision = Decision(
         kind=EventKind.GOAL,
@@ -34,7 +34,7 @@ def apply(draft: RulingDraft, action: RefereeAction) -> None:
         side=side,
         robot=action.robot,
     )
-    periods.carry_out(draft, action.action, decision)
+    carry_out(draft, action.action, decision)
 
 
 def _not_its_penalty(draft: RulingDraft, action: RefereeAction) -> str | None:

@@ -6,7 +6,8 @@ In a shoot-out it ends the attempt that is on, without a goal; before START it c
 from schemas.game import EventKind, GameStage, Phase, RefereeAction
 from sim_host.referee.actions.legality import no_half
 from sim_host.referee.game.decision import Decision
-from sim_host.referee.procedures import periods, restart
+from sim_host.referee.procedures import restart
+from sim_host.referee.procedures.decision import carry_out
 from sim_host.referee.ruling_draft import RulingDraft
 
 
@@ -22,6 +23,6 @@ def apply(draft: RulingDraft, action: RefereeAction) -> None:
         restart.stop(draft, action.action, None)
     elif state.running:
         text = f"penalty of {state.side} ended without a goal by the word of {action.source}"
-        periods.carry_out(draft, action.action, Decision(EventKind.SHOT, text, shot_scored=False, side=state.side))
+        carry_out(draft, action.action, Decision(EventKind.SHOT, text, shot_scored=False, side=state.side))
     else:
         restart.stop(draft, action.action, state.restart)

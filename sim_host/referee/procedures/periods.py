@@ -14,9 +14,7 @@ Not judged: added time.
 
 from collections.abc import Callable, Mapping
 
-from schemas.game import RESTARTS, EventKind, GameStage, Phase, Score
-from sim_host.referee.game.decision import Decision
-from sim_host.referee.game.referee_state import RefereeState
+from schemas.game import RESTARTS, EventKind, GameStage, Phase
 from sim_host.referee.game.restart import CENTRE, Restart
 from sim_host.referee.game.timing import reached
 from sim_host.referee.placement.bench import bench_pose
@@ -27,37 +25,6 @@ from sim_host.referee.ruling_draft import RulingDraft
 RULE = "periods"
 HALF_PHASES = RESTARTS | {Phase.STOPPED, Phase.PLAY}
 """Phases in which a half is being played."""
-
-
-def carry_out(draft: RulingDraft, rule: str, decision: Decision) -> None:
-    """Let what a rule or action decided happen."""
-    if decision.ends_half:
-        end_half(draft, rule, decision.text)
-        return
-    if decision.goal_for is not None:
-        draft.state = draft.state._replace(score=draft.state.score.plus(decision.goal_for))
-    if decision.shot_scored is not None:
-        penalties.count(draft, decision.shot_scored)
-    draft.add_event(
-        decision.kind,
-        rule,
-        decision.text,
-        side=decision.side,
-        robot=decision.robot,
-        robots=decision.robots,
-        place=decision.place,
-        score=_published_score(draft.state, decision),
-        measured=decision.measured,
-        limit=decision.limit,
-        unit=decision.unit,
-        card=decision.card,
-    )
-    if decision.card is not None and decision.robot is not None:
-        discipline.show_card(draft, rule, decision.robot, decision.card)
-    if decision.shot_scored is not None:
-        penalties.next_penalty(draft, rule)
-    else:
-        restart.stop(draft, rule, decision.restart)
 
 
 def begin_half(draft: RulingDraft) -> None:
@@ -117,12 +84,6 @@ def advance(draft: RulingDraft) -> None:
     discipline.advance(draft)
     if draft.state.participation.absences and draft.state.phase in HALF_PHASES:
         end_if_forfeited(draft)
-
-
-def _published_score(state: RefereeState, decision: Decision) -> Score | None:
-    if decision.shot_scored is not None and state.shoot_out is not None:
-        return state.shoot_out.goals
-    return state.score if decision.goal_for is not None else None
 
 
 def _change_sides(draft: RulingDraft, stage: GameStage) -> None:

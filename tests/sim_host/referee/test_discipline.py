@@ -5,7 +5,7 @@ import pytest
 from schemas.game import Card, EventKind, OffField, Phase, RefereeAction, Score
 from schemas.side import Side
 from sim_host.referee.game.decision import Decision
-from sim_host.referee.procedures.periods import carry_out
+from sim_host.referee.procedures.decision import carry_out
 from sim_host.referee.ruling_draft import RulingDraft
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
