@@ -15,6 +15,9 @@ from schemas.config.robot_model import RobotModel, models_of
 from schemas.config.roster import RosterEntry
 from schemas.side import Side
 
+BALL = "ball"
+"""Name of the ball among bodies; no robot and no obstacle has it."""
+
 
 class RobotState(NamedTuple):
     """One robot: centre in m, heading in rad, velocities in m/s and rad/s."""

@@ -19,8 +19,7 @@ from schemas.messages.world import World as WorldMessage
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.world import World
 from sim_host.match.world_fields import Fields, bodies_fields
-from sim_host.snapshot import BallState, RobotState, Roster
-from sim_host.staging.layout import BALL
+from sim_host.snapshot import BALL, BallState, RobotState, Roster
 
 
 class ImpossibleTickError(TouchlineError):

@@ -31,8 +31,8 @@ from sim_host.match.world_fields import Fields, world_fields
 from sim_host.physics.fingerprint import fingerprint
 from sim_host.referee.core import Referee, Ruling
 from sim_host.referee.evidence import NO_EVIDENCE
-from sim_host.snapshot import Roster, Snapshot
-from sim_host.staging.layout import BALL, Layout, LayoutChange, Specs
+from sim_host.snapshot import BALL, Roster, Snapshot
+from sim_host.staging.layout import Layout, LayoutChange, Specs
 from sim_host.staging.operations import ResetScenes, apply_request
 
 

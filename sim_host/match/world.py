@@ -13,7 +13,7 @@ from sim_host.actuation.chassis import Chassis
 from sim_host.physics.collision_candidates import CollisionCandidates
 from sim_host.physics.continuous_collision import ContinuousCollision
 from sim_host.physics.engine import Engine
-from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster, Snapshot
+from sim_host.snapshot import BALL, BallState, ObstacleState, RobotState, RobotStates, Roster, Snapshot
 
 _NOTHING = BallReport()
 
@@ -57,7 +57,7 @@ class World:
         for placement in placements:
             self._engine.place(placement)
         self._read_placed({placement.body for placement in placements})
-        if any(placement.body != "ball" for placement in placements):
+        if any(placement.body != BALL for placement in placements):
             self._chassis.reset()
 
     def put_obstacle(self, obstacle: StaticObstacle) -> None:
@@ -181,7 +181,7 @@ class World:
                 for name, state, before in zip(self._roster.names, states, self._robots, strict=True)
             ]
         )
-        if "ball" in placed:
+        if BALL in placed:
             self._ball_state = self._engine.ball_state()
 
     def chain(self, unchained: bytes = b"") -> str:

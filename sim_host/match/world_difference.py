@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from sim_host.match.world_fields import Fields
-from sim_host.staging.layout import BALL
+from sim_host.snapshot import BALL
 
 
 class Difference(NamedTuple):

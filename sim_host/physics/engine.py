@@ -19,7 +19,7 @@ from sim_host.physics.body_state import NO_CONTACTS, BallContacts, BodyState, Ga
 from sim_host.physics.bounce import MIN_BOUNCE_SPEED
 from sim_host.physics.gravity import GRAVITY
 from sim_host.physics.vectors import FieldTwist, Vector
-from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster
+from sim_host.snapshot import BALL, BallState, ObstacleState, RobotState, RobotStates, Roster
 
 _ITERATIONS = 200
 """At most; with Bullet's 50 two robots press a ball, a hundredth of their weight, deep into each other."""
@@ -125,7 +125,7 @@ class Engine:
 
     def place(self, placement: Placement) -> None:
         """Set a robot or the ball down, at rest or with a velocity, and take in its state."""
-        if placement.body == "ball":
+        if placement.body == BALL:
             height = self._profile.ball.radius if placement.z is None else placement.z
             velocity = (placement.vx, placement.vy, placement.vz)
             self.set_state(self.ball, BodyState((placement.x, placement.y, height), NO_TURN, velocity, _ZERO))

@@ -10,7 +10,7 @@ from schemas.side import Side
 from sim_host.referee.game.referee_state import RefereeState, point
 from sim_host.referee.game.restart import Spot
 from sim_host.referee.match_constants import MatchConstants
-from sim_host.snapshot import Snapshot
+from sim_host.snapshot import BALL, Snapshot
 
 
 @dataclass(slots=True)
@@ -65,12 +65,12 @@ class RulingDraft:
 
     def place_ball(self, spot: Spot) -> None:
         """Have the ball set down at rest."""
-        self.placements.append(Placement(body="ball", x=spot[0], y=spot[1]))
+        self.placements.append(Placement(body=BALL, x=spot[0], y=spot[1]))
 
     @property
     def ball_spot(self) -> Spot:
         """Where the ball lies: where it was set down in this tick, or where it was seen."""
-        down = [(placement.x, placement.y) for placement in self.placements if placement.body == "ball"]
+        down = [(placement.x, placement.y) for placement in self.placements if placement.body == BALL]
         return down[-1] if down else (self.snapshot.ball.x, self.snapshot.ball.y)
 
     @property

@@ -21,10 +21,8 @@ from sim_host.sensing.random_streams import (
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.sight_lines import Flags
 from sim_host.sensing.team_frames import TeamFrames
-from sim_host.snapshot import BallState, ObstacleState, RobotMotions, Roster, Snapshot
+from sim_host.snapshot import BALL, BallState, ObstacleState, RobotMotions, Roster, Snapshot
 
-BALL = "ball"
-"""No robot and no obstacle has this name."""
 _NO_DISTANCE = np.array(1e-9)
 """m; in what direction from itself a robot is, nobody asks."""
 _NOWHERE = np.array(np.inf)

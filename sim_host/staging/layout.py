@@ -10,9 +10,8 @@ from schemas.config.scene import Scene, SceneGame, check_names, check_sides
 from schemas.config.sections import Ball, Pitch
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.side import Side
+from sim_host.snapshot import BALL
 from sim_host.staging.overlap import Block, Body, Disc, goal_blocks, why_outside, why_overlapping
-
-BALL = "ball"
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,8 +7,8 @@ from typing import NamedTuple
 from schemas.config.roster import Placement
 from schemas.config.scene import Scene, SceneOperation, SceneRequest, load_scene
 from schemas.errors import TouchlineError, did_you_mean
+from sim_host.snapshot import BALL
 from sim_host.staging.layout import (
-    BALL,
     Layout,
     LayoutChange,
     Specs,
