@@ -24,13 +24,10 @@ class Timing(NamedTuple):
 
     def after(self, dt: float, in_play: bool) -> "Timing":
         """The clocks `dt` later."""
-        return Timing(
-            self.limit,
-            min(self.clock + dt, self.limit) if self.runs else self.clock,
-            self.runs,
-            self.effective + dt if in_play else self.effective,
-            self.timer + dt,
-            self.until,
+        return self._replace(
+            clock=min(self.clock + dt, self.limit) if self.runs else self.clock,
+            effective=self.effective + dt if in_play else self.effective,
+            timer=self.timer + dt,
         )
 
     def restart_timer(self, until: float | None, *, runs: bool | None = None) -> "Timing":
