@@ -162,7 +162,7 @@ def test_from_every_checkpoint_it_does_so_too(recorded) -> None:
 
 def test_the_hosts_words_on_its_setup_are_enough_for_the_numbers(recorded) -> None:
     simulation, ticks = recorded
-    simulation.live_parameters = simulation.live_parameters.at_start
+    assert simulation.handle_parameters(ParametersRequest(operation=ParameterOperation.RESET)).accepted
     again = Resimulation(Conditions(parameters_of(type(simulation.setup()).decode(simulation.setup().encode()))))
     for applied, said in notes(ticks):
         assert again.step(applied, said).chain == applied.chain

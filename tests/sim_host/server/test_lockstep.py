@@ -5,7 +5,7 @@ import pytest
 from schemas.messages.command import Drive
 from schemas.messages.host import AppliedInput
 from schemas.topics import APPLIED, WORLD
-from sim_host.server.inbox import SILENT_TICKS
+from sim_host.server.agent_stats import SILENT_TICKS
 
 PATIENCE_S = 1.0
 """How long the host waits for an answer; the match file's default."""
