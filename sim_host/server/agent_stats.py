@@ -7,14 +7,14 @@ from statistics import median
 from schemas.messages.host import RobotHealth
 
 SILENT_TICKS = 3
-"""A robot that missed this many ticks in a row is not waited for until it is heard again."""
+"""A robot that has missed this many ticks in a row is not waited for until it sends a valid message."""
 LATENCY_SAMPLES = 50
-"""Answers that the median latency is taken over: one second of ticks."""
+"""Commands that the median latency is taken over: one second of ticks."""
 
 
 @dataclass(slots=True)
 class AgentStats:
-    """The account of one robot's agent: what it answered, missed, sent twice or wrongly."""
+    """Counts of what one agent answered, missed, sent twice, or sent invalid."""
 
     alive: bool = False
     answering: bool = False
@@ -28,7 +28,7 @@ class AgentStats:
     removed: bool = False
     """Its robot was taken off the pitch."""
     still: bool = False
-    """Its robot stands still, whatever it says."""
+    """Its robot stands still, whatever the agent sends."""
     newest: int = -1
     """Tick of the newest sight it has answered."""
     acknowledged: int | None = None
@@ -37,16 +37,16 @@ class AgentStats:
 
     @property
     def is_silent(self) -> bool:
-        """Not worth waiting for: idle, gone, or without an answer to several ticks."""
+        """Whether the host does not wait for it: it is idle, gone, or has missed several ticks in a row."""
         return self.idle or not self.alive or self.silent >= SILENT_TICKS
 
     @property
     def idle(self) -> bool:
-        """There is nothing for it to do."""
+        """Whether it has no robot to move."""
         return self.removed or self.still
 
     def end_tick(self, answered: bool) -> None:
-        """A tick went by, with its answer or without."""
+        """Count a tick that ended with or without its command."""
         self.answering = answered
         if answered:
             self.silent = 0
@@ -55,11 +55,11 @@ class AgentStats:
             self.silent += 1
 
     def mark_received(self) -> None:
-        """Something valid came from it, be it too late: one that was given up gets another tick of waiting."""
+        """Count a valid command, also a late one: an agent that was given up is waited for one tick more."""
         self.silent = min(self.silent, SILENT_TICKS - 1)
 
     def health(self) -> RobotHealth:
-        """The account as it is published."""
+        """The statistics as they are published."""
         return RobotHealth(
             alive=self.alive,
             answering=self.answering,

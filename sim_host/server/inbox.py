@@ -1,4 +1,4 @@
-"""What robots say to the host: commands are taken in, checked and counted; nothing they send can stop the host."""
+"""Receives, validates and counts the robots' commands; nothing that a robot sends can stop the host."""
 
 from collections import deque
 from collections.abc import Container
@@ -14,13 +14,13 @@ from sim_host.server.invalid_log import InvalidLog
 from sim_host.snapshot import Roster
 
 _MAX_STRANGERS = 100
-"""Keys of strangers that are counted by name; a flood of invented names must not fill the memory."""
+"""Keys of unknown robots that are counted one by one; a flood of invented names must not fill the memory."""
 _MAX_INVALID_IN_A_ROW = 1000
-"""Useless messages taken in before the host goes on with its work: a flood must not hold it."""
+"""Invalid messages read in one call before the host goes on with its work: a flood must not block it."""
 
 
 class Inbox:
-    """The commands of all robots."""
+    """Receives the commands of all robots."""
 
     def __init__(self, bus: Bus, roster: Roster, invalid_log: InvalidLog, batches: BatchPublisher) -> None:
         """`batches` gets everything that comes, for the record."""
@@ -33,7 +33,7 @@ class Inbox:
         self.set_roster(roster)
 
     def set_roster(self, roster: Roster) -> None:
-        """Hear these robots from now on; the accounts of those that were removed are kept."""
+        """Receive from these robots from now on; the statistics of removed robots are kept."""
         for name, stats in self.agent_stats.items():
             stats.removed = name not in roster.names
         for name in roster.names:
@@ -42,13 +42,13 @@ class Inbox:
             stats.silent = 0
 
     def sights_sent(self, tick: int, unix_ns: int) -> None:
-        """Remember when the sights of a tick went out, for the latency of their answers."""
+        """Note when the sights of a tick were sent, to measure the latency of the commands that answer them."""
         self._sent_at.append((tick, unix_ns))
 
     def receive_command(self, tick: int, timeout: float) -> tuple[str, Command] | None:
-        """The next valid command that answers this tick or an earlier one not answered yet; nothing after `timeout` s.
+        """The next valid command that answers this tick, or an earlier one not answered yet; None after `timeout` s.
 
-        Everything else is counted on its sender's account and forgotten.
+        All other messages are counted in the statistics of their sender and dropped.
         """
         for wait in chain((timeout,), repeat(0.0, _MAX_INVALID_IN_A_ROW)):
             received = self._commands.receive(wait)
@@ -61,7 +61,7 @@ class Inbox:
         return None
 
     def end_tick(self, answered: Container[str]) -> None:
-        """A tick went by with the answers of these robots."""
+        """Count a tick that ended with the commands of these robots."""
         for name, stats in self.agent_stats.items():
             stats.end_tick(name in answered)
 
@@ -72,7 +72,7 @@ class Inbox:
             self._count_stranger(received)
             return None
         if stats.removed:
-            return None  # it answers what it saw before it was removed
+            return None  # it answers a sight from before it was removed
         try:
             command = Command.decode(received.payload)
             if command.answers_tick > tick:
