@@ -40,7 +40,7 @@ class OperatorRequests:
         return changes
 
     def handle_parameters(self, request: ParametersRequest, over: bool) -> ParametersReply:
-        """List, read, set or reset live parameters; nothing is changed once the match is `over`."""
+        """List, read, set or reset live parameters; changes are refused once the match is `over`."""
         before = self.live_parameters
         if over and request.operation in (ParameterOperation.SET, ParameterOperation.RESET):
             return ParametersReply(accepted=False, reason="the match is over")

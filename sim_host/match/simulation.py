@@ -1,6 +1,6 @@
-"""A match without a network: commands and actions in, one tick, sights and truth out.
+"""A match without a network: a step takes commands and referee actions, and returns sights and the true state.
 
-The host steps it for agents on the bus, tests and learning step it with brains in the same process.
+The host steps it for agents on the bus; tests and learning step it with brains in the same process.
 """
 
 from collections.abc import Container, Iterator, Mapping, Sequence
@@ -34,7 +34,7 @@ from sim_host.snapshot import Roster, Snapshot
 
 @dataclass(frozen=True, slots=True)
 class TickResult:
-    """Everything that one tick brought, as messages or as their plain fields."""
+    """The result of one tick, as messages or as their plain fields."""
 
     tick: int
     time: float
@@ -45,22 +45,22 @@ class TickResult:
     applied: Fields
     """`schemas.messages.host.Applied`."""
     applied_encoded: bytes
-    """The same as it goes over the bus, and as the hash chain has taken it in."""
+    """The same as it is published, and as it enters the hash chain."""
     beliefs: Sequence[tuple[Side, str, bytes]] = ()
-    """Side, robot, `schemas.messages.host.Belief` of each word said, encoded."""
+    """Side, robot and encoded `schemas.messages.host.Belief` of each radio message sent."""
     events: tuple[GameEvent, ...] = ()
     replies: tuple[ActionReply, ...] = ()
     """One for each action, in order."""
     refused: Mapping[str, int] = field(default_factory=dict)
-    """Robot → how many parts of its command could not be done."""
+    """Robot → number of parts of its command that could not be carried out."""
 
 
 def _discard_sight(robot: str, sight: bytes) -> None:
-    """Send nothing: whoever steps the simulation finds the sights in its tick."""
+    """Send nothing: the caller finds the sights in the result of the tick."""
 
 
 class Simulation:
-    """World, referee, sensors and radio of one match, stepped from outside."""
+    """World, referee, sensors and radio of one match, stepped by the caller."""
 
     def __init__(self, config: MatchConfig) -> None:
         self.config = config
@@ -84,7 +84,7 @@ class Simulation:
 
     @property
     def episode(self) -> int:
-        """Counts the starts: the match's own, each scene that is loaded, each reset."""
+        """Number of the episode, from 1: the start of the match, each loaded scene and each reset begins one."""
         return self._operator.episode
 
     @property
@@ -94,17 +94,17 @@ class Simulation:
 
     @property
     def roster(self) -> Roster:
-        """Who takes part from the next tick on."""
+        """The robots that take part from the next tick on."""
         return self._subsystems.roster
 
     @property
     def referee(self) -> Referee:
-        """Who judges from the next tick on."""
+        """The referee from the next tick on."""
         return self._subsystems.referee
 
     @property
     def over(self) -> bool:
-        """The match has been played to its end."""
+        """Whether the match has been played to its end."""
         return self.state.phase is Phase.FULL_TIME
 
     def close(self) -> None:
@@ -118,10 +118,10 @@ class Simulation:
         send: Send = _discard_sight,
         silent: Container[str] = (),
     ) -> TickResult:
-        """One tick: apply commands, move the world, let the referee decide, let everyone perceive.
+        """One tick: apply commands, move the world, let the referee decide, make the sights.
 
-        `send` is given each robot's sight as soon as it is written: robots think while the rest is still done.
-        `silent` are robots whose program is gone, which the referee may take out.
+        `send` is called with each robot's sight as soon as it is encoded, so that robots think while the tick ends.
+        `silent` are robots whose agent is gone or does not answer; the referee may take them off the field.
         """
         changes = self._apply_pending()
         if changes.new_episode:
@@ -165,7 +165,7 @@ class Simulation:
         return reply
 
     def setup(self) -> Setup:
-        """What agents and viewers must know before the first tick."""
+        """The setup of the match, which agents and viewers need before the first tick."""
         p, changed = self.profile, self.live_parameters.changes_since(self.live_parameters.at_start)
         setup = Setup.of(self.config, p, self.book, self._engine, changed)
         teams = {side: self._team_setup(side) for side in Side}
@@ -182,7 +182,7 @@ class Simulation:
         )
 
     def _begin(self) -> TickResult:
-        """Tick 0: everybody has been set down, nobody has moved."""
+        """Tick 0: all bodies are at their places, and none has moved."""
         changes = self._apply_pending()
         changes.checkpoint = True
         snapshot = self.world.snapshot()
@@ -198,7 +198,7 @@ class Simulation:
         )
 
     def _apply_pending(self) -> PendingChanges:
-        """Apply what is pending, in this order: other numbers, bodies placed, a checkpoint; returns what was done."""
+        """Apply the pending changes in this order: rebuild the world, place bodies, make a checkpoint; returns them."""
         changes = self._operator.pop_pending()
         if changes.rebuild_world:
             self.world.rebuild_with(self.profile, self.roster, self._operator.layout.obstacles)
@@ -208,7 +208,7 @@ class Simulation:
         return changes
 
     def _change_events(self, changes: PendingChanges, snapshot: Snapshot) -> Iterator[GameEvent]:
-        """The events of what was done between the ticks."""
+        """The events of the changes made between two ticks."""
         for kind, rule, text in changes.events:
             yield GameEvent(
                 tick=snapshot.tick, time=snapshot.time, clock=self.state.clock, kind=kind, rule=rule, text=text
@@ -221,25 +221,25 @@ class Simulation:
     def _send_radio(
         self, snapshot: Snapshot, commands: Mapping[str, Command], refusals: dict[str, list[str]]
     ) -> list[tuple[Side, str, bytes]]:
-        """Send this tick's words on their way."""
+        """Send the radio messages of this tick; the beliefs to publish."""
         beliefs = []
-        for name in self.roster.names:  # not in the order of arrival, which no two runs share
+        for name in self.roster.names:  # the order of arrival differs between runs
             command = commands.get(name)
             if command is None or command.radio is None:
                 continue
-            word = command.radio
-            refusal = self._subsystems.radio.send(snapshot.tick, name, word)
+            message = command.radio
+            refusal = self._subsystems.radio.send(snapshot.tick, name, message)
             if refusal is not None:
                 refusals.setdefault(name, []).append(refusal)
                 continue
-            belief = {"version": VERSION, "tick": snapshot.tick, "time": snapshot.time, "robot": name, "radio": word}
+            belief = {"version": VERSION, "tick": snapshot.tick, "time": snapshot.time, "robot": name, "radio": message}
             beliefs.append((self.roster.side_of(name), name, encode(belief)))
         return beliefs
 
     def _applied(
         self, snapshot: Snapshot, inputs: Mapping[str, AppliedInput], changes: PendingChanges
     ) -> dict[str, Any]:
-        """The fields of a tick that tell what was applied."""
+        """The fields of a `TickResult` on what was applied."""
         fields: Fields = {"version": VERSION, "tick": snapshot.tick, "time": snapshot.time, **changes.applied_fields()}
         if changes.roster_changed:
             fields["robots"] = self._operator.layout.robots

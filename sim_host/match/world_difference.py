@@ -1,4 +1,4 @@
-"""Compares a recorded world with the same tick as it was simulated again, field by field."""
+"""Compares a recorded world with its resimulation, field by field."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -8,17 +8,17 @@ from sim_host.snapshot import BALL
 
 
 class Difference(NamedTuple):
-    """One field of one body that is not as it was recorded; positions in m, headings in rad, speeds in m/s, rad/s."""
+    """A field of a body that differs from its recorded value; positions in m, headings in rad, speeds in m/s, rad/s."""
 
     body: str
-    """A robot, `ball`, an obstacle, or `world` for what belongs to no body."""
+    """A robot, `ball`, an obstacle, or `world` for fields that belong to no body."""
     field: str
     recorded: object
     simulated: object
 
     @property
     def by(self) -> float | None:
-        """How much, where both are numbers."""
+        """The absolute difference; None unless both values are numbers."""
         pair = self.recorded, self.simulated
         if any(isinstance(one, bool) or not isinstance(one, int | float) for one in pair):
             return None
@@ -26,7 +26,7 @@ class Difference(NamedTuple):
 
 
 def differences(recorded: Mapping[str, object], simulated: Fields) -> list[Difference]:
-    """Every field in which a recorded world is not as it was simulated again; robots first, then ball and the rest."""
+    """Every field in which a recorded world differs from its resimulation: robots, obstacles, ball, then the rest."""
     found: list[Difference] = []
     for group in ("robots", "obstacles"):
         theirs, ours = _table(recorded.get(group)), simulated.get(group, {})
@@ -39,7 +39,7 @@ def differences(recorded: Mapping[str, object], simulated: Fields) -> list[Diffe
 
 _OWN = ("tick", "time", "possession", "touches", "kicked")
 _ABSENT: dict[str, object] = {"touches": []}
-"""What a field of the world is where it is left out; others are nothing."""
+"""Value of a field of the world that is left out of a message; None for other fields."""
 
 
 def _table(value: object) -> Mapping[str, object]:

@@ -1,4 +1,4 @@
-"""What the engine reports of a body, of two bodies that are near each other, and of the ball's contacts."""
+"""The reports of the engine: the state of a body, the gap between two bodies, and the contacts of the ball."""
 
 from typing import NamedTuple
 
@@ -6,7 +6,7 @@ from sim_host.physics.vectors import Quaternion, Vector
 
 
 class BodyState(NamedTuple):
-    """What determines a body's future: position m, orientation quaternion xyzw, velocity m/s, spin rad/s."""
+    """The state that determines a body's future: position m, orientation xyzw, velocity m/s, spin rad/s."""
 
     position: Vector
     orientation: Quaternion
@@ -15,20 +15,23 @@ class BodyState(NamedTuple):
 
 
 class Gap(NamedTuple):
-    """Two bodies where they are nearest."""
+    """The nearest points of two bodies."""
 
     on_one: Vector
     """m."""
     on_other: Vector
     """m."""
     normal: Vector
-    """From the other to the one, of unit length."""
+    """Unit vector from the other body to the first."""
     width: float
     """m; negative where they overlap."""
 
 
 class BallContacts(NamedTuple):
-    """Robots that touch the ball, in roster order, and how deep it is pressed into others than ground and holder, m."""
+    """Robots that touch the ball, in the order of the roster, and the depth in m to which it is pressed into a body.
+
+    Depth in the ground, and in the robot that holds the ball, does not count.
+    """
 
     robots: list[int]
     depth: float

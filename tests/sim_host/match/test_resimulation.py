@@ -217,10 +217,10 @@ def test_an_input_without_any_effect_is_found_too(plain) -> None:
 
 
 IMPOSSIBLE: dict[str, tuple[dict[str, Any], str]] = {
-    "an input is missing": ({"inputs": {}}, "inputs and robots that take part differ: cyan1, cyan2, magenta1"),
+    "an input is missing": ({"inputs": {}}, "inputs do not match the robots that take part: cyan1, cyan2, magenta1"),
     "a stranger is placed": ({"placements": [Placement(body="nobody", x=0, y=0)]}, "nobody is placed"),
     "a parameter that nobody knows": ({"parameters": {"ball.colour": 3.0}}, "parameters that cannot be set"),
-    "nobody is left": ({"robots": [], "remade": True}, "nobody takes part"),
+    "nobody is left": ({"robots": [], "remade": True}, "no robot takes part"),
 }
 
 

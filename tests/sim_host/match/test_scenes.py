@@ -321,9 +321,9 @@ REFUSED: dict[str, tuple[str, dict[str, Any], str]] = {
     "everybody": (
         "remove",
         {"remove": [f"{side}{number}" for side in Side for number in range(1, 6)]},
-        "nobody would be left",
+        "no robot would be left",
     ),
-    "somebody who was not there": ("remove", {"remove": ["cyan8"]}, "cyan8 is no robot and no obstacle"),
+    "somebody who was not there": ("remove", {"remove": ["cyan8"]}, "cyan8 is neither a robot nor an obstacle"),
 }
 
 
