@@ -22,7 +22,7 @@ _WALL_RESTITUTION = 0.5
 _NET_RESTITUTION = 0.0
 """A net takes all speed that the ball has against it, and gives it no spin."""
 _CONTACT_DISTANCE = 1e-3
-"""m; the ball is in contact from this gap on. Bullet's default brakes it 2 cm before it touches, and spoils its bounce."""
+"""m; the ball is in contact from this gap on. Bullet's default brakes it 2 cm earlier, which spoils its bounce."""
 
 NO_TURN: Quaternion = (0.0, 0.0, 0.0, 1.0)
 

@@ -22,7 +22,7 @@ from sim_host.physics.vectors import FieldTwist, Vector
 from sim_host.snapshot import BALL, BallState, ObstacleState, RobotState, RobotStates, Roster
 
 _ITERATIONS = 200
-"""Maximum of the solver; with Bullet's 50, two robots press a ball, a hundredth of their mass, deep into each other."""
+"""Maximum of the solver; with Bullet's 50, two robots press a ball, of a hundredth of their mass, into their hulls."""
 _UPRIGHT = 1e-3
 """A robot is put upright again from this half sine of its tilt, or from this lift in m."""
 _TOUCHING = 0.001
@@ -150,7 +150,7 @@ class Engine:
                 self._states[place] = self.state(body)
 
     def _upright_centre(self, place: int) -> Vector:
-        """The centre of a tipped robot once it is upright: turned about its centre, or near a ball at the ball's height.
+        """The centre of a tipped robot once it is upright: where it is, or near a ball as seen at the ball's height.
 
         A pressed ball is light and touches a hull near its foot or near its top, so that the solver tips the robot
         rather than stops it. A robot put upright about its centre would then come down into the ball.
