@@ -21,9 +21,9 @@ def place_text(place: Spot) -> str:
 def restart_text(restart: Restart) -> str:
     """A restart, for whom and where."""
     owner = f" for {restart.side}" if restart.side is not None else ""
-    return f"{display_name(restart.phase)}{owner} place_text {place_text(restart.spot)}"
+    return f"{display_name(restart.phase)}{owner} at {place_text(restart.spot)}"
 
 
 def last_touch_text(robot: str | None) -> str:
     """Who touched the ball last, as the end of a sentence."""
-    return f"last last_touch_text by {robot}" if robot is not None else "last_touch_text by nobody since START"
+    return f"last touched by {robot}" if robot is not None else "touched by no robot since START"
