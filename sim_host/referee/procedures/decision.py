@@ -1,4 +1,4 @@
-"""Carries out a decision of a rule or of people: score, event, card, and how the game goes on."""
+"""Carries out a decision of a rule or of people: score, event, card and restart."""
 
 from schemas.game import Score
 from sim_host.referee.game.decision import Decision
@@ -8,7 +8,7 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def carry_out(draft: RulingDraft, rule: str, decision: Decision) -> None:
-    """Let what a rule or action decided happen."""
+    """Carry out a decision; `rule` is the rule or action that made it."""
     if decision.ends_half:
         periods.end_half(draft, rule, decision.text)
         return
