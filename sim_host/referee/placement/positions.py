@@ -164,7 +164,7 @@ def _kicker(line_up: LineUp) -> int | None:
 
 
 def _free_defenders(line_up: LineUp) -> tuple[int, ...]:
-    """The goalkeeper in its penalty area (ours), and one more defender outside the goal area (rule book, set pieces)."""
+    """The goalkeeper in its penalty area (ours), one more defender outside the goal area (rule book, set pieces)."""
     match, robots = line_up.match, line_up.snapshot.robots
     inside = [
         index
