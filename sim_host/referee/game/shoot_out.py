@@ -34,7 +34,7 @@ class ShootOut:
         return self.first if self.taken.of(self.first) == self.taken.of(self.first.opponent) else self.first.opponent
 
     def leader(self, kicks: int) -> Side | None:
-        """The side that cannot lose any more with this number of penalties for each side; None while it is open."""
+        """The side that cannot be caught up with, if each side has this number of penalties; None while it is open."""
         for side in Side:
             ahead = self.goals.of(side) - self.goals.of(side.opponent)
             if ahead > kicks - self.taken.of(side.opponent):
