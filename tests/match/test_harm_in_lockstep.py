@@ -11,7 +11,7 @@ from recordings.reading.recording import open_recording
 from schemas.message import BadMessageError
 from schemas.messages.command import Command, Drive
 from schemas.topics import key_prefix
-from sim_host.server.inbox import SILENT_TICKS
+from sim_host.server.agent_stats import SILENT_TICKS
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 

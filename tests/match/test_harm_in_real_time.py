@@ -180,7 +180,7 @@ def test_health_and_status_line_name_a_stopped_robot(story):
     silent = [health for health in story.heard.healths if not health.robots["cyan2"].answering and health.tick > 60]
     assert silent
     assert any("robots 2/3 (silent: cyan2)" in line for line in story.program.err.splitlines())
-    assert "agent: cyan2 does not answer, its robot rests" in story.program.err
+    assert "agent: cyan2 does not answer, its robot stops" in story.program.err
     assert "agent: cyan2 answers" in story.program.err
 
 
@@ -191,7 +191,7 @@ def test_the_others_play_on_meanwhile(inputs, story):
 
 def test_a_killed_agent_is_started_again_and_its_robot_rests_meanwhile(inputs, story):
     assert "magenta1 was ended by SIGKILL; started again (1 of 3)" in story.program.err
-    assert "agent: magenta1 does not answer, its robot rests" in story.program.err
+    assert "agent: magenta1 does not answer, its robot stops" in story.program.err
     assert any(inputs[tick]["magenta1"].drive == Drive() for tick in range(story.without, max(inputs)))
     assert story.heard.robot("magenta1").alive
 

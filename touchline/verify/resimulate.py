@@ -20,8 +20,9 @@ from recordings.reading.tick_records import TickRecord, command_check_of, tick_r
 from schemas.errors import TouchlineError
 from schemas.message import BadMessageError
 from schemas.messages.host import Applied, chained_part_of
-from sim_host.match.resimulation import ImpossibleTickError, Resimulation, differences
-from sim_host.physics.engine import fingerprint
+from sim_host.match.resimulation import ImpossibleTickError, Resimulation
+from sim_host.match.world_difference import differences
+from sim_host.physics.fingerprint import fingerprint
 from touchline.verify.resim_start import resim_start
 
 _WORTH_A_PROCESS = 1500

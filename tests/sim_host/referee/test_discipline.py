@@ -5,7 +5,7 @@ import pytest
 from schemas.game import Card, EventKind, OffField, Phase, RefereeAction, Score
 from schemas.side import Side
 from sim_host.referee.game.decision import Decision
-from sim_host.referee.procedures.periods import carry_out
+from sim_host.referee.procedures.decision import carry_out
 from sim_host.referee.ruling_draft import RulingDraft
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
@@ -128,7 +128,7 @@ def test_a_robot_in_repair_comes_back_by_itself_after_its_time_and_not_before(ri
     halted(rig)
     rig.ask("repair", robot="cyan3")
     out = rig.events[-1].time
-    assert "s are left" in refused(rig.ask("enter", robot="cyan3"))
+    assert "s left" in refused(rig.ask("enter", robot="cyan3"))
     rig.until(lambda state: "cyan3" not in state.participation.absences)
     assert rig.events[-1].time - out == pytest.approx(rig.book.people.repair, abs=2 * rig.dt)
 

@@ -137,7 +137,7 @@ def test_a_kick_of_a_contested_ball_says_so(build, tell):
     rig = build()
     rig.place(cyan1=(-0.36, 0, 0), magenta1=(0.36, 0, math.pi), ball=(0, 0, 0))
     rig.tick(cyan1=tell(kick=("ground", 3.0)), magenta1=tell(dribble=True))
-    assert rig.refused == {"cyan1": "kick: ball contested, another robot is as near to it"}
+    assert rig.refused == {"cyan1": "kick: ball contested, another robot is equally near"}
 
 
 def test_a_kick_against_a_touching_opponent_is_stopped_by_its_hull(rig, tell):
