@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
+from msgspec.structs import asdict, replace
 from numpy.typing import NDArray
 
 from schemas.config.sections import RadioChannel
@@ -32,7 +33,6 @@ _ROUNDING = 1e-6
 class _RadioMessage:
     sent_at: int
     """Tick."""
-    content: Radio
     received: ReceivedRadio
     """As every receiver reads it at the tick `at`: its age counts."""
     at: int
@@ -107,7 +107,7 @@ class RadioAir:
             return f"radio: the team's budget of {self._air.budget / 1e6:g} Mbit/s is used up"
         team.sent.append((tick, bits))
         team.bits += bits
-        self._deliver(index, _RadioMessage(tick, content, _received(content, 0.0), tick))
+        self._deliver(index, _RadioMessage(tick, ReceivedRadio(age=0.0, **asdict(content)), tick))
         return None
 
     def _deliver(self, sender: int, message: _RadioMessage) -> None:
@@ -144,7 +144,7 @@ class RadioAir:
             for message in newest.values():
                 if message.at != tick:
                     age = round((tick - message.sent_at) * self._tick_s, DIGITS)
-                    message.received, message.at = _received(message.content, age), tick
+                    message.received, message.at = replace(message.received, age=age), tick
         names = self._roster.names
         return [{names[sender]: message.received for sender, message in newest.items()} for newest in self._received]
 
@@ -152,15 +152,3 @@ class RadioAir:
         oldest = tick - _WINDOW_S / self._tick_s
         while team.sent and team.sent[0][0] <= oldest:
             team.bits -= team.sent.popleft()[1]
-
-
-def _received(content: Radio, age: float) -> ReceivedRadio:
-    return ReceivedRadio(
-        self=content.self,
-        ball=content.ball,
-        role=content.role,
-        intention=content.intention,
-        pass_to=content.pass_to,
-        extra=content.extra,
-        age=age,
-    )

@@ -7,6 +7,8 @@ from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from msgspec import Raw
+
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.rule_book import RuleBook, load_rule_book
@@ -245,6 +247,10 @@ class Simulation:
             fields["robots"] = self._operator.layout.robots
         if changes.obstacles_changed:
             fields["obstacles"] = self._operator.layout.obstacles
-        fields |= {"episode": self.episode, "inputs": inputs}
-        fields["chain"] = self.world.chain(chained_part(fields))
-        return {"applied": fields, "applied_encoded": encode(fields)}
+        fields["episode"] = self.episode
+        message = {**fields, "inputs": Raw(encode(inputs))}  # encoded once, for the chain and for the bus
+        chain = self.world.chain(chained_part(message))
+        return {
+            "applied": {**fields, "inputs": inputs, "chain": chain},
+            "applied_encoded": encode({**message, "chain": chain}),
+        }
