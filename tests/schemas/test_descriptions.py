@@ -12,7 +12,7 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.config.rule_book import RuleBook
 from schemas.config.scene import Scene
-from schemas.game import GameView, Point, DisciplinaryRecord
+from schemas.game import DisciplinaryRecord, GameView, Point
 from schemas.messages import command, sight
 from schemas.messages.coach import CoachOrder
 from schemas.messages.host import Setup
