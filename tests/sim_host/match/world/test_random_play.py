@@ -33,7 +33,9 @@ from sim_host.snapshot import RobotState, Roster, Snapshot
 NAMES = tuple(f"{side.value}{number}" for side in Side for number in range(1, 6))
 SIDES = tuple(side for side in Side for _ in range(5))
 MOTIONS = ("velocity", "omni", "mixed")
-METHODS = {name: meaning for name, meaning in meanings(Dribble).items() if isinstance(meaning, Choice)}["method"].options
+METHODS = {name: meaning for name, meaning in meanings(Dribble).items() if isinstance(meaning, Choice)}[
+    "method"
+].options
 PROFILES = {name: load_profile(name) for name in ("msl", "paper")}
 LONGER = int(os.environ.get("TOUCHLINE_RANDOM_PLAYS", "0"))
 DEEP = 0.02
