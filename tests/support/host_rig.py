@@ -7,7 +7,6 @@ from typing import Any
 from robot_agent.contract import Brain, Briefing, load_brain
 from robot_agent.runner import Runner
 from schemas.bus.contract import Bus, ReceivedMessage
-from schemas.bus.in_process_bus import Medium
 from schemas.config.match_config import MatchConfig
 from schemas.game import EventKind
 from schemas.messages.command import Command, Drive
@@ -19,6 +18,7 @@ from schemas.topic import Topic
 from schemas.topics import APPLIED, EVENT, HEALTH, RECORDER_PROGRESS, WORLD
 from sim_host.server.host import Host
 from sim_host.server.pace import Lockstep
+from support.lossy_medium import LossyMedium
 
 LOOK_S = 0.001
 """Wall time that passes while the host waits once: nothing depends on it but how often it looks."""
@@ -97,7 +97,7 @@ class HostRig:
     """A host and all who meet it; whoever is in `idle` is given its turn while the host waits."""
 
     config: MatchConfig
-    medium: Medium = field(default_factory=Medium)
+    medium: LossyMedium = field(default_factory=LossyMedium)
     agents: dict[str, Agent] = field(default_factory=dict)
     idle: list[Callable[[], None]] = field(default_factory=list)
 

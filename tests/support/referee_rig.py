@@ -11,6 +11,7 @@ from schemas.frames import Pose
 from schemas.game import ActionName, EventKind, GameEvent, Phase, Point, RefereeAction
 from schemas.side import Side
 from sim_host.referee.core import Referee, Ruling
+from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster, Snapshot
 
 
@@ -43,6 +44,17 @@ class RefereeRig:
         settings = {"duration": None, "kick_off": Side.CYAN, "automatic": True, "starts": self.starts} | options
         settings["kick_off"] = self.side(settings["kick_off"])
         self.referee = Referee(self.book, self.pitch, chosen.ball, self.roster, **settings)
+        self.constants = MatchConstants(
+            self.book,
+            self.pitch,
+            chosen.ball,
+            self.roster,
+            half_duration=self.book.periods.half_duration,
+            kick_off=settings["kick_off"],
+            automatic=settings["automatic"],
+            starts=self.starts,
+        )
+        """For functions of the referee that are called by themselves."""
         self.state = self.referee.begin()
         self.at = 0
         self.ball: tuple[float, float, float] = (0.0, 0.0, self.radius)

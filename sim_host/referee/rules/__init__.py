@@ -3,7 +3,6 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from itertools import compress
 
 from schemas.game import GameStage
 from sim_host.referee.evidence.stays import NO_STAYS
@@ -126,11 +125,16 @@ RULES_BY_TIME: Mapping[str, tuple[Rule, ...]] = {
 
 def first_decision(situation: Situation, *, clocks_alone: bool = False) -> tuple[Rule, Decision] | None:
     """The first rule that decides in this tick, with what it decides."""
-    for rule in _rules_to_ask(_time(situation, clocks_alone), _occasions(situation)):
+    for rule in rules_to_ask(situation, clocks_alone=clocks_alone):
         decision = rule.judge(situation)
         if decision is not None:
             return rule, decision
     return None
+
+
+def rules_to_ask(situation: Situation, *, clocks_alone: bool = False) -> tuple[Rule, ...]:
+    """The rules that have anything to judge in this tick, in their order."""
+    return _rules_for(_time(situation, clocks_alone), _occasions(situation))
 
 
 OCCASIONS = ("set piece", "crossing", "kick", "dribble", "pushes", "stays", "outside", "contest", "still ball")
@@ -155,9 +159,9 @@ def _occasions(situation: Situation) -> tuple[bool, ...]:
 
 
 @cache
-def _rules_to_ask(time: str, there: tuple[bool, ...]) -> tuple[Rule, ...]:
+def _rules_for(time: str, there: tuple[bool, ...]) -> tuple[Rule, ...]:
     """The rules of this time that have anything to judge."""
-    occasions = {"always", *compress(OCCASIONS, there)}
+    occasions = {"always", *(name for name, is_there in zip(OCCASIONS, there, strict=True) if is_there)}
     return tuple([rule for rule in RULES_BY_TIME[time] if rule.occasion in occasions])
 
 

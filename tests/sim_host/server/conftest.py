@@ -5,7 +5,6 @@ from typing import Any
 
 import pytest
 
-from schemas.bus.contract import Publisher
 from schemas.config.match_config import MatchConfig
 from support.host_rig import TEAMS, HostRig
 
@@ -40,22 +39,3 @@ def realtime_rig(rig_of: Callable[..., HostRig]) -> HostRig:
     rig.join_all()
     rig.begin()
     return rig
-
-
-@pytest.fixture
-def lose(monkeypatch: pytest.MonkeyPatch) -> Callable[[Publisher, set[int]], list[bytes]]:
-    """Makes a writer lose some of its messages on the way, by number from 1; what it tried to send is in the list."""
-
-    def spoil(writer: Publisher, lost: set[int]) -> list[bytes]:
-        tried: list[bytes] = []
-        send = writer.put_payload
-
-        def put_payload(payload: bytes) -> None:
-            tried.append(payload)
-            if len(tried) not in lost:
-                send(payload)
-
-        monkeypatch.setattr(writer, "put_payload", put_payload)
-        return tried
-
-    return spoil

@@ -1,22 +1,27 @@
-"""A world of four robots and a ball that tests set down, push and look at."""
+"""Worlds of two a side, of either profile or with changed numbers."""
 
 from dataclasses import replace
 
 import pytest
 
 from schemas.config.profile import load_profile
-from support.world_rig import NAMES, WorldRig, tell
+from support.world_rig import WorldRig, tell, two_a_side
 
 
 @pytest.fixture
 def build():
-    """Builds rigs, of a profile by name with changed numbers: section → field → value."""
+    """Builds rigs, of a profile by name with changed numbers: section → field → value; `order` shuffles the roster."""
     rigs = []
 
-    def make(name="msl", order=NAMES, **changes):
+    def make(name="msl", order=None, **changes):
         profile = load_profile(name)
         sections = {section: replace(getattr(profile, section), **numbers) for section, numbers in changes.items()}
-        rigs.append(WorldRig(replace(profile, **sections), order))
+        profile = replace(profile, **sections)
+        roster = two_a_side(profile)
+        if order is not None:
+            sides = dict(zip(roster.names, roster.sides, strict=True))
+            roster = replace(roster, names=tuple(order), sides=tuple(sides[robot] for robot in order))
+        rigs.append(WorldRig(profile, roster))
         return rigs[-1]
 
     yield make
