@@ -1,0 +1,169 @@
+"""Programs of a match as real processes on loopback, and a client that listens to their host."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from schemas.bus.contract import Subscription
+from schemas.bus.zenoh.bus import ZenohBus, open_client
+from schemas.messages.host import Applied, Health, Invalid, RobotHealth
+from schemas.messages.world import World
+from schemas.process.clock import WallClock
+from schemas.topics import APPLIED, EVENT, HEALTH, INVALID, STATE, WORLD
+
+LIMIT = 90.0
+"""Seconds after which something that should have happened will not; nothing depends on how soon it does."""
+POLL = 0.01
+
+
+def wait_for(condition: Callable[[], Any], what: str) -> Any:
+    """What the condition gives as soon as it gives something."""
+    deadline = time.monotonic() + LIMIT
+    while time.monotonic() < deadline:
+        found = condition()
+        if found:
+            return found
+        time.sleep(POLL)
+    raise AssertionError(f"never came: {what}")
+
+
+def is_running(pid: int) -> bool:
+    """Whether a process is there and not a mere entry that nobody has looked at."""
+    try:
+        stat = Path(f"/proc/{pid}/stat").read_text()
+    except FileNotFoundError:
+        return False
+    return stat.rpartition(")")[2].split()[0] != "Z"
+
+
+class Program:
+    """A Python program with its words in files."""
+
+    def __init__(self, arguments: list[str], folder: Path, name: str, environment: dict[str, str]) -> None:
+        self.folder = folder
+        self._out, self._err = folder / f"{name}.out", folder / f"{name}.err"
+        with self._out.open("wb") as out, self._err.open("wb") as err:
+            self.popen = subprocess.Popen(
+                [sys.executable, "-m", *arguments],
+                cwd=folder,
+                env={**os.environ, **environment},
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=err,
+            )
+
+    @property
+    def out(self) -> str:
+        return self._out.read_text()
+
+    @property
+    def err(self) -> str:
+        return self._err.read_text()
+
+    def status(self) -> int:
+        """Its exit status, once it has ended."""
+        return self.popen.wait(LIMIT)
+
+    def says(self, words: str) -> None:
+        """Wait until these words stand on its stderr."""
+        wait_for(lambda: words in self.err, f"{words!r} in: {self.err}")
+
+    def children(self) -> dict[int, list[str]]:
+        """Pid → command line of the processes that it launched and that run."""
+        found = {}
+        for folder in Path("/proc").glob("[0-9]*"):
+            try:
+                parent = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
+                words = (folder / "cmdline").read_bytes().decode().split("\0")
+            except OSError:
+                continue  # it ended meanwhile
+            if parent == self.popen.pid:
+                found[int(folder.name)] = words
+        return found
+
+    def child(self, *words: str) -> int:
+        """The pid of the child whose command line has all these words."""
+
+        def find() -> int | None:
+            return next((pid for pid, line in self.children().items() if set(words) <= set(line)), None)
+
+        pid: int = wait_for(find, f"a process {' '.join(words)}; stderr: {self.err}")
+        return pid
+
+    def end(self) -> None:
+        if self.popen.poll() is None:
+            left = list(self.children())
+            self.popen.kill()
+            self.popen.wait()
+            for pid in left:
+                try:
+                    os.kill(pid, signal.SIGKILL)
+                except ProcessLookupError:
+                    continue
+
+
+class Listener:
+    """A client that keeps what a host says."""
+
+    def __init__(self, match: str, endpoint: str, program: Program) -> None:
+        self._program = program
+        self.bus: ZenohBus = open_client(match, WallClock(), endpoint, LIMIT)
+        self._subscriptions: dict[str, Subscription] = {
+            topic.key: self.bus.subscribe(topic) for topic in (WORLD, APPLIED, HEALTH, EVENT, INVALID, STATE)
+        }
+        self.said: dict[str, list[Any]] = {key: [] for key in self._subscriptions}
+
+    def update(self) -> None:
+        for key, subscription in self._subscriptions.items():
+            self.said[key].extend(received.message() for received in iter(subscription.receive, None))
+
+    def until(self, condition: Callable[["Listener"], Any], what: str) -> Any:
+        """Listen until the condition holds; what it gave."""
+
+        def heard() -> Any:
+            self.update()
+            return condition(self)
+
+        try:
+            return wait_for(heard, what)
+        except AssertionError as error:
+            newest = f"tick {self.tick}, connected {self.bus.connected()}, health {self.healths[-1:]}"
+            program = f"status {self._program.popen.poll()}, stderr: {self._program.err}"
+            raise AssertionError(f"{error}\n{newest}\n{program}") from None
+
+    def until_tick(self, tick: int) -> None:
+        self.until(lambda one: one.tick >= tick, f"tick {tick}")
+
+    def for_ticks(self, count: int) -> None:
+        self.update()
+        self.until_tick(self.tick + count)
+
+    @property
+    def worlds(self) -> list[World]:
+        return self.said["world"]
+
+    @property
+    def applied(self) -> list[Applied]:
+        return self.said["host/applied"]
+
+    @property
+    def healths(self) -> list[Health]:
+        return self.said["host/health"]
+
+    @property
+    def invalid(self) -> list[Invalid]:
+        return self.said["host/invalid"]
+
+    @property
+    def tick(self) -> int:
+        """The newest tick heard of."""
+        return self.worlds[-1].tick if self.worlds else -1
+
+    def robot(self, name: str) -> RobotHealth:
+        """What the host says last of one robot's agent."""
+        return self.healths[-1].robots[name] if self.healths else RobotHealth()
