@@ -5,11 +5,11 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from schemas.bus.contract import Subscription
+from schemas.bus.contract import ReceivedMessage, Subscription
 from schemas.bus.zenoh.bus import ZenohBus, open_client
 from schemas.messages.host import Applied, Health, Invalid, RobotHealth
 from schemas.messages.world import World
@@ -107,8 +107,35 @@ class Program:
                     continue
 
 
+class MessageLog(Sequence[Any]):
+    """Messages of one topic, decoded each time they are read.
+
+    A lockstep match plays thousands of ticks while a story waits for wall time: decoded, they would take ten times the
+    memory of their payloads.
+    """
+
+    def __init__(self) -> None:
+        self._received: list[ReceivedMessage] = []
+        self._newest: Any = None
+
+    def update(self, subscription: Subscription) -> None:
+        """Append all that has come."""
+        count = len(self._received)
+        self._received.extend(iter(subscription.receive, None))
+        if len(self._received) > count:
+            self._newest = self._received[-1].message()
+
+    def __len__(self) -> int:
+        return len(self._received)
+
+    def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, slice):
+            return [received.message() for received in self._received[index]]
+        return self._newest if index == -1 and self._received else self._received[index].message()
+
+
 class Listener:
-    """A client that keeps what a host says."""
+    """A client that keeps all messages that a host publishes."""
 
     def __init__(self, match: str, endpoint: str, program: Program) -> None:
         self._program = program
@@ -116,11 +143,11 @@ class Listener:
         self._subscriptions: dict[str, Subscription] = {
             topic.key: self.bus.subscribe(topic) for topic in (WORLD, APPLIED, HEALTH, EVENT, INVALID, STATE)
         }
-        self.said: dict[str, list[Any]] = {key: [] for key in self._subscriptions}
+        self.said = {key: MessageLog() for key in self._subscriptions}
 
     def update(self) -> None:
         for key, subscription in self._subscriptions.items():
-            self.said[key].extend(received.message() for received in iter(subscription.receive, None))
+            self.said[key].update(subscription)
 
     def until(self, condition: Callable[["Listener"], Any], what: str) -> Any:
         """Listen until the condition holds; what it gave."""
@@ -144,19 +171,19 @@ class Listener:
         self.until_tick(self.tick + count)
 
     @property
-    def worlds(self) -> list[World]:
+    def worlds(self) -> Sequence[World]:
         return self.said["world"]
 
     @property
-    def applied(self) -> list[Applied]:
+    def applied(self) -> Sequence[Applied]:
         return self.said["host/applied"]
 
     @property
-    def healths(self) -> list[Health]:
+    def healths(self) -> Sequence[Health]:
         return self.said["host/health"]
 
     @property
-    def invalid(self) -> list[Invalid]:
+    def invalid(self) -> Sequence[Invalid]:
         return self.said["host/invalid"]
 
     @property
