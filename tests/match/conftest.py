@@ -32,12 +32,12 @@ def start(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[..., Pr
 
 
 @pytest.fixture(scope="module")
-def listen() -> Iterator[Callable[[str, str, Program], Listener]]:
+def listen() -> Iterator[Callable[..., Listener]]:
     """Opens clients of a program's match, as soon as its host is there."""
     open_ones: list[Listener] = []
 
-    def listen(match: str, endpoint: str, program: Program) -> Listener:
-        open_ones.append(Listener(match, endpoint, program))
+    def listen(match: str, endpoint: str, program: Program, *, every_tick: bool = True) -> Listener:
+        open_ones.append(Listener(match, endpoint, program, every_tick=every_tick))
         return open_ones[-1]
 
     yield listen

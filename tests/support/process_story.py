@@ -5,10 +5,11 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from recordings.reading.recording import RecordedMessage
 from schemas.bus.contract import ReceivedMessage, Subscription
 from schemas.bus.zenoh.bus import ZenohBus, open_client
 from schemas.messages.host import Applied, Health, Invalid, RobotHealth
@@ -108,42 +109,49 @@ class Program:
 
 
 class MessageLog(Sequence[Any]):
-    """Messages of one topic, decoded each time they are read.
+    """Messages of one topic, received or recorded, decoded each time they are read.
 
     A lockstep match plays thousands of ticks while a story waits for wall time: decoded, they would take ten times the
     memory of their payloads.
     """
 
-    def __init__(self) -> None:
-        self._received: list[ReceivedMessage] = []
-        self._newest: Any = None
+    def __init__(
+        self, messages: Iterable[ReceivedMessage | RecordedMessage] = (), *, newest_only: bool = False
+    ) -> None:
+        self._messages = list(messages)
+        self._newest = self._messages[-1].message() if self._messages else None
+        self._newest_only = newest_only
 
     def update(self, subscription: Subscription) -> None:
         """Append all that has come."""
-        count = len(self._received)
-        self._received.extend(iter(subscription.receive, None))
-        if len(self._received) > count:
-            self._newest = self._received[-1].message()
+        count = len(self._messages)
+        self._messages.extend(iter(subscription.receive, None))
+        if len(self._messages) > count:
+            self._newest = self._messages[-1].message()
+        if self._newest_only:
+            del self._messages[:-1]
 
     def __len__(self) -> int:
-        return len(self._received)
+        return len(self._messages)
 
     def __getitem__(self, index: Any) -> Any:
         if isinstance(index, slice):
-            return [received.message() for received in self._received[index]]
-        return self._newest if index == -1 and self._received else self._received[index].message()
+            return [received.message() for received in self._messages[index]]
+        return self._newest if index == -1 and self._messages else self._messages[index].message()
 
 
 class Listener:
-    """A client that keeps all messages that a host publishes."""
+    """A client that keeps the messages that a host publishes."""
 
-    def __init__(self, match: str, endpoint: str, program: Program) -> None:
+    def __init__(self, match: str, endpoint: str, program: Program, *, every_tick: bool = True) -> None:
+        """Without `every_tick`, only the newest world and the newest inputs are kept."""
         self._program = program
         self.bus: ZenohBus = open_client(match, WallClock(), endpoint, LIMIT)
         self._subscriptions: dict[str, Subscription] = {
             topic.key: self.bus.subscribe(topic) for topic in (WORLD, APPLIED, HEALTH, EVENT, INVALID, STATE)
         }
-        self.said = {key: MessageLog() for key in self._subscriptions}
+        each_tick = (WORLD.key, APPLIED.key)
+        self.said = {key: MessageLog(newest_only=key in each_tick and not every_tick) for key in self._subscriptions}
 
     def update(self) -> None:
         for key, subscription in self._subscriptions.items():
