@@ -9,6 +9,7 @@ from recordings.recorder.recorder import Recorder, RecordingSummary
 from recordings.recorder.sink import Sink
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, Publisher
+from schemas.bus.in_process_bus import InProcessBus, Medium
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
@@ -17,6 +18,7 @@ from schemas.messages.command import Command, Drive
 from schemas.messages.host import Applied, AppliedInput, Setup
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.side import Side
+from schemas.topic import Topic
 from schemas.topics import APPLIED, COMMAND, EVENT, ORDER, SETUP, STATE, WORLD
 
 ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
@@ -49,6 +51,19 @@ def make_world(tick: int) -> World:
     return World(tick=tick, time=time, robots=robots, ball=ball, clock=time)
 
 
+class PublisherLog(InProcessBus):
+    """The publishers of another bus, kept by their keys."""
+
+    def __init__(self, bus: Bus) -> None:
+        super().__init__(bus.match, bus.clock, Medium())
+        self.made: dict[str, Publisher] = {}
+        self._bus = bus
+
+    def publisher(self, topic: Topic, **chunks: str) -> Publisher:
+        made = self.made[topic.fill(**chunks)] = self._bus.publisher(topic, **chunks)
+        return made
+
+
 @dataclass
 class FakeHost:
     """Speaks as host and robots do, tick by tick; simulated time is the host's."""
@@ -64,11 +79,19 @@ class FakeHost:
         self.server = self.bus.serve(SETUP)
         self.bus.declare_alive("host", "host")
         self.ears = [self.bus.subscribe(topic) for topic in (COMMAND, ORDER)]
-        self.batches = BatchPublisher(self.bus)
+        publishers = PublisherLog(self.bus)
+        self.direct = publishers.made
+        """What is sent here is in no record batch."""
+        self.batches = BatchPublisher(publishers)
         for topic in (WORLD, APPLIED, STATE, EVENT):
             self.writers[topic.key] = self.batches.publisher(topic)
         for name in ROBOTS:
             self.writers[COMMAND.fill(robot=name)] = self.robots.publisher(COMMAND, robot=name)
+
+    def lose(self, key: str, count: int) -> None:
+        """Send messages of a key that reach no recorder."""
+        for _ in range(count):
+            self.direct[key].put_payload(b"{}")
 
     def answer(self) -> None:
         while (query := self.server.receive()) is not None:
