@@ -18,6 +18,8 @@ from queue import SimpleQueue
 
 Step = Callable[[], bool]
 """Does some of the work; whether that was all."""
+CoreWait = Callable[[], float | None]
+"""Wall time that the calling thread has waited for a core so far, s; None if it is not known."""
 
 _MAX_WAIT_S = 0.25
 """Wall time that a step may wait for a core: among a dozen processes of a match on two cores it is a tenth of that."""
@@ -27,17 +29,27 @@ _RETRY_S = 30.0
 _thread_state = threading.local()
 
 
-def run_in_idle_time(step: Step) -> None:
+def core_wait_s() -> float | None:
+    """Return how long this thread has been ready to run while others had the cores, s; None if no kernel reports it."""
+    try:
+        return int(Path("/proc/thread-self/schedstat").read_text().split()[1]) * 1e-9
+    except (OSError, ValueError, IndexError):
+        return None
+
+
+def run_in_idle_time(step: Step, *, retry_s: float = _RETRY_S, waited_s: CoreWait = core_wait_s) -> None:
     """Do step after step until one was the last: in idle time where this thread takes turns, else here.
 
-    A step that fails ends it, and its error is raised here. It must not matter which thread does a step.
+    A step that fails ends it, and its error is raised here. It must not matter which thread does a step. A machine that
+    was busy is tried again after `retry_s` of wall time; `waited_s` reports how long the calling thread waited for a
+    core.
     """
     done = False
     while not done:
-        idles = is_batch_scheduled() and _waited_s() is not None
+        idles = is_batch_scheduled() and waited_s() is not None
         if idles:
-            done = _IdleWorker(step).work()
-        again_at = time.monotonic() + _RETRY_S if idles else math.inf
+            done = _IdleWorker(step, waited_s).work()
+        again_at = time.monotonic() + retry_s if idles else math.inf
         while not done:
             done = step()
             if time.monotonic() >= again_at:
@@ -61,8 +73,9 @@ def is_batch_scheduled() -> bool:
 class _IdleWorker:
     """A thread that works in idle time, and the one that waits for it and has kept its rank."""
 
-    def __init__(self, step: Step) -> None:
+    def __init__(self, step: Step, waited_s: CoreWait) -> None:
         self._step = step
+        self._waited_s = waited_s
         self._thread = threading.Thread(target=self._run, name="idle time", daemon=True)
         self._asked: SimpleQueue[tuple[threading.Thread, threading.Event] | None] = SimpleQueue()
         self._done = False
@@ -91,21 +104,13 @@ class _IdleWorker:
         try:
             with suppress(OSError):  # a sandbox forbids it
                 os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
-            waited = _waited_s() or 0.0
+            waited = self._waited_s() or 0.0
             while not self._done:
                 self._done = self._step()
-                before, waited = waited, _waited_s() or 0.0
+                before, waited = waited, self._waited_s() or 0.0
                 if waited - before > _MAX_WAIT_S:
                     break
         except BaseException as error:  # raised again where the work was asked for
             self._error = error
         finally:
             self._asked.put(None)
-
-
-def _waited_s() -> float | None:
-    """How long this thread has been ready to run while others had the cores, s; nothing where no kernel tells."""
-    try:
-        return int(Path("/proc/thread-self/schedstat").read_text().split()[1]) * 1e-9
-    except (OSError, ValueError, IndexError):
-        return None

@@ -32,10 +32,11 @@ class WorldTick:
 class World:
     """All bodies of a match, with the actuators that move them."""
 
-    def __init__(self, profile: Profile, roster: Roster) -> None:
+    def __init__(self, profile: Profile, roster: Roster, engine: Engine | None = None) -> None:
+        """`engine`, if given, was made of the same profile and roster, and has no obstacles yet."""
         self._roster = roster
         self._tick_s = profile.time.tick
-        self._engine = Engine(profile, roster)
+        self._engine = engine or Engine(profile, roster)
         self._chassis = Chassis(profile.time, roster.models, self._engine.robot_now)
         self._ball = BallHandling(profile, roster.models, self._engine)
         self._candidates = CollisionCandidates(profile.time, roster.models, profile.field)

@@ -33,6 +33,7 @@ class WaitTimer:
         self._clock = clock
         self._waiting: list[Waiter] = []
         self._thread: threading.Thread | None = None
+        self._starting = threading.Lock()
         self._check_requested = threading.Event()
         self._stopping = False
 
@@ -44,9 +45,7 @@ class WaitTimer:
         """Look at all readers now: a wait has begun that ends sooner than they would be looked at."""
         self._check_requested.set()
         if self._thread is None:
-            thread = threading.Thread(target=self._run, name="bus wait timer", daemon=True)
-            thread.start()
-            self._thread = thread  # only now: a signal within `start` must not leave a thread that cannot be joined
+            self._start()
 
     def stop(self) -> None:
         """End the thread; waits are not ended any more."""
@@ -54,6 +53,14 @@ class WaitTimer:
         self._check_requested.set()
         if self._thread is not None and self._thread is not threading.current_thread():
             self._thread.join()
+
+    def _start(self) -> None:
+        """Start the thread, once, whichever readers ask for it at the same time."""
+        with self._starting:
+            if self._thread is None:
+                thread = threading.Thread(target=self._run, name="bus wait timer", daemon=True)
+                thread.start()
+                self._thread = thread  # only now: a signal within `start` must not leave a thread that cannot be joined
 
     def _run(self) -> None:
         while True:

@@ -126,11 +126,16 @@ RULES_BY_TIME: Mapping[str, tuple[Rule, ...]] = {
 
 def first_decision(situation: Situation, *, clocks_alone: bool = False) -> tuple[Rule, Decision] | None:
     """The first rule that decides in this tick, with its decision."""
-    for rule in _rules_to_ask(_time(situation, clocks_alone), _occasions(situation)):
+    for rule in rules_to_ask(situation, clocks_alone=clocks_alone):
         decision = rule.judge(situation)
         if decision is not None:
             return rule, decision
     return None
+
+
+def rules_to_ask(situation: Situation, *, clocks_alone: bool = False) -> tuple[Rule, ...]:
+    """The rules that have anything to judge in this tick, in their order."""
+    return _rules_for(_time(situation, clocks_alone), _occasions(situation))
 
 
 OCCASIONS = ("set piece", "crossing", "kick", "dribble", "pushes", "stays", "outside", "contest", "still ball")
@@ -155,7 +160,7 @@ def _occasions(situation: Situation) -> tuple[bool, ...]:
 
 
 @cache
-def _rules_to_ask(time: str, there: tuple[bool, ...]) -> tuple[Rule, ...]:
+def _rules_for(time: str, there: tuple[bool, ...]) -> tuple[Rule, ...]:
     """The rules of this time that may have anything to judge."""
     occasions = {"always", *compress(OCCASIONS, there)}
     return tuple([rule for rule in RULES_BY_TIME[time] if rule.occasion in occasions])

@@ -285,7 +285,7 @@ WRITES = """
 import os, sys
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
-from conftest import make_world
+from support.recorder_rig import make_world
 import recordings.recorder.recording_writer as module
 from recordings.container.manifest import make_manifest
 from schemas.bus.contract import ReceivedMessage, Stamp
@@ -336,7 +336,7 @@ def test_a_recorder_that_is_killed_at_any_moment_leaves_all_that_it_had_flushed(
     import time
 
     rng = random.Random(11)
-    home = str(Path(__file__).parents[1])
+    home = str(Path(__file__).parents[2])
     nursery = subprocess.Popen(
         [sys.executable, "-c", WRITES, home], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     )

@@ -256,7 +256,7 @@ def test_what_is_for_a_robot_needs_one_that_plays_and_a_match(new_rig, name):
 
 def test_the_card_of_a_decision_is_shown_by_its_rule(rig):
     rig.playing()
-    draft = RulingDraft(rig.referee._match, rig.snapshot(), rig.state)
+    draft = RulingDraft(rig.constants, rig.snapshot(), rig.state)
     text = "cyan3 dribbled 3.21 m, limit 3.00"
     foul = Decision(EventKind.FOUL, text, robot="cyan3", measured=3.21, limit=3.0, unit="m", card=Card.YELLOW)
     carry_out(draft, "dribble", foul)

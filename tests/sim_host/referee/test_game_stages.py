@@ -206,7 +206,7 @@ def test_where_robots_wait_for_a_penalty_of_the_shoot_out(penalties, robot, plac
     penalties.robots[f"{side.opponent}1"] = (end * 10.5, 0.0)
     name = {"kicker": f"{side}2", "mate": f"{side}3", "keeper": f"{side.opponent}1"}[robot]
     penalties.robots[name] = (end * place[0], end * place[1])
-    faults = position_faults(penalties.referee._match, penalties.state, penalties.state.restart, penalties.snapshot())
+    faults = position_faults(penalties.constants, penalties.state, penalties.state.restart, penalties.snapshot())
     assert [fault.robot for fault in faults] == ([name] if wrong else [])
 
 

@@ -16,31 +16,31 @@ def answered(inputs):
     return [given.answers_tick for given in inputs]
 
 
-def test_a_lost_sight_is_sent_again_and_costs_no_tick(rig, lose):
-    tried = lose(rig.host._outbox._sights["cyan2"], {3, 7, 8})
+def test_a_lost_sight_is_sent_again_and_costs_no_tick(rig):
+    losses = rig.medium.lose("robot/cyan2/sight", {3, 7, 8})
     rig.ticks(12)
-    assert len(tried) == 12 + 3
+    assert len(losses.sent) == 12 + 3
     assert answered(rig.inputs("cyan2")) == list(range(12))
     assert rig.clock.now() < PATIENCE_S
     assert rig.host.inbox.agent_stats["cyan2"].missed == 0
 
 
-def test_a_lost_command_is_asked_for_again_and_the_brain_is_not(rig, lose):
+def test_a_lost_command_is_asked_for_again_and_the_brain_is_not(rig):
     runner = rig.agents["cyan2"].runner
-    lose(runner._commands, {4, 5})
+    rig.medium.lose("robot/cyan2/command", {4, 5})
     rig.ticks(12)
     assert answered(rig.inputs("cyan2")) == list(range(12))
     assert (runner.answered, runner.repeated) == (12, 2)
     assert rig.host.inbox.agent_stats["cyan2"].missed == 0
 
 
-def test_a_lost_message_does_not_change_the_match(rig_of, lose):
+def test_a_lost_message_does_not_change_the_match(rig_of):
     chains = []
     for lost in (set(), {2, 3, 9}):
         rig = rig_of()
         applied = rig.listen(APPLIED)
         rig.join_all()
-        lose(rig.host._outbox._sights["magenta1"], lost)
+        rig.medium.lose("robot/magenta1/sight", lost)
         rig.begin()
         rig.ticks(20)
         chains.append([message.chain for message in applied.all()])

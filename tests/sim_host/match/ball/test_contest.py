@@ -88,4 +88,4 @@ def test_two_worlds_alike_decide_a_contest_alike_to_the_last_bit(build, tell):
     rigs = build(dribble={"method": "force"}), build(dribble={"method": "force"})
     for rig in rigs:
         who_has_it(rig, tell, *scene(3))
-    assert rigs[0].world._engine.packed() == rigs[1].world._engine.packed()
+    assert rigs[0].engine.packed() == rigs[1].engine.packed()

@@ -15,7 +15,7 @@ def held_for(rig, tell, seconds, **motion):
         snapshot = rig.tick(cyan1=tell(dribble=True, **motion))
         if snapshot.possession != "cyan1":
             return tick * rig.profile.time.tick, worst
-        at, gap = rig.at(snapshot, "cyan1"), rig.profile.dribble.gap
+        at, gap = rig.at("cyan1"), rig.profile.dribble.gap
         x, y = at.x + gap * math.cos(at.heading), at.y + gap * math.sin(at.heading)
         worst = max(worst, math.hypot(snapshot.ball.x - x, snapshot.ball.y - y))
     return math.inf, worst
@@ -75,11 +75,11 @@ def test_a_ball_drawn_by_forces_rolls_on_the_ground_and_lies_against_the_hull(ri
     robot, r = rig.profile.robot, rig.profile.ball.radius
     rig.give("cyan1", -4)
     snapshot = rig.run(2.0, cyan1=tell(2.0, dribble=True))
-    at, ball = rig.at(snapshot, "cyan1"), snapshot.ball
+    at, ball = rig.at("cyan1"), snapshot.ball
     assert snapshot.possession == "cyan1"
     assert ball.z == approx(r, abs=1e-3)
     assert math.hypot(ball.x - at.x, ball.y - at.y) == approx(robot.radius + r, abs=0.003)
-    assert rig.ball_motion().spin[1] == approx(ball.vx / r, rel=0.05)
+    assert rig.engine.ball_now().spin[1] == approx(ball.vx / r, rel=0.05)
 
 
 def overlap_with(rig, snapshot, what):
@@ -91,7 +91,7 @@ def overlap_with(rig, snapshot, what):
         half = field.post / 2
         dx, dy = abs(x - field.goal_line - half) - half, abs(y - field.goal_width / 2 - half) - half
         return r - math.hypot(max(dx, 0.0), max(dy, 0.0))
-    other = rig.at(snapshot, "magenta1")
+    other = rig.at("magenta1")
     return r + rig.profile.robot.radius - math.hypot(x - other.x, y - other.y)
 
 

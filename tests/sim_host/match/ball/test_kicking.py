@@ -151,7 +151,7 @@ def test_a_kick_against_a_touching_opponent_is_stopped_by_its_hull(rig, tell):
         assert rig.tick(cyan1=told).kicked == "cyan1"
         for _ in range(50):
             snapshot = rig.tick()
-            other = rig.at(snapshot, "magenta1")
+            other = rig.at("magenta1")
             assert math.hypot(*snapshot.ball[3:]) < 12.0
             if snapshot.ball.z < rig.profile.robot.height:
                 assert math.hypot(snapshot.ball.x - other.x, snapshot.ball.y - other.y) > touching - 0.03
