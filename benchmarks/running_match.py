@@ -1,4 +1,4 @@
-"""What benchmarks with real processes share: a host and its agents, launched and ended."""
+"""A host and its agents as processes, for benchmarks."""
 
 import contextlib
 import subprocess
@@ -18,7 +18,7 @@ HERE = Path(__file__).parent
 
 
 def launch(module: str, settings: Settings, stdout: int = subprocess.DEVNULL) -> subprocess.Popen[bytes]:
-    """A process with these settings, quiet by default; it finds brains beside the benchmarks."""
+    """Run a process with these settings in the folder of the benchmarks, whose brains it can import."""
     process = subprocess.Popen(
         [sys.executable, "-m", module, "--settings", "-"],
         cwd=HERE,
@@ -34,7 +34,7 @@ def launch(module: str, settings: Settings, stdout: int = subprocess.DEVNULL) ->
 
 @contextlib.contextmanager
 def running_match(brain: str, overrides: dict[str, Any]) -> Iterator[tuple[MatchConfig, str, subprocess.Popen[bytes]]]:
-    """A host with an agent process for every robot: the match, its endpoint, and the host's process."""
+    """Run a host with an agent process for every robot: yields the match, its endpoint, and the host's process."""
     config = load_match(None, overrides)
     endpoint = with_free_port("tcp/127.0.0.1:0")
     host = launch("sim_host", HostSettings(config=config, listen=endpoint))

@@ -1,4 +1,4 @@
-"""Everything that happened, in files: recorder, reader, facts of a recording. Knows the bus and MCAP, no physics."""
+"""Recordings of matches: recorder, readers, editing, statistics, pictures, replay, other formats. Uses no physics."""
 
 from typing import TYPE_CHECKING
 

@@ -1,7 +1,7 @@
 """The simulation host: server, match, referee, sensing, actuation and physics of one match.
 
-Knows nothing of teams' code, of coaches or of files: it receives commands and actions, and
-publishes sights, truth and events.
+It receives commands and actions, and publishes sights, the true state of the world, and events. It knows neither the
+code of the teams nor coaches nor recordings.
 """
 
 from typing import TYPE_CHECKING

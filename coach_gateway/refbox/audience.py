@@ -1,4 +1,4 @@
-"""What the league's box sends to audience and score displays (reference 9.5), from our game. Pure."""
+"""What the league's box sends to audience and score displays (RefBox 2, audience feed 1.2.0), from our game. Pure."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -19,7 +19,7 @@ _STATES: tuple[str, ...] = (
     *("Pre-Overtime", "Overtime - 1st Half - STOP", "Overtime - 1st Half", "Overtime - Halftime"),
     *("Overtime - 2nd Half - STOP", "Overtime - 2nd Half", "Penalties - STOP", "Penalties", "End Game"),
 )
-"""The box's states by number (reference 9.3)."""
+"""The game states of RefBox 2 by number."""
 _STOPPED_IN_HALF = {1: 1, 2: 4, 3: 7, 4: 10}
 _AFTER_HALF = {1: 3, 2: 6, 3: 9, 4: 12}
 _BREAKS = (Phase.HALF_TIME, Phase.PARKING)

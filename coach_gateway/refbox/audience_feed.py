@@ -17,7 +17,7 @@ from schemas.league.robot_numbers import numbers_of
 from schemas.side import Side
 
 EVERY_S = 0.05
-"""s of wall time (reference 9.1)."""
+"""s of wall time, as in the league's RefBox."""
 _OLD_S = 1.0
 """s of wall time after which a base station's world state no longer counts, and ours stands in."""
 

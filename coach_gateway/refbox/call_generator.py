@@ -8,7 +8,7 @@ from schemas.league.signals import BY_NAME
 from schemas.side import Side
 
 _HELD = (EventKind.CARD, EventKind.OFF_FIELD, EventKind.ON_FIELD)
-"""Signals of these kinds are said when the game next changes its state, as the box does (reference 9.3)."""
+"""Signals of these kinds are said when the game next changes its state, as the box does (RefBox 2)."""
 _AT_ONCE = (BY_NAME["SUBSTITUTION"],)
 """All the same said at once."""
 _NO_CHANGE = (BY_NAME["GOAL"], BY_NAME["SUBGOAL"], BY_NAME["IS_ALIVE"], *_AT_ONCE)

@@ -1,4 +1,4 @@
-"""The box's single characters of 2015 to 2019 (reference 9.2), both ways. Pure."""
+"""The single characters that RefBox sent from 2015 to 2019, both ways. Pure."""
 
 from schemas.league.signals import BY_CHARACTER, Signal
 from schemas.side import Side

@@ -1,4 +1,4 @@
-"""The box's commands in JSON since 2020 (reference 9.3), both ways. Pure."""
+"""The box's commands in JSON since 2020 (RefBox 2, jsonCommands.pdf), both ways. Pure."""
 
 import json
 from typing import Any, NamedTuple

@@ -1,4 +1,4 @@
-"""What a team's base station tells of the world, read leniently: counted, and kept as it came (reference 9.6)."""
+"""What a team's base station tells of the world, read leniently: counted, and kept as it came."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""The words and numbers of the coach record that the paper's successors send (reference 5 and 8.2), both ways. Pure.
+"""The words and numbers of the coach record of the NuBot coach program (simatch), both ways. Pure.
 
 `MatchMode` is what is played, as one team sees it; a test mode's number tells the test, and for motion also whether the
 ball is brought along and what is in the way avoided.

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from recordings.container.header import make_attachments, make_manifest, timestamp
+from recordings.container.attachments import make_attachments
 from recordings.container.key_selection import EVERYTHING, KeySelection
-from recordings.container.manifest import EndReason, Manifest, Result
+from recordings.container.manifest import EndReason, Manifest, Result, make_manifest, timestamp
 from recordings.recorder.batch_reader import BatchReader
 from recordings.recorder.control_service import ControlService
 from recordings.recorder.latched_messages import LoggedMessage

@@ -1,4 +1,4 @@
-"""The host of a replay: says what a recording has, on its keys and in its order, and answers who asks."""
+"""The host of a replay: publishes the messages of a recording on their keys, in order, and answers queries."""
 
 import math
 from collections.abc import Callable
@@ -20,9 +20,9 @@ from schemas.topic import Party, Topic
 from schemas.topics import ACTION, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
 
 _REPEAT_S = 1.0
-"""Wall time after which a replay that stands still says again how things stand: who has come since must know."""
+"""Wall time in s after which a paused replay publishes the latched messages again, for new listeners."""
 _SLEEP_S = 0.02
-"""Longest wall time between two looks for questions."""
+"""Maximum wall time in s between two checks for queries."""
 _MIN_SLEEP_S = 0.001
 _UNCHANGEABLE = "this is a replay: what is recorded cannot be changed"
 
@@ -31,14 +31,14 @@ _REFUSALS: dict[Topic, Callable[[], Message]] = {
     PARAMETERS: lambda: ParametersReply(accepted=False, reason=_UNCHANGEABLE),
     SCENE: lambda: SceneReply(accepted=False, reason=_UNCHANGEABLE, episode=1),
 }
-"""What a live host would be asked, and what a replay answers."""
+"""Queries that change a match, and the refusal that a replay replies with."""
 
 
 class ReplayHost:
-    """Stands in for the host of a match that was recorded."""
+    """Takes the place of the host of a recorded match."""
 
     def __init__(self, bus: Bus, setup: Setup | None, make_player: Callable[..., Player]) -> None:
-        """`make_player` is given `publish` and `can_publish`; `setup` is the recorded one, None where there is none."""
+        """`make_player` is called with `publish` and `can_publish`; `setup` is the recorded setup, or None."""
         self._bus = bus
         self._clock = bus.clock
         self._setup = setup.model_copy(update={"match": bus.match, "version": VERSION}) if setup is not None else None
@@ -52,13 +52,13 @@ class ReplayHost:
         self._listeners = Listeners(bus, self._tick_ns)
         self.player = make_player(publish=self._publish, can_publish=self._listeners.can_publish)
         self.unknown_keys = 0
-        """Messages on keys that no topic has; left out."""
+        """Messages left out because their keys match no topic."""
         self._published_at = -math.inf
         bus.declare_alive(PresenceKind.HOST, "host")
         bus.declare_alive(PresenceKind.REPLAY, "replay")
 
     def run(self, meanwhile: Callable[[Player], Any] = lambda _: None) -> None:
-        """Replay to the end; `meanwhile` is done again and again, some fifty times in a second of wall time.
+        """Replay to the end. `meanwhile` is called about fifty times per second of wall time.
 
         Raises:
             TouchlineError: the recording is damaged inside.
@@ -72,7 +72,7 @@ class ReplayHost:
         self.wait_for_recorders()
 
     def pump(self) -> int:
-        """Answer who asks, say what is due; returns how many messages were said."""
+        """Answer queries and publish due messages; returns the number of messages published."""
         self._answer()
         has_newcomers = self._listeners.update()
         published = self.player.pump()
@@ -86,11 +86,11 @@ class ReplayHost:
         return published
 
     def _may_repeat(self) -> bool:
-        """A recorder would have it twice; and before the first message is played nothing stands yet."""
+        """Whether latched messages may be published again; a recorder would record them twice."""
         return self.player.paused and self.player.published > 0 and not self._listeners.recorders
 
     def wait_for_recorders(self) -> None:
-        """Give the recorders time to take in the last message."""
+        """Give recorders time to receive the last messages."""
         self._batches.end_tick(self._tick())
         self._batches.send()
         deadline = self._clock.now() + PARTING_S
@@ -118,7 +118,7 @@ class ReplayHost:
             self._listeners.note_published(recorded)
 
     def _tick(self) -> int:
-        """The tick that is said."""
+        """The tick that is being published."""
         return round(max(0, self._clock.sim_ns) / self._tick_ns)
 
     def _open_publisher(self, recorded: RecordedMessage) -> Publisher | None:
@@ -135,7 +135,7 @@ class ReplayHost:
             if self._setup is not None:
                 query.reply(self._setup)
             else:
-                query.fail("the recording does not say how its match was set up")
+                query.fail("the recording has no setup")
         while (query := self._controls.receive()) is not None:
             try:
                 request: ReplayRequest = query.message()

@@ -1,9 +1,9 @@
-"""Work that can wait, done while a core has nothing else to do.
+"""Deferrable work, done while a core is idle.
 
-A lockstep match needs every core while its robots think, and one while the host moves the world. A recorder that works
-then, and gives way at once when a robot is woken, costs the match next to nothing (Linux, SCHED_IDLE). But where other
-programs leave no core idle, such a thread stands still, and the kernel lets nobody but the privileged take it out of
-that state again. So the work goes from thread to thread: one that kept its rank takes over.
+A lockstep match needs every core while its robots compute, and one core while the host steps the world. A recorder that
+works at that time, and yields at once when a robot is woken, costs the match almost nothing (Linux, SCHED_IDLE). Where
+other programs leave no core idle, such a thread makes no progress, and only a privileged process can restore its
+policy. The work therefore moves between threads: one that has kept its policy takes over.
 """
 
 import math
@@ -17,20 +17,21 @@ from pathlib import Path
 from queue import SimpleQueue
 
 Step = Callable[[], bool]
-"""Does some of the work; whether that was all."""
+"""Does a part of the work; returns whether that was the last."""
 CoreWait = Callable[[], float | None]
-"""Wall time that the calling thread has waited for a core so far, s; None if it is not known."""
+"""Returns the wall time that the calling thread has waited for a core so far, in s; None if it is not known."""
 
 _MAX_WAIT_S = 0.25
-"""Wall time that a step may wait for a core: among a dozen processes of a match on two cores it is a tenth of that."""
+"""Longest wall time that a step may wait for a core; with a dozen processes of a match on two cores it waits a tenth of
+that."""
 _RETRY_S = 30.0
-"""Wall time after which a machine that was busy is tried again."""
+"""Wall time after which idle time is tried again on a machine that was busy."""
 
 _thread_state = threading.local()
 
 
 def core_wait_s() -> float | None:
-    """Return how long this thread has been ready to run while others had the cores, s; None if no kernel reports it."""
+    """Time that this thread has waited for a core while ready to run, in s; None without a report of the kernel."""
     try:
         return int(Path("/proc/thread-self/schedstat").read_text().split()[1]) * 1e-9
     except (OSError, ValueError, IndexError):
@@ -38,11 +39,10 @@ def core_wait_s() -> float | None:
 
 
 def run_in_idle_time(step: Step, *, retry_s: float = _RETRY_S, waited_s: CoreWait = core_wait_s) -> None:
-    """Do step after step until one was the last: in idle time where this thread takes turns, else here.
+    """Run steps until the last: in idle time where this thread has the batch policy, otherwise in this thread.
 
-    A step that fails ends it, and its error is raised here. It must not matter which thread does a step. A machine that
-    was busy is tried again after `retry_s` of wall time; `waited_s` reports how long the calling thread waited for a
-    core.
+    The error of a step ends the work and is raised here. Steps must not depend on the thread that runs them. Idle time
+    is tried again on a busy machine after `retry_s` of wall time.
     """
     done = False
     while not done:
@@ -57,7 +57,7 @@ def run_in_idle_time(step: Step, *, retry_s: float = _RETRY_S, waited_s: CoreWai
 
 
 def start_thread(thread: threading.Thread) -> None:
-    """Start a thread that has the rank of who asked for the work, also from a step that is done in idle time."""
+    """Start a thread with the policy of the caller of `run_in_idle_time`, also from a step that runs in idle time."""
     idle: _IdleWorker | None = getattr(_thread_state, "idle", None)
     if idle is None:
         thread.start()
@@ -66,12 +66,12 @@ def start_thread(thread: threading.Thread) -> None:
 
 
 def is_batch_scheduled() -> bool:
-    """Whether this thread takes turns, and may do work in idle time."""
+    """Whether this thread has the batch policy, and may work in idle time."""
     return sys.platform == "linux" and os.sched_getscheduler(0) == os.SCHED_BATCH
 
 
 class _IdleWorker:
-    """A thread that works in idle time, and the one that waits for it and has kept its rank."""
+    """A thread that works in idle time, for a waiting thread that has kept its policy."""
 
     def __init__(self, step: Step, waited_s: CoreWait) -> None:
         self._step = step
@@ -82,7 +82,7 @@ class _IdleWorker:
         self._error: BaseException | None = None
 
     def work(self) -> bool:
-        """Have it work until all is done, or there is too little idle time; returns whether all is done."""
+        """Run the thread until the work is done or there is too little idle time; returns whether it is done."""
         self._thread.start()
         while (asked := self._asked.get()) is not None:
             thread, started = asked
@@ -94,7 +94,7 @@ class _IdleWorker:
         return self._done
 
     def request_start(self, thread: threading.Thread) -> None:
-        """Let the one who waits start a thread: it would inherit this one's rank."""
+        """Have the waiting thread start a thread, which would otherwise inherit the idle policy."""
         started = threading.Event()
         self._asked.put((thread, started))
         started.wait()
@@ -102,7 +102,7 @@ class _IdleWorker:
     def _run(self) -> None:
         _thread_state.idle = self
         try:
-            with suppress(OSError):  # a sandbox forbids it
+            with suppress(OSError):  # forbidden in some sandboxes
                 os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
             waited = self._waited_s() or 0.0
             while not self._done:
@@ -110,7 +110,7 @@ class _IdleWorker:
                 before, waited = waited, self._waited_s() or 0.0
                 if waited - before > _MAX_WAIT_S:
                     break
-        except BaseException as error:  # raised again where the work was asked for
+        except BaseException as error:  # raised again in the waiting thread
             self._error = error
         finally:
             self._asked.put(None)

@@ -1,4 +1,4 @@
-"""Sights: what each robot perceives, hears and is told at one tick.
+"""Sights: what each robot perceives and receives in one tick.
 
 Ten sights a tick are most of what a host publishes.
 """
@@ -16,7 +16,7 @@ from sim_host.sensing.perception import Percept, Perception
 from sim_host.snapshot import Roster, Snapshot
 
 Send = Callable[[str, bytes], None]
-"""Takes a robot's name and its sight."""
+"""Sends a robot, by its name, its encoded sight."""
 
 
 class Sights:
@@ -38,9 +38,9 @@ class Sights:
         refusals: Mapping[str, list[str]],
         send: Send,
     ) -> dict[str, bytes]:
-        """Robot → its `schemas.messages.sight.Sight`, encoded; each is sent as soon as it is written."""
+        """Robot → its encoded `schemas.messages.sight.Sight`; each is sent as soon as it is encoded."""
         percepts = self._perception.at(snapshot, state.cyan_attacks)
-        heard = self._radio.receive(snapshot.tick)
+        received = self._radio.receive(snapshot.tick)
         views = game_views(state, self._roster, episode)
         sights = {}
         for index, (name, side) in enumerate(zip(self._roster.names, self._roster.sides, strict=True)):
@@ -58,7 +58,7 @@ class Sights:
                 stuck=stuck[index],
                 obstacles=percept.obstacles,
                 obstacles_age=percept.obstacles_age,
-                radio=heard[index],
+                radio=received[index],
                 game=views[side],
                 order=orders.get(side),
                 outcome=Outcome(
@@ -73,7 +73,7 @@ class Sights:
 
 
 def _ball(percept: Percept) -> BallSight | None:
-    """The ball; None when it was never seen."""
+    """The ball, or None if the robot has never seen it."""
     if percept.ball is None:
         return None
     x, y, z, vx, vy = percept.ball

@@ -1,4 +1,4 @@
-"""The game as each team sees it: both teams are told in every tick."""
+"""The game as each team sees it, which both teams receive in every tick."""
 
 from schemas.game import GameView, Phase, Point, TeamPhase
 from schemas.side import Side
@@ -15,7 +15,7 @@ TEAM_PHASES: dict[tuple[Phase, Side | None, Side], TeamPhase] = {
 
 
 def game_views(state: RefereeState, roster: Roster, episode: int = 1) -> dict[Side, GameView]:
-    """Side → the game as it sees it; `spot` in m, in the side's team frame."""
+    """Side → the game from its point of view; `spot` in m, in the side's team frame."""
     score, timing, participation, spot = state.score, state.timing, state.participation, state.spot
     booked = bool(participation.cards or participation.absences)
     views = {}

@@ -1,4 +1,4 @@
-"""How finely sensors read."""
+"""The resolution of the sensors."""
 
 DIGITS = 4
-"""Behind the point, of all perceived numbers: 0.1 mm is below any sensor's noise, and half the bytes of a sight."""
+"""Decimal places of all perceived numbers: 0.1 mm is below any sensor's noise, and halves the bytes of a sight."""

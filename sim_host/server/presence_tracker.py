@@ -3,7 +3,7 @@
 from schemas.bus.contract import Bus, Presence, PresenceKind
 from schemas.message import BadMessageError
 from schemas.topics import RECORDER_PROGRESS
-from sim_host.server.inbox import AgentStats
+from sim_host.server.agent_stats import AgentStats
 
 _REMEMBERED = (PresenceKind.AGENT, PresenceKind.REFBOX, PresenceKind.COACH)
 _MOST = 100

@@ -16,6 +16,8 @@ DOCUMENTS = (
     "docs/recordings.md",
     "docs/physics.md",
     "docs/parity.md",
+    "docs/decisions.md",
+    "docs/performance.md",
 )
 PACKAGES = ("schemas", "sim_host", "robot_agent", "coach_gateway", "recordings", "touchline")
 FILES = r"`([\w.]+/[\w./]*\.\w+)`"

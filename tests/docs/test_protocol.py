@@ -18,7 +18,7 @@ from schemas.protocol.examples import examples
 from schemas.protocol.fields import is_part, parts_of, rows, type_text
 from schemas.protocol.page import page
 from schemas.topics import TOPICS
-from sim_host.server import inbox, pace
+from sim_host.server import agent_stats, pace
 from touchline.launch.processes import MatchPlan, ProcessKind, processes_of
 from touchline.launch.supervisor import AFTER_THE_MATCH
 
@@ -101,5 +101,5 @@ def test_the_times_that_it_names_are_those_of_the_host(text: str) -> None:
     assert watchdog == {0.2} and "(0.2 s of simulated time)" in said
     assert f"SIGKILL {kill:g} s later" in said
     assert f"every {pace._RESEND_S * 1000:g} ms" in said
-    assert f"After {inbox.SILENT_TICKS} silent ticks in a row" in said
+    assert f"After {agent_stats.SILENT_TICKS} silent ticks in a row" in said
     assert f"longer than {Command.max_bytes} bytes" in said

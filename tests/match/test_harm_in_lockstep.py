@@ -11,7 +11,8 @@ from recordings.reading.recording import open_recording
 from schemas.message import BadMessageError
 from schemas.messages.command import Command, Drive
 from schemas.topics import key_prefix
-from sim_host.server.inbox import SILENT_TICKS
+from sim_host.server.agent_stats import SILENT_TICKS
+from support.process_story import MessageLog
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
@@ -125,7 +126,7 @@ def story(start, listen, folder, endpoint):
     (folder / "match.toml").write_text(MATCH)
     words = ("match.toml", "--seed", "7", "--pace", "lockstep", "--record", "m.mcap", "--json", "--listen", endpoint)
     program = start("touchline", "match", *words, folder=folder)
-    return Story(program, listen("harmed", endpoint, program))
+    return Story(program, listen("harmed", endpoint, program, every_tick=False))
 
 
 @pytest.fixture(scope="module")
@@ -141,7 +142,7 @@ def inputs(recording):
 
 @pytest.fixture(scope="module")
 def worlds(recording):
-    return [world for _, world in recording.decoded("world")]
+    return MessageLog(recording.messages("world"))
 
 
 def silences(recording, robot):

@@ -1,8 +1,6 @@
 """A match made by hand on the in-process bus, for the recorder to record: every message is built here."""
 
-import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 from threading import Event
 from typing import Any
@@ -10,150 +8,24 @@ from typing import Any
 import pytest
 
 from recordings.container.key_selection import EVERYTHING, KeySelection
-from recordings.reading.recording import Recording, open_recording
+from recordings.reading.recording import Recording
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.record import open_sink
-from recordings.recorder.recorder import Recorder, RecordingSummary
-from recordings.recorder.sink import ONE_FILE, FileLimits, Sink
+from recordings.recorder.recorder import Recorder
+from recordings.recorder.sink import ONE_FILE, FileLimits
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus, Publisher
+from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import Medium
 from schemas.config.match_config import MatchConfig, load_match
-from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
-from schemas.game import EventKind, GameEvent, GameState, Phase, Score
-from schemas.messages.command import Command, Drive
-from schemas.messages.host import Applied, AppliedInput, Setup
+from schemas.game import Phase, Score
+from schemas.messages.command import Command
 from schemas.messages.sight import Sight
-from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.process.clock import SteppedClock
-from schemas.side import Side
-from schemas.topics import APPLIED, COMMAND, EVENT, ORDER, SETUP, STATE, WORLD
+from schemas.topics import COMMAND, SETUP
 from sim_host.match.simulation import Simulation
 from sim_host.server.outbox import Outbox
+from support.recorder_rig import FakeHost, RecorderRig, make_setup
 from touchline.play import InProcessMatch
-
-ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
-TICK = 0.02
-MOMENT = 5.0
-"""s of wall time that a robot's word may take to the host; nothing depends on how soon it comes."""
-
-
-def make_setup(match: str = "friendly") -> Setup:
-    teams = {f"teams.{side}": {"name": f"Team {side}", "size": 2} for side in Side}
-    return Setup.of(load_match(None, {"name": match, **teams}), load_profile("msl"), load_rule_book("friendly"))
-
-
-def make_world(tick: int) -> World:
-    time = tick * TICK
-    robots = {
-        name: RobotTruth(
-            x=(-1) ** number * (2.0 + number) + math.sin(time + number),
-            y=1.5 * number - 2.0,
-            z=0.4,
-            heading=time % 3.0,
-            vx=0.0,
-            vy=0.0,
-            omega=0.0,
-            holding=False,
-        )
-        for number, name in enumerate(ROBOTS)
-    }
-    ball = BallTruth(x=6 * math.sin(time), y=3 * math.cos(time), z=0.11, vx=0.0, vy=0.0, vz=0.0)
-    return World(tick=tick, time=time, robots=robots, ball=ball, clock=time)
-
-
-@dataclass
-class FakeHost:
-    """Speaks as host and robots do, tick by tick; simulated time is the host's."""
-
-    bus: Bus
-    robots: Bus
-    setup: Setup
-    writers: dict[str, Publisher] = field(default_factory=dict)
-    is_prompt: bool = True
-    """It publishes a batch for each tick at once."""
-
-    def __post_init__(self) -> None:
-        self.server = self.bus.serve(SETUP)
-        self.bus.declare_alive("host", "host")
-        self.ears = [self.bus.subscribe(topic) for topic in (COMMAND, ORDER)]
-        self.batches = BatchPublisher(self.bus)
-        for topic in (WORLD, APPLIED, STATE, EVENT):
-            self.writers[topic.key] = self.batches.publisher(topic)
-        for name in ROBOTS:
-            self.writers[COMMAND.fill(robot=name)] = self.robots.publisher(COMMAND, robot=name)
-
-    def answer(self) -> None:
-        while (query := self.server.receive()) is not None:
-            query.reply(self.setup)
-        self.batches.process()
-
-    def play(self, tick: int) -> None:
-        """One tick: truth, the inputs that led to it, the robots' answers to it."""
-        self.bus.clock.sim_ns = self.robots.clock.sim_ns = round(tick * TICK * 1e9)
-        self.writers["world"].put(make_world(tick))
-        inputs = {name: AppliedInput(drive=Drive(vx=1.0), dribble=False, answers_tick=tick) for name in ROBOTS}
-        self.writers["host/applied"].put(Applied(tick=tick, time=tick * TICK, inputs=inputs, chain=f"{tick:016x}"))
-        for name in ROBOTS:
-            self.writers[f"robot/{name}/command"].put(Command(answers_tick=tick, drive=Drive(vx=1.0)))
-        self.relay(tick, len(ROBOTS))
-
-    def relay(self, tick: int, count: int = 0) -> None:
-        """Note what has come from others, `count` of it at least: all of the tick has been said."""
-        came = 0
-        for ear in self.ears:
-            while (received := ear.receive(MOMENT if came < count else 0.0)) is not None:
-                self.batches.add_received(received)
-                came += 1
-        self.batches.end_tick(tick)
-        if self.is_prompt:
-            self.batches.send()
-
-    def referee(self, tick: int, phase: Phase, score: Score, side: Side | None = None) -> None:
-        self.writers["game/state"].put(
-            GameState(tick=tick, time=tick * TICK, phase=phase, side=side, clock=tick * TICK, score=score)
-        )
-        self.batches.send()
-
-    def goal(self, tick: int) -> None:
-        self.writers["game/event"].put(
-            GameEvent(
-                tick=tick, time=tick * TICK, clock=tick * TICK, kind=EventKind.GOAL, rule="goal", text="goal by cyan2"
-            )
-        )
-
-
-@dataclass
-class RecorderRig:
-    """A host, a recorder, and the file between them."""
-
-    host: FakeHost
-    recorder: Recorder
-    recorder_bus: Bus
-    sink: Sink
-    path: Path
-
-    def begin(self) -> None:
-        self.recorder.pump()
-        self.host.answer()
-        self.recorder.pump()
-
-    def play(self, ticks: range, pump_every: int = 3) -> None:
-        for tick in ticks:
-            self.host.play(tick)
-            if tick % pump_every == 0:
-                self.recorder.pump()
-
-    def leave(self) -> RecordingSummary:
-        """The host leaves; the recorder takes in the rest."""
-        self.host.batches.send()
-        self.host.bus.close()
-        return self.recorder.run(lambda: False)
-
-    def read(self) -> Recording:
-        return open_recording(self.path)
-
 
 RigMaker = Callable[..., RecorderRig]
 

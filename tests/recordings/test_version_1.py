@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from recordings.editing.copying import filter_recording
+from recordings.editing.filtering import filter_recording
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import Recording, open_recording
 from recordings.replay.host import ReplayHost

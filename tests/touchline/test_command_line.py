@@ -83,7 +83,7 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "a velocity beyond reason": (["scene", "place", "ball", "0", "0", "--vx", "nan"], "scene place: place.0.vx is"),
     "an obstacle without a shape": (["scene", "add-obstacle", "wall", "0", "0"], "give --radius and --height"),
     "a drive without a terminal": (["drive", "cyan2"], "drive reads keys from a terminal"),
-    "a key that is none": (["diff", "a.mcap", "b.mcap", "--include", "a//b"], '"a//b" is no key expression'),
+    "a key that is none": (["diff", "a.mcap", "b.mcap", "--include", "a//b"], '"a//b" is not a key expression'),
     "a file to recover that is not there": (["recover", "no.mcap"], "no.mcap: No such file"),
     "a recorder without a host": (["recorder", "pause", NOBODY], "no host answers there"),
     "many files kept of one": (["record", "--out", "a.mcap", "--keep", "0"], "--keep"),

@@ -1,13 +1,13 @@
-// Heat maps: how long a body was where, while the ball was in play.
+// Heat maps: where each body was while the ball was in play.
 
 import { element } from "./events.js";
 import { drawGrass, drawLines, fitted } from "./pitch.js";
 
 const CELL = 0.5; // m
-const SPREAD = 2; // cells; a body is not a point, and a match is short
+const SPREAD = 2; // cells; smooths the short tracks of a match
 const STOPS = [[0, 18, 36, 27], [0.18, 40, 56, 110], [0.42, 122, 44, 120], [0.68, 224, 83, 71], [0.86, 251, 170, 50], [1, 252, 250, 190]];
 
-/** One small map for each robot and the ball. */
+/** Draws a small map for each robot and for the ball. */
 export function drawHeatMaps(place, match) {
   const bodies = [...match.robots, { ...match.ball, name: "ball", side: "ball" }];
   place.replaceChildren(...bodies.map((body) => {
@@ -27,7 +27,7 @@ export function drawHeatMaps(place, match) {
   redrawHeatMaps(place);
 }
 
-/** Draws them again, for the width that they have now. */
+/** Draws the maps again in their current width. */
 export function redrawHeatMaps(place) {
   for (const figure of place.children) figure.draw();
 }

@@ -1,4 +1,4 @@
-// Puts the page together.
+// Connects the parts of the page.
 
 import { drawBodies } from "./bodies.js";
 import { Events } from "./events.js";
@@ -86,7 +86,7 @@ const asked = Number.parseFloat(new URLSearchParams(location.hash.slice(1)).get(
 player.time = Number.isFinite(asked) ? Math.min(Math.max(asked, match.start), match.end) : match.start;
 let width = 0;
 new ResizeObserver(() => {
-  if (width === document.body.clientWidth) return; // heights follow from what is drawn here
+  if (width === document.body.clientWidth) return; // drawing changes the height
   width = document.body.clientWidth;
   fit();
 }).observe(document.body);

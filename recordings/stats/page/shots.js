@@ -1,4 +1,4 @@
-// Where shots were taken from, and what became of them; cyan attacks to the right.
+// Positions and outcomes of shots; cyan attacks to the right.
 
 import { drawGrass, drawLines, fitted } from "./pitch.js";
 

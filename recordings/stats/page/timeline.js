@@ -1,4 +1,4 @@
-// Momentum over time, with goals and shots; also where one can point to jump there.
+// Momentum over time, with goals and shots; a click jumps to that time.
 
 const SIDE_COLOURS = { cyan: "#28b9dc", magenta: "#c9237b" };
 
@@ -19,7 +19,7 @@ export class Timeline {
     for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => { dragging = false; });
   }
 
-  /** Draws what does not change; `draw` adds the time. */
+  /** Draws the background for the current size; `draw` adds the current time. */
   fit() {
     const density = window.devicePixelRatio || 1;
     this.canvas.width = Math.round(this.canvas.clientWidth * density);

@@ -33,27 +33,34 @@ class WaitTimer:
         self._clock = clock
         self._waiting: list[Waiter] = []
         self._thread: threading.Thread | None = None
+        self._starting = threading.Lock()
         self._check_requested = threading.Event()
         self._stopping = False
 
     def add(self, reader: Waiter) -> None:
-        """Look after this reader, too."""
+        """Watch this reader as well."""
         self._waiting.append(reader)
 
     def check_now(self) -> None:
-        """Look at all readers now: a wait has begun that ends sooner than they would be looked at."""
+        """Check all readers now: a wait has begun whose deadline is before the next check."""
         self._check_requested.set()
         if self._thread is None:
-            thread = threading.Thread(target=self._run, name="bus wait timer", daemon=True)
-            thread.start()
-            self._thread = thread  # only now: a signal within `start` must not leave a thread that cannot be joined
+            self._start()
 
     def stop(self) -> None:
-        """End the thread; waits are not ended any more."""
+        """End the thread; later deadlines have no effect."""
         self._stopping = True
         self._check_requested.set()
         if self._thread is not None and self._thread is not threading.current_thread():
             self._thread.join()
+
+    def _start(self) -> None:
+        """Start the thread once, however many readers call this at the same time."""
+        with self._starting:
+            if self._thread is None:
+                thread = threading.Thread(target=self._run, name="bus wait timer", daemon=True)
+                thread.start()
+                self._thread = thread  # only now: a signal within `start` must not leave a thread that cannot be joined
 
     def _run(self) -> None:
         while True:

@@ -1,4 +1,4 @@
-"""Which order stands, and who has taken it in. Reference 13, row 30: orders are numbered and acknowledged."""
+"""Which order is in force, and which robots have acknowledged it: orders are numbered."""
 
 import pytest
 

@@ -105,7 +105,7 @@ def asked(bench: Any) -> list[str]:
 
 
 def test_every_restart_in_json_reaches_the_referee_for_the_right_side(met: Any, until: Any) -> None:
-    """Reference 13, row 33: with the addresses of the box, of which the first welcomed is ours."""
+    """With the addresses of the box; the first that is welcomed is ours."""
 
     async def play() -> None:
         async with met() as (bench, box, _):
@@ -249,7 +249,6 @@ def test_park_is_ordered_to_the_robots_and_the_next_command_has_them_play(met: A
 def test_the_world_is_uploaded_at_ten_hertz_or_more_in_the_leagues_schema(
     met: Any, until: Any, check_world_state: Callable[[Any], None]
 ) -> None:
-    """Reference 13, row 35."""
 
     async def play() -> None:
         async with met(team=Side.MAGENTA) as (bench, box, client):

@@ -1,4 +1,4 @@
-"""Every command of both protocols, by the tables of reference 9.2 and 9.3 (reference 13, row 33)."""
+"""Every command of both protocols of RefBox: characters until 2019, JSON since 2020."""
 
 import json
 

@@ -63,7 +63,7 @@ def word(robot: str, time: float = 9.9, **said: Any) -> Belief:
 
 
 def test_the_view_has_the_schema_and_the_axes_of_the_league(view: View) -> None:
-    """+y toward the opponents' goal, +x to the right of it (reference 9.4; reference 13, row 35)."""
+    """+y toward the opponents' goal, +x to the right of it, as in the schema MSLWMD of RefBox."""
     cyan = view(Side.CYAN)
     assert cyan["teamName"] == SETUP.teams[Side.CYAN].name
     assert [robot["id"] for robot in cyan["robots"]] == [1, 2]

@@ -100,7 +100,7 @@ def world_state(team: str, **more: Any) -> dict[str, Any]:
 
 
 def test_a_whole_game_is_told_to_both_teams_in_the_leagues_words(boxed: Any, until: Any) -> None:
-    """Reference 13, row 34; cards and repairs follow at the next change of the game (reference 9.3)."""
+    """Cards and repairs follow at the next change of the game, as in RefBox."""
 
     async def play() -> None:
         async with boxed() as (bench, _, come):
@@ -152,7 +152,7 @@ def test_a_team_may_be_called_by_an_address_of_its_own(boxed: Any, until: Any) -
 
 
 def test_a_team_against_itself_is_told_apart_by_its_suffix(boxed: Any) -> None:
-    """Reference 14, defect 18: nothing hangs on the address that a base station comes from."""
+    """RefBox tells teams apart by the network they connect from; here the address does not matter."""
 
     async def play() -> None:
         async with boxed(names={"teams.cyan.name": "Twins", "teams.magenta.name": "Twins"}) as (_, _, come):
@@ -249,7 +249,6 @@ def test_a_base_station_that_comes_again_replaces_the_one_before(boxed: Any, unt
 
 
 def test_world_states_are_read_leniently_and_counted(boxed: Any, until: Any) -> None:
-    """Reference 9.6; reference 13, row 35."""
 
     async def play() -> None:
         async with boxed() as (bench, box, come):
@@ -381,7 +380,7 @@ class Display(asyncio.DatagramProtocol):
 def test_the_audience_hears_of_teams_and_events(
     boxed: Any, until: Any, check_world_state: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Reference 9.5: a base station's own world state, and where none comes, what our robots say."""
+    """A base station's own world state, and where none comes, what our robots say."""
     monkeypatch.setattr("coach_gateway.refbox.audience_feed._OLD_S", 1000.0)  # it is said once
 
     async def play() -> None:

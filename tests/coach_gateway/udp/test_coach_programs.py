@@ -140,7 +140,7 @@ def test_a_coach_orders_no_robots_of_the_other_side_and_is_no_referee(cyan: Prog
 
 
 def test_the_whole_coach_record_of_the_paper_goes_through(referee: Program) -> None:
-    """Reference 8.2; reference 13, row 30: mode, test mode, points, angles, robots, kick, limits, in SI units."""
+    """Mode, test mode, points, angles, robots, kick, limits, in SI units."""
     order = {
         "tactic": "static pass 2",
         "point_a": {"x": -2.0, "y": 1.0},

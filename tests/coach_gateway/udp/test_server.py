@@ -92,7 +92,7 @@ def served(opened: Any, kicked_off: Any, until: Any) -> Any:
 
 
 def test_each_order_reaches_every_robot_of_the_side(served: Any, until: Any) -> None:
-    """The paper's coach was heard by one robot alone (reference 8.1; reference 13, row 29)."""
+    """In the paper, the coach's socket reached one robot only."""
 
     async def play() -> None:
         async with served(real=True) as (bench, _, come):
@@ -117,7 +117,7 @@ def test_each_order_reaches_every_robot_of_the_side(served: Any, until: Any) -> 
 
 
 def test_several_coaches_stop_each_its_own_side(served: Any, until: Any) -> None:
-    """Reference 14, defect 7: one coach's stop counted for both teams."""
+    """In simatch, the stop of cyan's coach counts for both teams."""
 
     async def play() -> None:
         async with served(real=True) as (bench, _, come):

@@ -42,7 +42,6 @@ def test_a_spectator_cannot_command(deed: str, content: dict[str, Any], visit: V
 
 
 def test_a_stop_of_the_referee_reaches_the_match_and_is_named_after_the_page(visit: Visit, host: FakeHost) -> None:
-    """Reference 13, row 37."""
     page = visit("referee")
     assert page.ask("action", action={"action": "stop", "source": "somebody else"})["accepted"]
     refused = page.ask("action", action={"action": "corner", "side": "cyan"})
@@ -55,7 +54,6 @@ def test_a_stop_of_the_referee_reaches_the_match_and_is_named_after_the_page(vis
 
 
 def test_cyan_s_token_cannot_stop_magenta_s_robots(visit: Visit, host: FakeHost) -> None:
-    """Reference 13, row 51."""
     page = visit("cyan")
     for deed, content in (
         ("action", {"action": {"action": "stop"}}),
@@ -76,7 +74,7 @@ def test_cyan_s_token_cannot_stop_magenta_s_robots(visit: Visit, host: FakeHost)
 
 @pytest.mark.parametrize("side", ["cyan", "magenta"])
 def test_a_coach_stops_drives_and_repairs_its_own_robots(side: str, visit: Visit, host: FakeHost) -> None:
-    """Reference 14, defect 7; reference 13, row 43."""
+    """In simatch, the stop of cyan's coach counts for both teams."""
     page = visit(side)
     given = page.ask("order", side=side, order={"mode": "hold", "max_speed": 1.5})
     received = host.orders.receive(SOON)

@@ -203,6 +203,33 @@ def test_a_chunk_without_a_checksum_that_ends_within_a_record_is_left_out(tmp_pa
     assert check_with_the_stock_readers(path) == 2
 
 
+def test_a_chunk_whose_schema_is_lost_is_cut_off_and_kept_beside_the_file(tmp_path):
+    """Without a summary, a schema stands only in the chunk that introduced it; stock readers need it by the index."""
+    path = tmp_path / "match.mcap"
+    with path.open("wb") as file:
+        writer = Writer(file, compression=CompressionType.NONE)
+        writer.start()
+        writer.add_metadata("note", {"text": "whole"})
+        schema = writer.register_schema("touchline.Command", "jsonschema", b"{}")
+        for number in range(3):
+            channel = writer.register_channel(f"robot/cyan{number}/command", "json", schema)
+            writer.add_message(channel, number, b"content %d" % number, number)
+            writer.flush()
+        end = file.tell()
+        writer.finish()
+    content = bytearray(path.read_bytes()[:end])
+    content[content.index(b"content 0")] ^= 1
+    path.write_bytes(content)
+
+    done = recover(path)
+    assert (done.messages, done.damaged) == (0, 1)
+    assert check_with_the_stock_readers(path) == 0
+    assert done.rest is not None
+    rest = done.rest.read_bytes()
+    assert b"content 0" not in rest
+    assert b"content 1" in rest and b"content 2" in rest
+
+
 @pytest.mark.parametrize(
     ("what", "bit"), [*product(("chunk", "index"), range(8)), *product(("metadata",), (0, 1, 2, 3, 7))]
 )
@@ -258,9 +285,9 @@ WRITES = """
 import os, sys
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
-from conftest import make_world
+from support.recorder_rig import make_world
 import recordings.recorder.recording_writer as module
-from recordings.container.header import make_manifest
+from recordings.container.manifest import make_manifest
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.process.clock import WallClock
 from schemas.topics import WORLD
@@ -309,7 +336,7 @@ def test_a_recorder_that_is_killed_at_any_moment_leaves_all_that_it_had_flushed(
     import time
 
     rng = random.Random(11)
-    home = str(Path(__file__).parents[1])
+    home = str(Path(__file__).parents[2])
     nursery = subprocess.Popen(
         [sys.executable, "-c", WRITES, home], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     )

@@ -1,6 +1,7 @@
 import json
 
-from recordings.inspection.recording_facts import CUT_OFF, HEADINGS, facts_of, key_rows, summary_lines
+from recordings.inspection.facts_table import HEADINGS, key_rows, summary_lines
+from recordings.inspection.recording_facts import CUT_OFF, facts_of
 from recordings.reading.recording import open_recording
 
 
@@ -19,7 +20,7 @@ def test_the_facts_are_those_that_were_written(recorded):
 
 def test_each_key_has_its_messages_rate_bytes_and_losses(rig):
     rig.play(range(20))
-    rig.host.writers["world"]._writer._sequence += 3
+    rig.host.lose("world", 3)
     rig.play(range(20, 51))
     rig.leave()
     recording = rig.read()
@@ -33,7 +34,7 @@ def test_each_key_has_its_messages_rate_bytes_and_losses(rig):
 
 def test_the_facts_of_a_cut_off_file_are_gathered_from_what_is_left(rig):
     rig.play(range(20))
-    rig.host.writers["world"]._writer._sequence += 3
+    rig.host.lose("world", 3)
     rig.play(range(20, 50))
     rig.leave()
     path = rig.path.with_name("cut.mcap.part")

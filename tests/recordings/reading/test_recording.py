@@ -2,8 +2,9 @@ import pytest
 from mcap.reader import make_reader
 from mcap.writer import Writer
 
-from recordings.container.manifest import MANIFEST, sealed
+from recordings.container.manifest import MANIFEST
 from recordings.container.mcap_file import open_mcap_file
+from recordings.container.sealed_metadata import sealed
 from recordings.reading.recording import open_recording
 from schemas.errors import TouchlineError
 from schemas.messages.world import World

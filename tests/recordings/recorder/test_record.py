@@ -35,7 +35,7 @@ TICKS = 800
 DYING_HOST = """
 import os, sys
 sys.path.insert(0, sys.argv[2])
-from conftest import FakeHost, make_setup
+from support.recorder_rig import FakeHost, make_setup
 from schemas.bus.zenoh.bus import open_client, open_host
 from schemas.process.clock import WallClock
 bus = open_host("friendly", WallClock(), sys.argv[1])
@@ -163,7 +163,7 @@ def test_a_recorder_process_that_is_told_to_stop_finishes_its_file(make_fake_hos
 
 @pytest.mark.processes
 def test_a_recorder_process_finishes_its_file_when_the_host_is_killed(start, start_recorder, endpoint, tmp_path):
-    host = start("-c", DYING_HOST, endpoint, str(Path(__file__).parents[1]))
+    host = start("-c", DYING_HOST, endpoint, str(Path(__file__).parents[2]))
     recorder = start_recorder()
     with open_client("friendly", WallClock(), endpoint, LIMIT) as watcher:
         progress = watcher.subscribe(RECORDER_PROGRESS)

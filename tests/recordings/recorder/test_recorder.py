@@ -171,8 +171,7 @@ def test_a_sender_without_simulated_time_is_recorded_at_the_hosts(make_rig):
 
 def test_a_gap_in_the_sequence_is_counted_on_its_key(rig):
     rig.play(range(10))
-    world = rig.host.writers["world"]
-    world._writer._sequence += 4
+    rig.host.lose("world", 4)
     rig.play(range(10, 20))
     summary = rig.leave()
 
@@ -185,7 +184,7 @@ def test_a_gap_in_the_sequence_is_counted_on_its_key(rig):
 
 def test_what_was_sent_before_the_recorder_came_is_counted_apart(rig):
     for name in ("world", "host/applied"):
-        rig.host.writers[name]._writer._sequence = 30
+        rig.host.lose(name, 30)
     rig.play(range(30, 40))
     summary = rig.leave()
 

@@ -33,8 +33,10 @@ class Room:
 
     def host(self, path: Path, **wanted) -> ReplayHost:
         opened = Replay(ReplaySettings(path, **wanted))
-        bus = self.medium.open_bus(self.match, self.clock)
-        return ReplayHost(bus, opened.recording.manifest.setup, lambda **more: opened.player(self.clock, **more))
+        self.host_bus = self.medium.open_bus(self.match, self.clock)
+        return ReplayHost(
+            self.host_bus, opened.recording.manifest.setup, lambda **more: opened.player(self.clock, **more)
+        )
 
     def run(self, host: ReplayHost, seconds: float, step: float = 0.01) -> None:
         end = self.clock.now() + seconds
@@ -70,7 +72,7 @@ def test_a_recording_of_a_replay_has_equal_payloads_in_equal_order(recorded, roo
     recorder.pump()
     host.pump()
     host.run(lambda _: recorder.pump())
-    host._bus.close()
+    room.host_bus.close()
     recorder.run(lambda: False)
     again = open_recording(path, whole=True)
     assert again.manifest.setup == recorded.manifest.setup
@@ -207,10 +209,10 @@ def test_it_follows_a_match_that_is_still_recorded(rig, room, wait_until_written
 @pytest.mark.parametrize(
     ("wanted", "word"),
     [
-        ({"start": "99"}, "--from 99 is behind the end"),
+        ({"start": "99"}, "--from 99 is after the end"),
         ({"start": "2", "end": "1"}, "--to 1 is before the beginning"),
         ({"selection": KeySelection(("wrld",))}, 'did you mean "world"'),
-        ({"selection": KeySelection((), ("robot/blue1/command",))}, "fits no key"),
+        ({"selection": KeySelection((), ("robot/blue1/command",))}, "matches no key"),
         ({"follow": True, "loop": True}, "--follow and --loop"),
         ({"start": "goal:7"}, "goal happened 1 times"),
     ],

@@ -13,11 +13,17 @@ from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from touchline.__main__ import app
 from touchline.verify import resimulate
-from touchline.verify.resimulate import verify
+from touchline.verify.resimulate import Verdict, verify
 
 
 def run(*words: str | Path) -> Result:
     return CliRunner().invoke(app, ["verify", *map(str, words)], prog_name="touchline")
+
+
+@pytest.fixture(scope="module")
+def verified(operated: Path) -> Verdict:
+    """The verdict on `operated`, which takes as long as to simulate it."""
+    return verify(operated)
 
 
 def test_a_real_match_is_identical(played: Path) -> None:
@@ -27,7 +33,9 @@ def test_a_real_match_is_identical(played: Path) -> None:
     assert f"kick-offs to begin with: {len(tick_index_of(open_recording(played)).kick_offs)}" in result.stdout
 
 
-def test_a_match_on_wheels_with_scenes_and_parameters_is_identical_from_each_of_its_starts(operated: Path) -> None:
+def test_a_match_on_wheels_with_scenes_and_parameters_is_identical_from_each_of_its_starts(
+    operated: Path, verified: Verdict
+) -> None:
     recording = open_recording(operated)
     index = tick_index_of(recording)
     assert len(index.starts) == 1 + len(index.kick_offs) + 3
@@ -35,8 +43,7 @@ def test_a_match_on_wheels_with_scenes_and_parameters_is_identical_from_each_of_
         came = resimulate.resimulate_segment(operated, segment)
         assert came.difference is None
         assert came.ticks == len(segment.ticks) > 0
-    whole = verify(operated)
-    assert whole.identical and whole.ticks == len(index.times)
+    assert verified.identical and verified.ticks == len(index.times)
 
 
 def test_several_processes_say_what_one_says(operated: Path, edited, at_tick, monkeypatch) -> None:
@@ -49,10 +56,10 @@ def test_several_processes_say_what_one_says(operated: Path, edited, at_tick, mo
     assert verify(wrong, processes=1).difference == verify(wrong, processes=2).difference
 
 
-def test_from_a_kick_off_on(operated: Path) -> None:
+def test_from_a_kick_off_on(operated: Path, verified: Verdict) -> None:
     first = tick_index_of(open_recording(operated)).kick_offs[0].tick
     verdict = verify(operated, from_kick_off=1)
-    assert verdict.identical and verdict.ticks == verify(operated).ticks - first
+    assert verdict.identical and verdict.ticks == verified.ticks - first
     result = run(operated, "--from-kickoff", "9")
     assert isinstance(result.exception, TouchlineError) or result.exit_code == 2
 
@@ -131,7 +138,7 @@ def test_a_body_that_was_set_down_elsewhere_shows_where_it_is(operated: Path, ed
     assert y.by == pytest.approx(0.5, abs=0.01)
 
 
-def test_ticks_that_are_missing_are_said_and_the_rest_is_compared(operated: Path, edited) -> None:
+def test_ticks_that_are_missing_are_said_and_the_rest_is_compared(operated: Path, verified: Verdict, edited) -> None:
     after = next(start.tick for start in tick_index_of(open_recording(operated)).starts if start.tick > 310)
     path = edited(operated, "host/applied", lambda fields: None if 300 <= fields["tick"] < 310 else fields)
     verdict = verify(path)
@@ -141,7 +148,7 @@ def test_ticks_that_are_missing_are_said_and_the_rest_is_compared(operated: Path
         309,
         SkipReason.MISSING,
     )
-    assert verdict.ticks == 300 + verify(operated).ticks - after
+    assert verdict.ticks == 300 + verified.ticks - after
     result = run(path, "--jobs", "1")
     assert result.exit_code == 1
     assert "ticks 300 to 309 are missing in the recording: nothing can be said of them" in result.stdout
@@ -182,9 +189,11 @@ def test_without_the_match_file_the_hosts_setup_is_enough(operated: Path, edited
     assert verify(edited(operated, "", lambda it: it, without)).identical
 
 
-def test_worlds_that_are_missing_are_counted_and_the_chain_is_compared(operated: Path, edited) -> None:
+def test_worlds_that_are_missing_are_counted_and_the_chain_is_compared(
+    operated: Path, verified: Verdict, edited
+) -> None:
     verdict = verify(edited(operated, "world", lambda fields: None if fields["tick"] % 2 else fields))
-    assert verdict.identical and verdict.without_world == verify(operated).ticks // 2
+    assert verdict.identical and verdict.without_world == verified.ticks // 2
 
 
 def test_another_machine_is_said_first(operated: Path, edited, json_of) -> None:

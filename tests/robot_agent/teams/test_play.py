@@ -222,7 +222,7 @@ def test_a_ball_that_nobody_sees_is_looked_for_and_the_keeper_stays(squad, setup
 
 @pytest.mark.parametrize("team", TEAMS)
 def test_what_was_believed_is_void_in_another_episode(squad, team):
-    """Reference 13, row 22: a reset restarts what robots do."""
+    """A reset restarts what robots do."""
     made = squad(team, {2: (0.0, 0.0, 0.0)})
     brain = made.brains["cyan2"]
     for episode, anew in ((1, False), (2, True), (2, False)):

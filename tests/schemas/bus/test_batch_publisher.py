@@ -112,14 +112,13 @@ def test_what_was_noted_does_not_wait_as_long_as_a_tick_may_take(batches, heard,
     assert numbers(heard) == [[3]]
 
 
-def test_a_flood_is_not_noted_and_the_next_tick_is(batches, heard, monkeypatch):
-    monkeypatch.setattr(module, "_MOST", 10)
-    for number in range(50):
+def test_a_flood_is_not_recorded_and_the_next_tick_is(batches, heard):
+    for number in range(1200):
         batches.add_received(command(b"?", number))
     batches.end_tick(1)
-    batches.add_received(command(b"?", 50))
+    batches.add_received(command(b"?", 1200))
     batches.send()
-    assert numbers(heard) == [[*range(10), 50]]
+    assert numbers(heard) == [[*range(1000), 1200]]
 
 
 def test_a_payload_longer_than_any_message_is_left_out(batches, heard):
@@ -129,14 +128,13 @@ def test_a_payload_longer_than_any_message_is_left_out(batches, heard):
     assert numbers(heard) == [[1]]
 
 
-def test_much_at_once_goes_in_several_messages(batches, heard, monkeypatch):
-    monkeypatch.setattr(module, "_AT_ONCE", 100)
+def test_more_than_256_kib_at_once_go_in_several_messages(batches, heard):
     batches.end_tick(4)
-    for number in range(5):
-        batches.add_received(command(b"x" * 60, number))
+    for number in range(11):
+        batches.add_received(command(b"x" * 60_000, number))
     batches.send()
     messages = heard()
-    assert [[entry.sequence for entry in entries] for _, entries in messages] == [[0, 1], [2, 3], [4]]
+    assert [[entry.sequence for entry in entries] for _, entries in messages] == [[*range(5)], [*range(5, 10)], [10]]
     assert {tick for tick, _ in messages} == {4}
 
 

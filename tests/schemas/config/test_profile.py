@@ -45,7 +45,7 @@ def test_pitches_have_the_sizes_of_their_rule_books(
     goal_area: tuple[float, float],
     goal: tuple[float, float],
 ) -> None:
-    """Reference 13, row 41: an area is as wide as the goal and twice its depth, in either year."""
+    """An area is as wide as the goal and twice its depth, in either year."""
     pitch = load_profile(name).field
     assert (pitch.length, pitch.width) == size
     assert (pitch.penalty_area_width, pitch.penalty_area_depth) == approx(penalty_area)

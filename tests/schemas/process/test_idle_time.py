@@ -7,8 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from schemas.process import idle_time
-from schemas.process.idle_time import run_in_idle_time, start_thread
+from schemas.process.idle_time import CoreWait, core_wait_s, run_in_idle_time, start_thread
 from schemas.process.scheduling import use_batch_scheduling
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="a policy of the Linux kernel")
@@ -41,10 +40,10 @@ class Work:
 
 
 @pytest.fixture
-def busy(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each step has waited half a second for a core."""
+def busy() -> CoreWait:
+    """A machine on which each step waits half a second for a core."""
     waits = iter(range(1000))
-    monkeypatch.setattr(idle_time, "_waited_s", lambda: 0.5 * next(waits))
+    return lambda: 0.5 * next(waits)
 
 
 def test_a_program_that_takes_turns_works_in_idle_time_and_keeps_its_own_rank():
@@ -63,23 +62,20 @@ def test_a_program_that_takes_no_turns_does_it_at_once_and_itself():
 
 def test_where_there_is_too_little_idle_time_the_one_who_waits_goes_on(busy):
     work = Work(6)
-    run_in_idle_time(work.step)
+    run_in_idle_time(work.step, waited_s=busy)
     assert work.policies == [os.SCHED_IDLE] + [os.SCHED_BATCH] * 5
     assert {thread for thread, _ in work.by[1:]} == {threading.get_ident()}
 
 
-def test_a_machine_that_was_busy_is_tried_again(busy, monkeypatch):
-    monkeypatch.setattr(idle_time, "_RETRY_S", 0.0)
+def test_a_machine_that_was_busy_is_tried_again(busy):
     work = Work(3)
-    run_in_idle_time(work.step)
+    run_in_idle_time(work.step, retry_s=0.0, waited_s=busy)
     assert work.policies == [os.SCHED_IDLE, os.SCHED_BATCH, os.SCHED_IDLE]
 
 
-def test_a_kernel_that_does_not_tell_who_waits_is_not_trusted(monkeypatch):
-    monkeypatch.setattr(idle_time, "_waited_s", lambda: None)
-    monkeypatch.setattr(idle_time, "_RETRY_S", 0.0)
+def test_a_kernel_that_does_not_report_waits_is_not_trusted():
     work = Work(3)
-    run_in_idle_time(work.step)
+    run_in_idle_time(work.step, retry_s=0.0, waited_s=lambda: None)
     assert work.policies == [os.SCHED_BATCH] * 3
 
 
@@ -106,9 +102,9 @@ def test_a_thread_started_in_idle_time_has_the_rank_of_who_asked_for_the_work():
     assert born == [os.SCHED_BATCH] * 2
 
 
-def test_what_this_thread_has_waited_for_is_told_by_the_kernel():
-    before = idle_time._waited_s()
-    after = idle_time._waited_s()
+def test_the_kernel_reports_how_long_this_thread_has_waited_for_a_core():
+    before = core_wait_s()
+    after = core_wait_s()
     assert before is not None
     assert after is not None
     assert 0.0 <= before <= after

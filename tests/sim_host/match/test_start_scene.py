@@ -17,7 +17,9 @@ from schemas.side import Side
 from sim_host.match.start_scene import start_poses
 from sim_host.match.world import World
 from sim_host.referee.core import Referee
-from sim_host.referee.game.referee_state import Restart
+from sim_host.referee.game.referee_state import RefereeState, Restart
+from sim_host.referee.game.timing import Timing
+from sim_host.referee.match_constants import MatchConstants
 from sim_host.referee.placement.positions import position_faults
 from sim_host.snapshot import BallState, RobotState, RobotStates, Roster, Snapshot
 
@@ -27,14 +29,15 @@ def a_match(profile_name, rules, **overrides):
     profile, book = load_profile(profile_name), load_rule_book(rules)
     roster = Roster.of(config, profile)
     starts = start_poses(roster, profile.field, book.restarts)
-    settings = {"duration": None, "kick_off": Side.CYAN, "automatic": True, "starts": starts}
-    referee = Referee(book, profile.field, profile.ball, roster, **settings)
+    half, settings = book.periods.half_duration, {"kick_off": Side.CYAN, "automatic": True, "starts": starts}
+    constants = MatchConstants(book, profile.field, profile.ball, roster, half, **settings)
+    state = RefereeState(Phase.PRE_GAME, Timing(half), Side.CYAN)
     robots = RobotStates(
         RobotState(pose.x, pose.y, 0.4, pose.heading, 0.0, 0.0, 0.0, False)
         for pose in (starts[name] for name in roster.names)
     )
     snapshot = Snapshot(0, 0.0, roster, robots, BallState(0, 0, 0.11, 0, 0, 0), None, ())
-    return referee, snapshot
+    return constants, state, snapshot
 
 
 @pytest.mark.parametrize("taker", list(Side))
@@ -42,23 +45,22 @@ def a_match(profile_name, rules, **overrides):
 @pytest.mark.parametrize("profile", ["msl", "paper"])
 def test_at_the_start_all_stand_legally_for_a_kick_off_of_either_side(profile, rules, taker):
     """Rule book 10.4: the side that does not kick off 3 m away, to the whole robot, its own side 2 m."""
-    referee, snapshot = a_match(profile, rules)
-    state = referee.begin()
-    assert position_faults(referee._match, state, Restart(Phase.KICK_OFF, taker, (0.0, 0.0)), snapshot) == ()
+    constants, state, snapshot = a_match(profile, rules)
+    assert position_faults(constants, state, Restart(Phase.KICK_OFF, taker, (0.0, 0.0)), snapshot) == ()
 
 
 def test_a_robot_with_a_wide_frame_starts_as_far_away_as_its_frame_asks_for():
     wide = {f"cyan{number}": "keeper" for number in range(1, 6)}
-    referee, snapshot = a_match("msl", "msl", **{"teams.cyan.types": wide})
+    constants, state, snapshot = a_match("msl", "msl", **{"teams.cyan.types": wide})
     kick_off = Restart(Phase.KICK_OFF, Side.MAGENTA, (0.0, 0.0))
-    assert position_faults(referee._match, referee.begin(), kick_off, snapshot) == ()
+    assert position_faults(constants, state, kick_off, snapshot) == ()
     nearest = min(math.hypot(robot.x, robot.y) for robot in snapshot.robots[:5])
     assert nearest > 3.0 + math.hypot(0.245, 0.30)
 
 
 @pytest.mark.parametrize("profile", ["msl", "paper"])
 def test_robots_start_apart_from_each_other_and_on_the_pitch(profile):
-    _, snapshot = a_match(profile, "msl")
+    *_, snapshot = a_match(profile, "msl")
     pitch, reach = load_profile(profile).field, snapshot.roster.models[0].body.reach
     for one, other in itertools.combinations(snapshot.robots, 2):
         assert math.hypot(one.x - other.x, one.y - other.y) > 2 * reach + 0.1
@@ -67,7 +69,7 @@ def test_robots_start_apart_from_each_other_and_on_the_pitch(profile):
 
 @pytest.mark.parametrize("count", [2, 6, 10, 20, 100])
 def test_nothing_but_the_rules_keeps_a_side_at_five_robots_with_one_digit(count):
-    """Reference 13, row 23, and reference 14, defect 13: the seed could not name a sixth robot, nor a tenth.
+    """simatch cannot name a sixth robot.
 
     A match file has five a side at most, as the rules do; start, world and referee take any number.
     """

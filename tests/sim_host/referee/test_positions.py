@@ -13,7 +13,7 @@ EDGE = 0.01
 def judged(rig, phase, spot, robots, taker=Side.CYAN):
     rig.robots.update(robots)
     side = None if phase is Phase.DROP_BALL else taker
-    match = rig.referee._match
+    match = rig.constants
     faults = position_faults(match, rig.state, Restart(phase, side, spot), rig.snapshot())
     return faults[0].text if faults else None
 

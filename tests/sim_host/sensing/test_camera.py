@@ -20,7 +20,6 @@ HULLS = {"occlusion": "hulls"}
 
 @pytest.mark.parametrize(("distance", "seen"), [(6.99, True), (7.0, True), (7.01, False)])
 def test_ball_and_obstacles_are_seen_up_to_their_range(scenery, distance, seen):
-    """Reference 13, row 14."""
     made = scenery([(0, 0), (0, distance)], (distance, 0.0), ball_range=7.0, obstacle_range=7.0)
     one = made.look()[0]
     assert (one.ball is not None) == seen

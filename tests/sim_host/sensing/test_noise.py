@@ -52,7 +52,7 @@ def errors(scenery):
 
 @pytest.mark.parametrize("name", COLUMNS)
 def test_each_noise_has_the_mean_and_sigma_it_is_given_and_is_white(errors, name):
-    """Reference 13, row 12; no other number is touched."""
+    """No other number is touched."""
     for key, values in errors(**{name: SIGMA})(0).items():
         error = values - TRUE[key[0]][key[1]]
         if key not in COLUMNS[name]:
@@ -88,7 +88,7 @@ def test_noise_of_the_balls_velocity_grows_with_its_distance(errors):
 
 
 def test_the_papers_noise_is_a_preset(errors):
-    """Reference 2.3: sigma 0.0194 on positions, velocities and yaw rate, none on the heading; no limits at all."""
+    """The paper's code: sigma 0.0194 on positions, velocities and yaw rate, none on the heading; no limits at all."""
     paper = sensing_of("paper", load_profile("msl").sensing)
     assert paper == load_profile("paper").sensing
     of = errors(sensing=paper)(0)
@@ -100,7 +100,7 @@ def test_the_papers_noise_is_a_preset(errors):
 
 
 def test_one_reading_in_a_hundred_is_noisy_with_simatchs_noise(errors):
-    """Reference 14, defect 3: a rate of 0.01 was 1 in 11; here it is 1 in 100, within 4 standard errors of 20,000.
+    """A rate of 0.01 is 1 in 100 (1 in 11 in simatch), within 4 standard errors of 20,000.
 
     Sigma of the noisy readings is 0.10; x, y, vx and vy of one reading are noisy together, the heading never.
     """

@@ -1,6 +1,6 @@
 """What the host tells coaches of their orders.
 
-Reference 13, row 29: several robots receive each command, where the paper's first coach reached one alone. Row 30: each
+Several robots receive each order; in the paper, the coach's socket reached one robot only. Each
 order has a number, and each robot acknowledges it.
 """
 

@@ -93,7 +93,7 @@ ABOUT = {coach.NoTarget: [], coach.SideTarget: ["cyan"], coach.RobotTarget: ["cy
 
 @pytest.mark.parametrize("word", coach.REFEREE_COMMANDS)
 def test_every_word_of_the_referee_box_asks_for_its_own_action(host: Host, word: str) -> None:
-    """Reference 13, row 37: what the keys of the auto referee ask for."""
+    """The actions that simatch's automatic referee has keys for."""
     deed = coach.REFEREE_COMMANDS[word]
     touchline(word, *ABOUT[deed.target])
     (asked,) = host.asked

@@ -7,8 +7,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner, Result
 
-from recordings.container.header import make_manifest
-from recordings.container.manifest import EndReason
+from recordings.container.manifest import EndReason, make_manifest
 from recordings.container.manifest import Result as Ending
 from recordings.recorder.recording_writer import RecordingWriter
 from schemas.bus.contract import ReceivedMessage, Stamp
@@ -87,7 +86,7 @@ def test_the_page_is_written_beside_them(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("made", "said"), [({"setup": False}, "its manifest has no setup"), ({"worlds": 0}, "no world in it")]
+    ("made", "said"), [({"setup": False}, "its manifest has no setup"), ({"worlds": 0}, "has no world")]
 )
 def test_a_recording_that_cannot_be_measured_is_said_so_in_one_line(tmp_path: Path, made, said: str) -> None:
     result = stats(write(tmp_path / "a.mcap", **made), "--html", tmp_path / "a.html")

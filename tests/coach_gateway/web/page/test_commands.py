@@ -13,7 +13,6 @@ from schemas.topics import MANUAL
 
 
 def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> None:
-    """Reference 13, row 32."""
     tab = visit(match, "referee")
     places = ["#moving", "[data-action=corner][data-side=cyan]", "#to-log", "#layer-roles", "#parameter-filter"]
     tab.open("settings")
@@ -298,7 +297,6 @@ def test_an_order_that_lacks_something_is_refused_with_the_reason(match, visit) 
 
 
 def test_a_robot_is_driven_by_keys_in_place_of_its_brain_and_given_back(match, visit) -> None:
-    """Reference 13, row 43."""
     tab = visit(match, "cyan")
     tab.open("drive")
     options = tab.page.locator("#drive-robot option")

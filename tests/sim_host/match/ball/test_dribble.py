@@ -15,7 +15,7 @@ def held_for(rig, tell, seconds, **motion):
         snapshot = rig.tick(cyan1=tell(dribble=True, **motion))
         if snapshot.possession != "cyan1":
             return tick * rig.profile.time.tick, worst
-        at, gap = rig.at(snapshot, "cyan1"), rig.profile.dribble.gap
+        at, gap = rig.at("cyan1"), rig.profile.dribble.gap
         x, y = at.x + gap * math.cos(at.heading), at.y + gap * math.sin(at.heading)
         worst = max(worst, math.hypot(snapshot.ball.x - x, snapshot.ball.y - y))
     return math.inf, worst
@@ -24,7 +24,7 @@ def held_for(rig, tell, seconds, **motion):
 @pytest.mark.parametrize("way", ["pose", "velocity"])
 @pytest.mark.parametrize("backward", [1, -1])
 def test_the_papers_ways_keep_the_ball_at_top_speed_and_turn_rate(rig, build, tell, way, backward):
-    """Row 6 of section 13; equation 2, within 2 cm of the gap for three seconds of the hardest driving."""
+    """Equation 2 of the paper, within 2 cm of the gap for three seconds of the hardest driving."""
     rig = build(rig.profile.name, dribble={"method": way})
     top = rig.profile.drive
     rig.give("cyan1", -2)
@@ -75,11 +75,11 @@ def test_a_ball_drawn_by_forces_rolls_on_the_ground_and_lies_against_the_hull(ri
     robot, r = rig.profile.robot, rig.profile.ball.radius
     rig.give("cyan1", -4)
     snapshot = rig.run(2.0, cyan1=tell(2.0, dribble=True))
-    at, ball = rig.at(snapshot, "cyan1"), snapshot.ball
+    at, ball = rig.at("cyan1"), snapshot.ball
     assert snapshot.possession == "cyan1"
     assert ball.z == approx(r, abs=1e-3)
     assert math.hypot(ball.x - at.x, ball.y - at.y) == approx(robot.radius + r, abs=0.003)
-    assert rig.ball_motion().spin[1] == approx(ball.vx / r, rel=0.05)
+    assert rig.engine.ball_now().spin[1] == approx(ball.vx / r, rel=0.05)
 
 
 def overlap_with(rig, snapshot, what):
@@ -91,14 +91,14 @@ def overlap_with(rig, snapshot, what):
         half = field.post / 2
         dx, dy = abs(x - field.goal_line - half) - half, abs(y - field.goal_width / 2 - half) - half
         return r - math.hypot(max(dx, 0.0), max(dy, 0.0))
-    other = rig.at(snapshot, "magenta1")
+    other = rig.at("magenta1")
     return r + rig.profile.robot.radius - math.hypot(x - other.x, y - other.y)
 
 
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("what", ["standing robot", "oncoming robot", "robot at the edge", "post", "wall"])
 def test_no_way_takes_the_ball_through_a_body(rig, build, tell, way, what):
-    """Defect 8 of section 14: at top speed for three seconds, never more than 3 cm deep, and nothing explodes."""
+    """At top speed for three seconds, never more than 3 cm deep, and nothing explodes."""
     rig = build(rig.profile.name, dribble={"method": way})
     field, top = rig.profile.field, rig.profile.drive.max_speed
     rig.give("cyan1", {"post": field.goal_line - 2, "wall": field.goal_line - 1}.get(what, -1.5))
@@ -148,7 +148,7 @@ def test_a_ball_between_two_robots_that_press_is_never_thrown(rig, build, tell):
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("bearing", [0.0, 0.5, 1.0, 1.5])
 def test_a_ball_that_an_opponent_presses_is_not_pumped_into_it(rig, build, tell, way, bearing):
-    """Reference 14, defect 8: who carries a ball loses it to the press, and does not catch it again while it lasts.
+    """A robot that carries the ball loses it to the press, and does not catch it again while the press lasts.
 
     Within 2 cm, although the carrier drives on and wants the ball in every tick.
     """

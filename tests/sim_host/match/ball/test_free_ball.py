@@ -14,7 +14,7 @@ STILL = {"rolling_deceleration": 0.0, "drag_coefficient": 0.0}
 
 @pytest.mark.parametrize("speed", [0.5, 2.0, 4.0])
 def test_a_rolling_ball_stops_after_v_squared_over_two_a(rig, speed):
-    """Row 11 of section 13: the profile's rolling deceleration, within 2 % and 1 cm; then it rests for good."""
+    """The profile's rolling deceleration, within 2 % and 1 cm; then it rests for good."""
     ball, r = rig.profile.ball, rig.profile.ball.radius
     rig.set_ball((-8, 0, r), (speed, 0, 0), (0, speed / r, 0))
     end = rig.run(speed / ball.rolling_deceleration + 0.5).ball
@@ -32,7 +32,7 @@ def test_a_sliding_ball_rolls_at_5_7_of_its_speed_if_it_is_solid_and_at_3_5_if_i
     rig.set_ball((-5, 0, ball.radius), (speed, 0, 0))
     end = rig.run(1.5).ball
     assert end.vx == approx(speed / (1 + shape), rel=0.01)
-    assert rig.ball_motion().spin[1] == approx(end.vx / ball.radius, rel=0.01)
+    assert rig.engine.ball_now().spin[1] == approx(end.vx / ball.radius, rel=0.01)
 
 
 def test_rolling_resistance_does_not_change_how_a_slide_ends(build):

@@ -14,63 +14,26 @@ from pytest import approx
 from schemas.config.match_config import load_match
 from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.profile import load_profile
-from schemas.config.roster import Placement
 from schemas.messages.command import Drive
 from schemas.messages.host import AppliedInput
-from sim_host.match.world import World
-from sim_host.snapshot import RobotState, Roster, Snapshot
+from sim_host.snapshot import Roster
+from support.world_rig import WorldRig
 
 DEEP = 0.02
 """m; no body is ever deeper in another."""
-REST = AppliedInput(Drive(), dribble=False)
 CRATE = StaticObstacle(name="crate", shape=Shape.BOX, place=[1.0, 2.0], heading=0.2, size=[0.4, 2.0, 0.5])
 POLE = StaticObstacle(name="pole", shape=Shape.CYLINDER, place=[-1.5, -2.0], radius=0.15, height=1.0)
 
 
-class WorldRig:
-    """A world with as many robots as are named; whom no test needs stands in a corner."""
-
-    def __init__(self, profile: str = "msl", size: int = 5, **types: str) -> None:
-        cyan = {name: kind for name, kind in types.items() if name.startswith("cyan")}
-        magenta = {name: kind for name, kind in types.items() if name.startswith("magenta")}
-        teams = {"cyan": {"size": size, "types": cyan}, "magenta": {"size": size, "types": magenta}}
-        self.profile = load_profile(profile)
-        self.roster = Roster.of(load_match(None, {"profile": profile, "teams": teams}), self.profile)
-        self.world = World(self.profile, self.roster)
-        self.engine = self.world._engine
-        field = self.profile.field
-        corner = {
-            name: (-field.goal_line + 0.7 * place, field.touch_line, 0.0)
-            for place, name in enumerate(self.roster.names)
-        }
-        self.place(**corner, ball=(0, -field.touch_line + 1, 0))
-
-    def place(self, **bodies: tuple[float, float, float]) -> None:
-        self.world.place([Placement(body=body, x=x, y=y, heading=turn) for body, (x, y, turn) in bodies.items()])
-
-    def tick(self, **told: AppliedInput) -> Snapshot:
-        return self.world.advance({name: told.get(name, REST) for name in self.roster.names}).snapshot
-
-    def run(self, seconds: float, **told: AppliedInput) -> Snapshot:
-        for _ in range(round(seconds / self.profile.time.tick)):
-            snapshot = self.tick(**told)
-        return snapshot
-
-    def of(self, snapshot: Snapshot, name: str) -> RobotState:
-        return snapshot.robots[self.roster.names.index(name)]
-
-    def depth(self) -> float:
-        """How deep the deepest robot is in another body, m, as the engine's own shapes lie now."""
-        robots, found = self.engine.robots, 0.0
-        others = [body for body in range(pybullet.getNumBodies(self.engine.client)) if body != self.engine._ground]
-        bodies = [pybullet.getBodyUniqueId(body, self.engine.client) for body in others]
-        for body in robots:
-            for other in bodies:
-                if other in (body, self.engine.ball):
-                    continue
-                for point in pybullet.getClosestPoints(body, other, 0.0, physicsClientId=self.engine.client):
-                    found = max(found, -point[8])
-        return found
+def new_pitch(profile: str = "msl", size: int = 5, **types: str) -> WorldRig:
+    """A pitch with `size` robots a side, some of other types; robots that a test does not place stay parked."""
+    cyan = {name: kind for name, kind in types.items() if name.startswith("cyan")}
+    magenta = {name: kind for name, kind in types.items() if name.startswith("magenta")}
+    teams = {"cyan": {"size": size, "types": cyan}, "magenta": {"size": size, "types": magenta}}
+    numbers = load_profile(profile)
+    pitch = WorldRig(numbers, Roster.of(load_match(None, {"profile": profile, "teams": teams}), numbers))
+    pitch.place(ball=(0, -numbers.field.touch_line + 1, 0))
+    return pitch
 
 
 def drive(vx: float = 0.0, vy: float = 0.0, omega: float = 0.0, dribble: bool = False) -> AppliedInput:
@@ -79,7 +42,7 @@ def drive(vx: float = 0.0, vy: float = 0.0, omega: float = 0.0, dribble: bool = 
 
 @pytest.fixture
 def pitch() -> Iterator[WorldRig]:
-    pitch = WorldRig()
+    pitch = new_pitch()
     yield pitch
     pitch.world.close()
 
@@ -94,8 +57,8 @@ def pitch() -> Iterator[WorldRig]:
 def test_a_loaded_robot_has_the_mass_the_inertia_and_the_size_of_its_profile(
     profile: str, mass: float, inertia: tuple[float, ...], radius: float, height: float
 ) -> None:
-    """Reference 13, row 2, read back from the engine; the numbers are those of the simulators' own models."""
-    engine = WorldRig(profile, size=1).engine
+    """Read back from the engine; the numbers are those of the simulators' own models."""
+    engine = new_pitch(profile, size=1).engine
     dynamics = pybullet.getDynamicsInfo(engine.robots[0], -1, physicsClientId=engine.client)
     assert (dynamics[0], dynamics[2]) == (mass, approx(inertia))
     low, high = pybullet.getAABB(engine.robots[0], -1, physicsClientId=engine.client)
@@ -104,7 +67,7 @@ def test_a_loaded_robot_has_the_mass_the_inertia_and_the_size_of_its_profile(
 
 
 def test_a_keeper_is_as_wide_as_its_frame_and_has_its_own_mass() -> None:
-    pitch = WorldRig(size=2, cyan1="keeper")
+    pitch = new_pitch(size=2, cyan1="keeper")
     low, high = pybullet.getAABB(pitch.engine.robots[0], -1, physicsClientId=pitch.engine.client)
     assert (high[0] - low[0], high[1] - low[1]) == approx((0.49, 0.60), abs=1e-6)
     masses = [
@@ -115,25 +78,25 @@ def test_a_keeper_is_as_wide_as_its_frame_and_has_its_own_mass() -> None:
 
 def test_a_keepers_frame_stops_a_ball_that_passes_a_round_robot() -> None:
     for kind, passes in (("standard", True), ("keeper", False)):
-        pitch = WorldRig(size=1, cyan1=kind)
+        pitch = new_pitch(size=1, cyan1=kind)
         pitch.place(cyan1=(0, 0, 0), ball=(1.0, 0.37, 0))
         pitch.engine.set_ball_motion((-5, 0, 0), (0, 0, 0))
         assert (pitch.run(0.4).ball.x < -0.3) == passes
 
 
 def test_each_robot_has_the_limits_of_its_own_type() -> None:
-    pitch = WorldRig(size=2, cyan2="slow")
+    pitch = new_pitch(size=2, cyan2="slow")
     pitch.place(cyan1=(-5, 0, 0), cyan2=(-5, 2, 0))
-    snapshot = pitch.run(2.0, cyan1=drive(20), cyan2=drive(20))
-    assert pitch.of(snapshot, "cyan1").vx == approx(4.0, rel=1e-3)
-    assert pitch.of(snapshot, "cyan2").vx == approx(2.0, rel=1e-3)
+    pitch.run(2.0, cyan1=drive(20), cyan2=drive(20))
+    assert pitch.at("cyan1").vx == approx(4.0, rel=1e-3)
+    assert pitch.at("cyan2").vx == approx(2.0, rel=1e-3)
 
 
 @pytest.mark.parametrize("profile", ["msl", "paper"])
 @pytest.mark.parametrize(("lift", "tilt"), [(0.3, 0.0), (0.0, 0.4), (0.2, 1.2), (0.06, 0.0), (0.0, 0.06)])
 def test_a_robot_that_is_lifted_or_tipped_is_put_upright_where_it_is(profile: str, lift: float, tilt: float) -> None:
-    """Reference 13, row 45: simatch puts a robot upright from 0.05 m or 0.05 rad on."""
-    pitch = WorldRig(profile, size=1)
+    """simatch puts a robot upright from 0.05 m or 0.05 rad on."""
+    pitch = new_pitch(profile, size=1)
     pitch.place(cyan1=(1, 2, 0.5))
     height, body = pitch.profile.robot.height / 2, pitch.engine.robots[0]
     turned = pybullet.getQuaternionFromEuler((tilt, 0.0, 0.5))
@@ -149,7 +112,7 @@ def test_a_robot_that_is_lifted_or_tipped_is_put_upright_where_it_is(profile: st
 @pytest.mark.parametrize("offset", [0.0, 0.004, 0.011, 0.018, 0.026, 0.033])
 def test_two_robots_that_meet_at_top_speed_touch_and_no_more(profile: str, offset: float) -> None:
     """They close 4 cm in a step of the engine: it would notice them one step too late."""
-    pitch = WorldRig(profile, size=1)
+    pitch = new_pitch(profile, size=1)
     pitch.place(cyan1=(-4, 0.02, 0), magenta1=(4 + offset, 0, math.pi))
     nearest, least = math.inf, 2 * pitch.profile.robot.radius
     for _ in range(round(2.5 / pitch.profile.time.tick)):
@@ -161,7 +124,7 @@ def test_two_robots_that_meet_at_top_speed_touch_and_no_more(profile: str, offse
 @pytest.mark.parametrize(("what", "x", "y"), [("post", 11.06, 1.26), ("wall", 12.2, -5.0), ("bar", 11.06, 0.0)])
 def test_a_robot_that_is_driven_at_what_stands_stops_at_it(pitch: WorldRig, what: str, x: float, y: float) -> None:
     for keeper, start in itertools.product((False, True), (0.0, 0.007, 0.013)):
-        pitch = WorldRig(size=1, **({"cyan1": "keeper"} if keeper else {}))
+        pitch = new_pitch(size=1, **({"cyan1": "keeper"} if keeper else {}))
         pitch.place(cyan1=(x - 4 + start, y, 0))
         deepest = 0.0
         for _ in range(150):
@@ -174,7 +137,7 @@ def test_a_robot_that_is_driven_at_what_stands_stops_at_it(pitch: WorldRig, what
 @pytest.mark.parametrize("profile", ["msl", "omni", "paper"])
 def test_robots_that_are_pushed_together_by_all_others_do_not_overlap(profile: str) -> None:
     """Ten robots drive at one point for four seconds, in turns with drives of their own."""
-    pitch = WorldRig(profile, **({} if profile == "paper" else {"cyan1": "keeper", "magenta1": "keeper"}))
+    pitch = new_pitch(profile, **({} if profile == "paper" else {"cyan1": "keeper", "magenta1": "keeper"}))
     chance = random.Random(4)
     spots = [(1.3 * x - 2.6, 1.6 * y - 0.8, chance.uniform(-3, 3)) for x in range(5) for y in range(2)]
     pitch.place(**dict(zip(pitch.roster.names, spots, strict=True)))
@@ -198,7 +161,7 @@ def test_whatever_robots_are_told_they_stay_apart_upright_and_within_the_walls(
     orders: list[tuple[float, float, float]],
 ) -> None:
     """Ten robots, two with frames, an obstacle of each shape; every robot gets a new demand each half second."""
-    pitch = WorldRig(cyan1="keeper", magenta1="keeper")
+    pitch = new_pitch(cyan1="keeper", magenta1="keeper")
     for obstacle in (CRATE, POLE):
         pitch.world.put_obstacle(obstacle)
     spots = [(1.2 * x - 2.4, y, 0.3 * x) for x in range(5) for y in (-0.9, 0.4)]
@@ -231,7 +194,7 @@ def test_an_obstacle_stops_robots_and_the_ball_and_stays_where_it_is(pitch: Worl
         deepest = max(deepest, pitch.depth())
     assert deepest < DEEP
     assert snapshot.ball.x > x
-    assert pitch.of(snapshot, "cyan1").x < x
+    assert pitch.at("cyan1").x < x
     (state,) = snapshot.obstacles
     assert (state.name, state.x, state.y, state.heading) == (obstacle.name, x, y, obstacle.heading)
 
@@ -248,22 +211,25 @@ def test_an_obstacle_says_its_size_and_the_circle_around_it(pitch: WorldRig) -> 
 def test_an_obstacle_can_be_put_moved_and_taken_away_while_the_world_runs(pitch: WorldRig) -> None:
     pitch.place(cyan1=(-3, 2, 0))
     pitch.world.put_obstacle(CRATE)
-    assert pitch.of(pitch.run(2.0, cyan1=drive(3)), "cyan1").x < 1.0
+    pitch.run(2.0, cyan1=drive(3))
+    assert pitch.at("cyan1").x < 1.0
     pitch.world.put_obstacle(CRATE.model_copy(update={"place": [4.0, 2.0]}))
     pitch.place(cyan1=(1.0, 2, 0))
-    at = pitch.of(pitch.run(1.5, cyan1=drive(3)), "cyan1").x
+    pitch.run(1.5, cyan1=drive(3))
+    at = pitch.at("cyan1").x
     assert 1.5 < at < 4.0
     assert len(pitch.world.snapshot().obstacles) == 1
     pitch.world.remove_obstacle("crate")
     assert pitch.world.snapshot().obstacles == ()
-    assert pitch.of(pitch.run(2.0, cyan1=drive(3)), "cyan1").x > at + 3.0
+    pitch.run(2.0, cyan1=drive(3))
+    assert pitch.at("cyan1").x > at + 3.0
     with pytest.raises(KeyError):
         pitch.world.remove_obstacle("crate")
 
 
 def test_a_checkpoint_keeps_what_stands_on_the_pitch() -> None:
     """Two worlds with another past and the same poses and obstacles have the same future, to the last bit."""
-    one, other = WorldRig(), WorldRig()
+    one, other = new_pitch(), new_pitch()
     told = {"cyan1": drive(3), "magenta1": drive(3, omega=1.0)}
     one.world.put_obstacle(POLE)
     one.world.put_obstacle(CRATE)
@@ -273,9 +239,7 @@ def test_a_checkpoint_keeps_what_stands_on_the_pitch() -> None:
     other.world.put_obstacle(CRATE)
     snapshot = one.run(0.4, **told)
     other.run(0.2, cyan1=drive(2, 1))
-    one.world.make_checkpoint()
-    other.world._robots, other.world._ball_state = snapshot.robots, snapshot.ball
-    other.world.make_checkpoint()
+    one.copy_to(other)
     assert one.world.snapshot().obstacles == other.world.snapshot().obstacles == snapshot.obstacles
     for _ in range(60):
         one.tick(**told)
@@ -287,7 +251,7 @@ def test_equal_inputs_give_equal_worlds_through_collisions_at_speed() -> None:
     """Robots are brought together from poses and velocities alone: what two runs share."""
     chains = []
     for _ in range(2):
-        pitch = WorldRig(cyan2="keeper")
+        pitch = new_pitch(cyan2="keeper")
         pitch.world.put_obstacle(POLE)
         pitch.place(cyan1=(-3, -2, 0), cyan2=(-3, 0, 0), magenta1=(3, 0.1, math.pi))
         pitch.run(2.0, cyan1=drive(20), cyan2=drive(20, omega=4.0), magenta1=drive(20))
@@ -297,7 +261,7 @@ def test_equal_inputs_give_equal_worlds_through_collisions_at_speed() -> None:
 
 
 def test_the_last_touch_is_a_contact_and_a_ball_that_only_comes_near_is_touched_by_nobody(pitch: WorldRig) -> None:
-    """Reference 13, row 39: from contacts and possession, in the order of time."""
+    """From contacts and possession, in the order of time."""
     pitch.place(cyan1=(0, 0, 0), magenta1=(2, 0, math.pi), ball=(-2, 0.245 + 0.11 + 0.01, 0))
     pitch.engine.set_ball_motion((4, 0, 0), (0, 4 / 0.11, 0))
     passing = [pitch.tick().touches for _ in range(40)]
@@ -315,7 +279,7 @@ def test_the_last_touch_is_a_contact_and_a_ball_that_only_comes_near_is_touched_
 
 
 def test_the_world_is_read_from_the_engine_after_every_tick(pitch: WorldRig) -> None:
-    """Reference 14, defect 14: the seed took its states from a topic, a frame late."""
+    """The NuBot simulation takes states of models from a topic, a frame late."""
     snapshot = pitch.run(0.5, cyan1=drive(2, 1, 1))
     for body, state in zip(pitch.engine.robots, snapshot.robots, strict=True):
         (x, y, z), orientation = pybullet.getBasePositionAndOrientation(body, pitch.engine.client)

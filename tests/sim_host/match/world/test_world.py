@@ -8,43 +8,15 @@ import pytest
 from pytest import approx
 
 from schemas.config.match_config import load_match
-from schemas.config.profile import Profile, load_profile
-from schemas.config.robot_model import RobotModel
-from schemas.config.roster import Placement
+from schemas.config.profile import load_profile
 from schemas.messages.command import Drive, Kick, KickMode
 from schemas.messages.host import AppliedInput
-from sim_host.match.world import World
 from sim_host.snapshot import BallState, RobotState, Roster, Snapshot
+from support.world_rig import WorldRig
 
 ROSTER = Roster.of(load_match(None, {"teams.cyan.size": 2, "teams.magenta.size": 2}), load_profile("msl"))
 REST = AppliedInput(Drive(), dribble=False)
 GRAVITY = 9.81
-
-
-class WorldRig:
-    """A world with four robots parked in the corners, and one of them at the wheel."""
-
-    def __init__(self, profile: Profile) -> None:
-        self.profile = profile
-        roster = replace(ROSTER, models=(RobotModel.standard(profile),) * len(ROSTER.names))
-        self.world = World(profile, roster)
-        x, y = profile.field.goal_line - 1, profile.field.touch_line - 1
-        self.place(cyan1=(-x, y, 0), cyan2=(-x, -y, 0), magenta1=(x, y, 0), magenta2=(x, -y, 0), ball=(0, 0, 0))
-
-    def place(self, **bodies: tuple[float, float, float]) -> None:
-        self.world.place([Placement(body=body, x=x, y=y, heading=turn) for body, (x, y, turn) in bodies.items()])
-
-    def tick(self, **told: AppliedInput) -> Snapshot:
-        return self.world.advance({name: told.get(name, REST) for name in ROSTER.names}).snapshot
-
-    def run(self, seconds: float, **told: AppliedInput) -> Snapshot:
-        for _ in range(round(seconds / self.profile.time.tick)):
-            snapshot = self.tick(**told)
-        return snapshot
-
-    def launch(self, vx: float, vy: float, vz: float, spin: tuple[float, float, float] = (0, 0, 0)) -> None:
-        """Set the ball going by hand, as no robot can."""
-        self.world._engine.set_ball_motion((vx, vy, vz), spin)
 
 
 def robot(snapshot: Snapshot, name: str) -> RobotState:
@@ -63,10 +35,10 @@ def drive(vx: float = 0.0, vy: float = 0.0, omega: float = 0.0, **more: object) 
 
 
 def test_the_loaded_bodies_have_the_profiles_mass_and_size(rig: WorldRig) -> None:
-    """Row 2 of the parity table, read back from the engine."""
+    """Read back from the engine."""
     import pybullet
 
-    engine, robot_body = rig.world._engine, rig.profile.robot
+    engine, robot_body = rig.engine, rig.profile.robot
     dynamics = pybullet.getDynamicsInfo(engine.robots[0], -1, physicsClientId=engine.client)
     assert dynamics[0] == robot_body.mass
     assert dynamics[2] == approx((robot_body.inertia_xx, robot_body.inertia_xx, robot_body.inertia_zz))
@@ -114,7 +86,7 @@ def held_ball(rig: WorldRig, x: float, y: float = 0.0, heading: float = 0.0) -> 
 def test_a_ball_on_the_post_or_over_the_bar_does_not_end_in_the_goal(rig: WorldRig, y: str, z: float) -> None:
     field, r = rig.profile.field, rig.profile.ball.radius
     at = field.goal_width / 2 + field.post / 2 if y == "post" else 0.0
-    rig.world._engine.set_ball_state((field.goal_line - 0.6, at, z), (10, 0, 0), (0, 0, 0))
+    rig.engine.set_ball_state((field.goal_line - 0.6, at, z), (10, 0, 0), (0, 0, 0))
     for _ in range(100):
         ball = rig.tick().ball
         deep = field.goal_line + r < ball.x < field.goal_line + field.goal_depth
@@ -130,7 +102,7 @@ def test_a_ball_that_is_not_asked_for_is_not_held(rig: WorldRig) -> None:
 
 
 def test_a_kick_without_the_ball_is_refused_now_and_not_kept_for_later(rig: WorldRig) -> None:
-    """Defect 10: a kick request of the seed waited for the next hold."""
+    """In the NuBot simulation an accepted kick waits until the ball is held again."""
     rig.place(cyan1=(0, 0, 0), ball=(3, 0, 0))
     inputs = dict.fromkeys(ROSTER.names, REST)
     advance = rig.world.advance(inputs | {"cyan1": drive(kick=Kick(mode=KickMode.GROUND, speed=5))})
@@ -152,7 +124,7 @@ def test_two_robots_that_meet_do_not_pass_through_each_other(rig: WorldRig) -> N
 
 
 def test_a_robot_that_is_held_back_is_stuck_and_only_that_one(rig: WorldRig) -> None:
-    """Row 44 and defect 5: each robot has its own flag."""
+    """Each robot has its own flag."""
     wall = rig.profile.field.goal_line + rig.profile.field.border - rig.profile.robot.radius
     rig.place(cyan1=(wall - 0.05, 3, 0), cyan2=(-3, 0, 0))
     told = dict.fromkeys(ROSTER.names, REST) | {"cyan1": drive(2), "cyan2": drive(2)}
@@ -167,7 +139,7 @@ def test_nothing_leaves_the_boundary(rig: WorldRig) -> None:
     for state in snapshot.robots:
         assert abs(state.x) < field.goal_line + field.border and abs(state.y) < field.touch_line + field.border
     rig.place(ball=(0, 0, 0))
-    rig.launch(9, 9, 4)
+    rig.engine.set_ball_motion((9, 9, 4), (0, 0, 0))
     end = rig.run(8.0).ball
     assert abs(end.x) < field.goal_line + field.border and abs(end.y) < field.touch_line + field.border
 
@@ -186,19 +158,17 @@ def test_a_rebuilt_world_depends_on_the_poses_and_velocities_of_the_snapshot_alo
     chase = {"cyan1": drive(2, omega=0.3, dribble=True), "magenta1": drive(2, omega=-0.2, dribble=True)}
     live, other = WorldRig(profile), WorldRig(profile)
     live.place(cyan1=(-1.5, 0.1, 0), magenta1=(1.5, -0.1, math.pi), ball=(0, 0, 0))
-    snapshot = live.run(1.0, **chase)
+    live.run(1.0, **chase)
     other.run(0.5, cyan1=drive(3, 1, 1))
-    live.world.make_checkpoint()
-    other.world._robots, other.world._ball_state = snapshot.robots, snapshot.ball
-    other.world.make_checkpoint()
+    live.copy_to(other)
     for _ in range(75):
         live.tick(**chase)
         other.tick(**chase)
-        assert live.world._engine.packed() == other.world._engine.packed()
+        assert live.engine.packed() == other.engine.packed()
 
 
 def test_a_turned_world_with_the_same_commands_is_the_turned_world() -> None:
-    """Row 24: turned by π, cyan for magenta, everything happens as before, to 1 mm after two seconds of play."""
+    """Turned by π, cyan for magenta, everything happens as before, to 1 mm after two seconds of play."""
     profile = load_profile("msl")
     one, other = WorldRig(profile), WorldRig(profile)
     one.place(cyan1=(-1.0, 0.2, 0.1), magenta1=(3.0, -1.0, 2.0), ball=(-0.65, 0.235, 0))
@@ -235,7 +205,7 @@ def test_a_heavier_ball_or_another_size_is_a_matter_of_the_profile() -> None:
     ends = []
     for one in (profile, slow):
         rig = WorldRig(one)
-        rig.launch(2, 0, 0, spin=(0, 2 / one.ball.radius, 0))
+        rig.engine.set_ball_motion((2, 0, 0), (0, 2 / one.ball.radius, 0))
         ends.append(rig.run(5.0).ball.x)
         rig.world.close()
     assert ends[0] > 2 * ends[1]
@@ -254,7 +224,7 @@ def test_the_world_says_which_robots_touch_each_other(rig: WorldRig, apart: floa
 def test_the_snapshot_has_the_spin_of_a_ball_that_rolls(rig: WorldRig) -> None:
     """A ball that rolls turns at its speed over its radius, about the axis to the left of its way."""
     radius = rig.profile.ball.radius
-    rig.launch(1.2, 0.5, 0.0, (-0.5 / radius, 1.2 / radius, 0.0))
+    rig.engine.set_ball_motion((1.2, 0.5, 0.0), (-0.5 / radius, 1.2 / radius, 0.0))
     snapshot = rig.tick()
     ball = snapshot.ball
     assert snapshot.ball_spin == approx((-ball.vy / radius, ball.vx / radius), rel=0.02)

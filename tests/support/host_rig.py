@@ -1,0 +1,181 @@
+"""A host on the in-process bus, with agents, recorders and strangers beside it; time passes in steps."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from robot_agent.contract import Brain, Briefing, load_brain
+from robot_agent.runner import Runner
+from schemas.bus.contract import Bus, ReceivedMessage
+from schemas.config.match_config import MatchConfig
+from schemas.game import EventKind
+from schemas.messages.command import Command, Drive
+from schemas.messages.host import AppliedInput, Health, RecorderProgress
+from schemas.messages.sight import Sight
+from schemas.process.clock import SteppedClock
+from schemas.side import Side
+from schemas.topic import Topic
+from schemas.topics import APPLIED, EVENT, HEALTH, RECORDER_PROGRESS, WORLD
+from sim_host.server.host import Host
+from sim_host.server.pace import Lockstep
+from support.lossy_medium import LossyMedium
+
+LOOK_S = 0.001
+"""Wall time that passes while the host waits once: nothing depends on it but how often it looks."""
+TEAMS = {
+    "cyan": {"name": "Cyan", "robots": ["cyan1", "cyan2"]},
+    "magenta": {"name": "Magenta", "robots": ["magenta1"]},
+}
+"""Two against one, who all drive ahead."""
+
+
+class Forward:
+    """Drives ahead, whatever it sees."""
+
+    def act(self, sight: Sight) -> Command:
+        return Command(answers_tick=sight.tick, drive=Drive(vx=1.0))
+
+
+@dataclass
+class Agent:
+    """One robot's agent on a seat of its own."""
+
+    bus: Bus
+    runner: Runner
+    frozen: bool = False
+    thinks_s: float = 0.0
+    """How long it takes to answer a sight."""
+    _thought: tuple[float, Sight] | None = None
+
+    def pump(self, now: float) -> None:
+        if self.frozen:
+            return
+        if self.thinks_s == 0.0:
+            self.runner.answer_next(0.0)
+            return
+        if self._thought is None and (sight := self.runner.next_sight(0.0)) is not None:
+            self._thought = now + self.thinks_s, sight
+        if self._thought is not None and now >= self._thought[0]:
+            self.runner.answer(self._thought[1])
+            self._thought = None
+
+
+@dataclass
+class Listener:
+    """Keeps what is said on a topic."""
+
+    receive: Callable[[], ReceivedMessage | None]
+
+    def all(self) -> list[Any]:
+        """What was said since this was last asked."""
+        return [received.message() for received in iter(self.receive, None)]
+
+
+class FakeRecorder:
+    """Takes in ticks and tells how far it is, when it is let."""
+
+    def __init__(self, bus: Bus) -> None:
+        self.bus = bus
+        self.worlds = bus.subscribe(WORLD)
+        self.seen = -1
+        self.stands = False
+        self._progress = bus.publisher(RECORDER_PROGRESS, name="recorder")
+        bus.declare_alive("recorder", "recorder")
+
+    def leave(self) -> None:
+        self._progress.put(RecorderProgress(tick=self.seen, messages=0, lost=0, leaving=True))
+        self.bus.close()
+
+    def pump(self) -> None:
+        while not self.stands and (received := self.worlds.receive()) is not None:
+            self.seen = received.message().tick
+        self._progress.put(RecorderProgress(tick=self.seen, messages=0, lost=0))
+
+
+@dataclass
+class HostRig:
+    """A host and all who meet it; whoever is in `idle` is given its turn while the host waits."""
+
+    config: MatchConfig
+    medium: LossyMedium = field(default_factory=LossyMedium)
+    agents: dict[str, Agent] = field(default_factory=dict)
+    idle: list[Callable[[], None]] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.clock = SteppedClock()
+        self.outside = self.seat()
+        self._applied, self._events, self._health = self.listen(APPLIED), self.listen(EVENT), self.listen(HEALTH)
+        self.host = Host(self.config, self.medium.open_bus(self.config.name, self.clock))
+        if isinstance(self.host.pace, Lockstep):
+            self.host.pace.step_agents = self._wait
+
+    def seat(self) -> Bus:
+        return self.medium.open_bus(self.config.name, SteppedClock())
+
+    def listen(self, topic: Topic) -> Listener:
+        return Listener(self.outside.subscribe(topic).receive)
+
+    def join(self, robot: str, brain: Brain | None = None) -> Agent:
+        bus = self.seat()
+        agent = self.agents[robot] = Agent(bus, Runner(bus, brain or Forward(), robot))
+        bus.declare_alive("agent", robot)
+        return agent
+
+    def join_all(self) -> None:
+        """Everybody comes, with the brain that the match file names, or driving ahead."""
+        setup = self.host.simulation.setup()
+        for side in Side:
+            for robot in self.config.robots(side):
+                brain = self.config.team(side).brain
+                self.join(robot, load_brain(brain, Briefing.of(robot, setup)) if brain else None)
+
+    def leave(self, robot: str) -> None:
+        self.agents.pop(robot).bus.close()
+
+    def record(self) -> FakeRecorder:
+        recorder = FakeRecorder(self.seat())
+        self.idle.append(recorder.pump)
+        return recorder
+
+    def begin(self) -> None:
+        self.host.wait_for_all()
+        self.host.begin()
+
+    def ticks(self, count: int) -> None:
+        for _ in range(count):
+            if not isinstance(self.host.pace, Lockstep):
+                self._give_turns()
+            self.host.tick()
+
+    def inputs(self, robot: str) -> list[AppliedInput]:
+        """What a robot was told in each tick since this was last asked."""
+        return [message.inputs[robot] for message in self._applied.all() if message.inputs]
+
+    def health(self) -> Health:
+        """How the host says it is doing, one tick later."""
+        self.pass_time(0.3)
+        self.ticks(1)
+        health: Health = self._health.all()[-1]
+        return health
+
+    def silences(self) -> list[str]:
+        """What was said of robots that fell silent and were heard again."""
+        return [event.text for event in self._events.all() if event.kind is EventKind.AGENT]
+
+    def truth(self, robot: str) -> dict[str, Any]:
+        """Where a robot is, and how fast."""
+        truth: dict[str, Any] = self.host.simulation.now.world["robots"][robot]
+        return truth
+
+    def pass_time(self, seconds: float) -> None:
+        self.clock.sleep_until(self.clock.now() + seconds)
+
+    def _wait(self) -> None:
+        self._give_turns()
+        self.pass_time(LOOK_S)
+
+    def _give_turns(self) -> None:
+        for agent in self.agents.values():
+            agent.pump(self.clock.now())
+        for other in self.idle:
+            other()

@@ -1,0 +1,60 @@
+"""A medium that loses messages on the way, as a network does."""
+
+from dataclasses import dataclass, field
+
+from schemas.bus.contract import Publisher, Stamp
+from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.process.clock import Clock
+from schemas.topic import Topic
+
+
+@dataclass
+class Losses:
+    """What is lost of one key."""
+
+    numbers: set[int]
+    """Of the messages that do not arrive, from 1."""
+    sent: list[bytes] = field(default_factory=list)
+    """All payloads that were sent, lost or not."""
+
+
+@dataclass(eq=False)
+class LossyMedium(Medium):
+    """Loses nothing until it is told to."""
+
+    losses: dict[str, Losses] = field(default_factory=dict)
+    """By key below the match."""
+
+    def open_bus(self, match: str, clock: Clock) -> InProcessBus:
+        return _LossyBus(match, clock, self, self.losses)
+
+    def lose(self, key: str, numbers: set[int]) -> Losses:
+        """Lose messages of a key, counted from the next one on."""
+        self.losses[key] = Losses(numbers)
+        return self.losses[key]
+
+
+class _LossyBus(InProcessBus):
+    def __init__(self, match: str, clock: Clock, medium: Medium, losses: dict[str, Losses]) -> None:
+        super().__init__(match, clock, medium)
+        self._losses = losses
+
+    def publisher(self, topic: Topic, **chunks: str) -> Publisher:
+        return _LossyPublisher(super().publisher(topic, **chunks), self._losses)
+
+
+class _LossyPublisher(Publisher):
+    def __init__(self, publisher: Publisher, losses: dict[str, Losses]) -> None:
+        super().__init__(publisher.topic, publisher.key)
+        self._publisher, self._losses = publisher, losses
+
+    def put_payload(self, payload: bytes) -> Stamp:
+        losses = self._losses.get(self.key)
+        if losses is not None:
+            losses.sent.append(payload)
+            if len(losses.sent) in losses.numbers:
+                return Stamp(-1, 0, 0)
+        return self._publisher.put_payload(payload)
+
+    def has_subscribers(self) -> bool:
+        return self._publisher.has_subscribers()

@@ -1,0 +1,218 @@
+"""Programs of a match as real processes on loopback, and a client that listens to their host."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from recordings.reading.recording import RecordedMessage
+from schemas.bus.contract import ReceivedMessage, Subscription
+from schemas.bus.zenoh.bus import ZenohBus, open_client
+from schemas.messages.host import Applied, Health, Invalid, RobotHealth
+from schemas.messages.world import World
+from schemas.process.clock import WallClock
+from schemas.topics import APPLIED, EVENT, HEALTH, INVALID, STATE, WORLD
+
+LIMIT = 90.0
+"""Seconds after which something that should have happened will not; nothing depends on how soon it does."""
+POLL = 0.01
+
+
+def wait_for(condition: Callable[[], Any], what: str) -> Any:
+    """What the condition gives as soon as it gives something."""
+    deadline = time.monotonic() + LIMIT
+    while time.monotonic() < deadline:
+        found = condition()
+        if found:
+            return found
+        time.sleep(POLL)
+    raise AssertionError(f"never came: {what}")
+
+
+def is_running(pid: int) -> bool:
+    """Whether a process is there and not a mere entry that nobody has looked at."""
+    try:
+        stat = Path(f"/proc/{pid}/stat").read_text()
+    except FileNotFoundError:
+        return False
+    return stat.rpartition(")")[2].split()[0] != "Z"
+
+
+def descendants(pid: int) -> list[int]:
+    """The processes that a process started, and those that they started."""
+    parents: dict[int, int] = {}
+    for folder in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):  # it ended meanwhile
+            parents[int(folder.name)] = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
+    found = [pid]
+    for one in found:
+        found += [child for child, parent in parents.items() if parent == one]
+    return found[1:]
+
+
+def process_name(pid: int) -> str | None:
+    """What a process of a match is called, by its settings file or, where it was forked, by its name in `ps`."""
+    try:
+        words = Path(f"/proc/{pid}/cmdline").read_bytes().decode().split("\0")
+        name = Path(f"/proc/{pid}/comm").read_text().strip()
+    except OSError:
+        return None  # it ended meanwhile
+    if "--settings" in words:
+        return Path(words[words.index("--settings") + 1]).stem
+    is_forked = any("multiprocessing.forkserver" in word for word in words)
+    return name if is_forked and name != Path(sys.executable).name else None
+
+
+class Program:
+    """A Python program with its words in files."""
+
+    def __init__(self, arguments: list[str], folder: Path, name: str, environment: dict[str, str]) -> None:
+        self.folder = folder
+        self._out, self._err = folder / f"{name}.out", folder / f"{name}.err"
+        with self._out.open("wb") as out, self._err.open("wb") as err:
+            self.popen = subprocess.Popen(
+                [sys.executable, "-m", *arguments],
+                cwd=folder,
+                env={**os.environ, **environment},
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=err,
+            )
+
+    @property
+    def out(self) -> str:
+        return self._out.read_text()
+
+    @property
+    def err(self) -> str:
+        return self._err.read_text()
+
+    def status(self) -> int:
+        """Its exit status, once it has ended."""
+        return self.popen.wait(LIMIT)
+
+    def says(self, words: str) -> None:
+        """Wait until these words stand on its stderr."""
+        wait_for(lambda: words in self.err, f"{words!r} in: {self.err}")
+
+    def processes(self) -> dict[str, int]:
+        """Name → pid of the processes of its match that run; the fork server and its like are not among them."""
+        names = {pid: process_name(pid) for pid in descendants(self.popen.pid)}
+        return {name: pid for pid, name in names.items() if name is not None}
+
+    def process(self, name: str) -> int:
+        """The pid of one process of its match: host, recorder, page, or a robot."""
+        pid: int = wait_for(lambda: self.processes().get(name), f"a process {name}; stderr: {self.err}")
+        return pid
+
+    def end(self) -> None:
+        if self.popen.poll() is None:
+            left = descendants(self.popen.pid)
+            self.popen.kill()
+            self.popen.wait()
+            for pid in left:
+                try:
+                    os.kill(pid, signal.SIGKILL)
+                except ProcessLookupError:
+                    continue
+
+
+class MessageLog(Sequence[Any]):
+    """Messages of one topic, received or recorded, decoded each time they are read.
+
+    A lockstep match plays thousands of ticks while a story waits for wall time: decoded, they would take ten times the
+    memory of their payloads.
+    """
+
+    def __init__(
+        self, messages: Iterable[ReceivedMessage | RecordedMessage] = (), *, newest_only: bool = False
+    ) -> None:
+        self._messages = list(messages)
+        self._newest = self._messages[-1].message() if self._messages else None
+        self._newest_only = newest_only
+
+    def update(self, subscription: Subscription) -> None:
+        """Append all that has come."""
+        count = len(self._messages)
+        self._messages.extend(iter(subscription.receive, None))
+        if len(self._messages) > count:
+            self._newest = self._messages[-1].message()
+        if self._newest_only:
+            del self._messages[:-1]
+
+    def __len__(self) -> int:
+        return len(self._messages)
+
+    def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, slice):
+            return [received.message() for received in self._messages[index]]
+        return self._newest if index == -1 and self._messages else self._messages[index].message()
+
+
+class Listener:
+    """A client that keeps the messages that a host publishes."""
+
+    def __init__(self, match: str, endpoint: str, program: Program, *, every_tick: bool = True) -> None:
+        """Without `every_tick`, only the newest world and the newest inputs are kept."""
+        self._program = program
+        self.bus: ZenohBus = open_client(match, WallClock(), endpoint, LIMIT)
+        self._subscriptions: dict[str, Subscription] = {
+            topic.key: self.bus.subscribe(topic) for topic in (WORLD, APPLIED, HEALTH, EVENT, INVALID, STATE)
+        }
+        each_tick = (WORLD.key, APPLIED.key)
+        self.said = {key: MessageLog(newest_only=key in each_tick and not every_tick) for key in self._subscriptions}
+
+    def update(self) -> None:
+        for key, subscription in self._subscriptions.items():
+            self.said[key].update(subscription)
+
+    def until(self, condition: Callable[["Listener"], Any], what: str) -> Any:
+        """Listen until the condition holds; what it gave."""
+
+        def heard() -> Any:
+            self.update()
+            return condition(self)
+
+        try:
+            return wait_for(heard, what)
+        except AssertionError as error:
+            newest = f"tick {self.tick}, connected {self.bus.connected()}, health {self.healths[-1:]}"
+            program = f"status {self._program.popen.poll()}, stderr: {self._program.err}"
+            raise AssertionError(f"{error}\n{newest}\n{program}") from None
+
+    def until_tick(self, tick: int) -> None:
+        self.until(lambda one: one.tick >= tick, f"tick {tick}")
+
+    def for_ticks(self, count: int) -> None:
+        self.update()
+        self.until_tick(self.tick + count)
+
+    @property
+    def worlds(self) -> Sequence[World]:
+        return self.said["world"]
+
+    @property
+    def applied(self) -> Sequence[Applied]:
+        return self.said["host/applied"]
+
+    @property
+    def healths(self) -> Sequence[Health]:
+        return self.said["host/health"]
+
+    @property
+    def invalid(self) -> Sequence[Invalid]:
+        return self.said["host/invalid"]
+
+    @property
+    def tick(self) -> int:
+        """The newest tick heard of."""
+        return self.worlds[-1].tick if self.worlds else -1
+
+    def robot(self, name: str) -> RobotHealth:
+        """What the host says last of one robot's agent."""
+        return self.healths[-1].robots[name] if self.healths else RobotHealth()
