@@ -1,7 +1,7 @@
 """The base of every wire message: frozen, without unknown fields, finite, and versioned.
 
-Each message is a pydantic model, or a msgspec struct (`schemas.struct`) where it is written and read in every tick.
-`WireMessage` is the interface of both.
+Each message is a pydantic model, or where it is written and read in every tick, a msgspec struct: see
+`schemas.struct`. `WireMessage` is the interface of both.
 """
 
 import re

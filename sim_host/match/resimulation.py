@@ -1,6 +1,6 @@
 """Simulates the world of a recorded match again, without brains, referee or sensors.
 
-Each `schemas.messages.host.Applied` holds everything that moved the world in its tick: the robots' inputs, placements,
+Each `schemas.messages.host.Applied` holds everything that moved the world in its tick: inputs of robots, placements,
 and changes of parameters, robots and obstacles. A resimulation begins at tick 0, or at any checkpoint, from poses and
 velocities alone: at a checkpoint no robot holds the ball, the ball rolls, every kicker is charged, and wheels turn as
 their robot moves.
