@@ -1,1 +1,1 @@
-"""What all processes share: configuration, messages, the table of topics, the bus, and the process's clock."""
+"""Shared by all processes: configuration, messages, the topic table, the bus, and clocks."""

@@ -44,16 +44,16 @@ class Medium:
         """A new bus for a match."""
         return InProcessBus(match, clock, self)
 
-    def count_token(self, match: str, who: tuple[str, str], by: int) -> None:
+    def count_token(self, match: str, token: tuple[str, str], by: int) -> None:
         """Count a token; watches are notified when the first appears or the last disappears."""
         with self.lock:
-            before = self.alive.get(who, 0)
-            self.alive[who] = before + by
+            before = self.alive.get(token, 0)
+            self.alive[token] = before + by
             if (before == 0) != (before + by == 0):
                 for watch in self.watches:
                     if watch.match == match:
-                        kind = PresenceKind(who[0].removeprefix(match + "/"))
-                        watch.mailbox.put("", Presence(kind, who[1], by > 0))
+                        kind = PresenceKind(token[0].removeprefix(match + "/"))
+                        watch.mailbox.put("", Presence(kind, token[1], by > 0))
 
 
 class _Publisher(Publisher):
@@ -229,16 +229,16 @@ class InProcessBus(Bus):
 
     def declare_alive(self, kind: PresenceKind, name: str) -> None:
         self.check_open()
-        who = (self.prefix + kind, name)
-        self._tokens.append(who)
-        self.medium.count_token(self.match, who, +1)
+        token = (self.prefix + kind, name)
+        self._tokens.append(token)
+        self.medium.count_token(self.match, token, +1)
 
     def withdraw_alive(self, kind: PresenceKind, name: str) -> None:
         self.check_open()
-        who = (self.prefix + kind, name)
-        if who in self._tokens:
-            self._tokens.remove(who)
-            self.medium.count_token(self.match, who, -1)
+        token = (self.prefix + kind, name)
+        if token in self._tokens:
+            self._tokens.remove(token)
+            self.medium.count_token(self.match, token, -1)
 
     def watch_alive(self) -> PresenceWatch:
         self.check_open()
@@ -257,8 +257,8 @@ class InProcessBus(Bus):
     def close(self) -> None:
         if self._closed:
             return
-        for who in self._tokens:
-            self.medium.count_token(self.match, who, -1)
+        for token in self._tokens:
+            self.medium.count_token(self.match, token, -1)
         self._closed = True
         for subscription in self._subscriptions:
             subscription.close()
