@@ -6,7 +6,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 
 from coach_gateway import refbox
-from coach_gateway.access.rights import COACHES
+from coach_gateway.access.roles import COACHES
 from coach_gateway.access.tokens import Tokens
 from coach_gateway.match.live import LiveMatch
 from coach_gateway.ports import port_tried

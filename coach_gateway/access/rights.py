@@ -3,14 +3,12 @@
 from collections.abc import Mapping
 from typing import Any
 
-from coach_gateway.web.protocol import PageAction, PageDrive, PageOrder, PageParameters, PageRequest, Role
+from coach_gateway.access.roles import COACHES, Role
+from coach_gateway.web.protocol import PageAction, PageDrive, PageOrder, PageParameters, PageRequest
 from schemas.errors import did_you_mean
 from schemas.game import ActionName
 from schemas.messages.parameters import ParameterOperation
 from schemas.side import Side
-
-COACHES = {Role.CYAN: Side.CYAN, Role.MAGENTA: Side.MAGENTA}
-"""Coach → its side."""
 
 _REFEREE = frozenset({Role.REFEREE})
 _BENCH = frozenset({Role.REFEREE, *COACHES})

@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Self
 
-from coach_gateway.web.protocol import Role
+from coach_gateway.access.roles import Role
 from schemas.errors import TouchlineError
 
 _LEAST = 8

@@ -11,6 +11,7 @@ from pydantic import ValidationError
 
 from coach_gateway.access import rights
 from coach_gateway.access.rate_limit import TokenBucket
+from coach_gateway.access.roles import COACHES, Role
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode, Meaning, for_coach, for_referee
 from coach_gateway.udp.protocol import (
     MAX_BYTES,
@@ -25,7 +26,7 @@ from coach_gateway.udp.protocol import (
     ProgramRequest,
 )
 from coach_gateway.udp.session import AT_ONCE, PER_SECOND, SequenceStatus, Session
-from coach_gateway.web.protocol import OrderContent, PageAction, PageOrder, Role
+from coach_gateway.web.protocol import OrderContent, PageAction, PageOrder
 from schemas.game import ActionName, RefereeAction
 from schemas.message import reason_of
 from schemas.messages.coach import CoachMode
@@ -218,7 +219,7 @@ def _act(
 
 
 def _order(session: Session, ask: ProgramOrder, address: Address, robots: Mapping[str, Side]) -> PendingRequest | str:
-    side = ask.side or rights.COACHES.get(session.role)
+    side = ask.side or COACHES.get(session.role)
     if side is None:
         return "the referee's order has to name its side"
     why = rights.refusal(session.role, PageOrder(id=0, deed="order", side=side, order=OrderContent()), robots)
@@ -242,7 +243,7 @@ def _match_mode(
         return f"mode is {ask.mode}; known: {', '.join(str(known.number) for known in MatchMode)}"
     if mode is MatchMode.TEST:
         return "a test is an order: it says which"
-    own = rights.COACHES.get(session.role)
+    own = COACHES.get(session.role)
     if own is not None and ask.side not in (None, own):
         return f"the match mode of {ask.side} is not for {own.value}'s coach"
     meaning = for_coach(mode) if own is not None else for_referee(mode, ask.side or Side.CYAN)
@@ -257,6 +258,6 @@ def _request_for(
     if meaning.action is not None:
         action = RefereeAction(action=meaning.action, side=meaning.side)
         return _act(session, ask.sequence, ask.kind, address, action, robots)
-    own = rights.COACHES.get(session.role)
+    own = COACHES.get(session.role)
     sides = (own,) if own is not None else tuple(Side) if ask.side is None else (ask.side,)
     return PendingRequest(session, address, ask.sequence, ask.kind, sides=sides, order={"mode": meaning.order})

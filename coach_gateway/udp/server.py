@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Any
 
 from coach_gateway.access.rights import sides_shown
+from coach_gateway.access.roles import Role
 from coach_gateway.match.live import LiveMatch, pause
 from coach_gateway.ports import cannot_listen
 from coach_gateway.udp import DEFAULT_PORT
@@ -12,7 +13,6 @@ from coach_gateway.udp.coach_programs import Address, CoachPrograms, PendingRequ
 from coach_gateway.udp.coach_record import MatchMode
 from coach_gateway.udp.protocol import Ack, BeliefUpdate, EventUpdate, Frame, SessionEnd, SideOrder
 from coach_gateway.udp.session import SILENCE_S, Session
-from coach_gateway.web.protocol import Role
 from schemas.errors import TouchlineError
 from schemas.game import TeamPhase
 from schemas.message import Part

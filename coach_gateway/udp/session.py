@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from coach_gateway.access.rate_limit import TokenBucket
+from coach_gateway.access.roles import Role
 from coach_gateway.udp.protocol import DEFAULT_RATE, Ack
-from coach_gateway.web.protocol import Role
 
 SILENCE_S = 5.0
 """s of wall time without a datagram after which a session is over."""

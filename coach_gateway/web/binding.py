@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from coach_gateway.access.origins import Origins
+from coach_gateway.access.roles import Role
 from coach_gateway.access.tokens import Tokens, page_address
 from coach_gateway.web.listener import listen, origin_of
-from coach_gateway.web.protocol import Role
 from coach_gateway.web.settings import WebSettings
 
 

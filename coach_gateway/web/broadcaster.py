@@ -3,6 +3,7 @@
 import asyncio
 
 from coach_gateway.access import rights
+from coach_gateway.access.roles import Role
 from coach_gateway.web.frame_pace import FramePace
 from coach_gateway.web.page_feed import PageFeed
 from coach_gateway.web.pages import Page, Pages
@@ -14,7 +15,6 @@ from coach_gateway.web.protocol import (
     PageRequest,
     PageTokenCheck,
     ReplayUpdate,
-    Role,
     Welcome,
 )
 from coach_gateway.web.requests import RequestHandler

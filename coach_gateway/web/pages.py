@@ -5,7 +5,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from coach_gateway.access.rate_limit import TokenBucket
-from coach_gateway.web.protocol import Role
+from coach_gateway.access.roles import Role
 from coach_gateway.web.send_queue import SendQueue
 
 MESSAGES_PER_S = 100.0

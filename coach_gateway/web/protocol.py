@@ -8,11 +8,11 @@ the page is answered by one `Reply` with its `id`; a `drive` only where it is re
 What the host says is handed on whole, below the word that names it: an event has a `kind` of its own.
 """
 
-from enum import StrEnum
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, StringConstraints, TypeAdapter
 
+from coach_gateway.access.roles import Role
 from schemas.config.scene import SceneRequest
 from schemas.game import GameEvent, GameState, RefereeAction
 from schemas.message import Name, Part
@@ -26,19 +26,6 @@ from schemas.side import Side
 
 MAX_BYTES = 65_536
 """A message of the page that is longer is refused unread."""
-
-
-class Role(StrEnum):
-    """Whom a token stands for."""
-
-    SPECTATOR = "spectator"
-    """Nobody: the page without a token. Watches."""
-    CYAN = "cyan"
-    """The coach of cyan."""
-    MAGENTA = "magenta"
-    """The coach of magenta."""
-    REFEREE = "referee"
-    """The referee, who runs the match and may do everything."""
 
 
 class Welcome(Part):

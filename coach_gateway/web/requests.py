@@ -5,6 +5,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
+from coach_gateway.access.roles import Role
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.web.protocol import (
     PageAction,
@@ -15,7 +16,6 @@ from coach_gateway.web.protocol import (
     PageRequest,
     PageScene,
     Reply,
-    Role,
 )
 from schemas.bus.contract import Bus, Publisher
 from schemas.errors import TouchlineError

@@ -10,6 +10,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from coach_gateway.access import rights
 from coach_gateway.access.client_network import client_network
 from coach_gateway.access.origins import Origins
+from coach_gateway.access.roles import Role
 from coach_gateway.access.tokens import Tokens
 from coach_gateway.web.broadcaster import PageBroadcaster
 from coach_gateway.web.manual_control import ManualControl
@@ -22,7 +23,6 @@ from coach_gateway.web.protocol import (
     PageTokenCheck,
     Refusal,
     Reply,
-    Role,
 )
 from coach_gateway.web.requests import RequestHandler, is_stop
 from schemas.process.clock import Clock

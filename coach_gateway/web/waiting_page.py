@@ -5,8 +5,9 @@ import contextlib
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from coach_gateway.access.roles import Role
 from coach_gateway.web.binding import PageBinding
-from coach_gateway.web.protocol import Alive, HostUpdate, Role, Welcome
+from coach_gateway.web.protocol import Alive, HostUpdate, Welcome
 from coach_gateway.web.site import site
 from coach_gateway.web.uvicorn_server import web_server
 

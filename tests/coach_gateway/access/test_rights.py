@@ -5,7 +5,8 @@ from typing import Any
 import pytest
 
 from coach_gateway.access.rights import RIGHTS, deeds_of, refusal, sides_shown
-from coach_gateway.web.protocol import PAGE_REQUEST, Role
+from coach_gateway.access.roles import Role
+from coach_gateway.web.protocol import PAGE_REQUEST
 from schemas.game import ActionName
 from schemas.side import Side
 

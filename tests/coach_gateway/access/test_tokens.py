@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
+from coach_gateway.access.roles import Role
 from coach_gateway.access.tokens import Tokens, page_address, read_or_make
-from coach_gateway.web.protocol import Role
 from schemas.errors import TouchlineError
 
 

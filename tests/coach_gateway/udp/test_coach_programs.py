@@ -5,11 +5,11 @@ from typing import Any
 
 import pytest
 
+from coach_gateway.access.roles import Role
 from coach_gateway.udp import coach_programs as coaches_module
 from coach_gateway.udp.coach_programs import MOST_WAITING, CoachPrograms, DatagramResult
 from coach_gateway.udp.protocol import MAX_BYTES, Ack
 from coach_gateway.udp.session import AT_ONCE, KEPT, SILENCE_S
-from coach_gateway.web.protocol import Role
 from schemas.game import REFBOX, ActionName
 from schemas.messages.coach import CoachMode, CoachTest
 from schemas.side import Side
