@@ -26,7 +26,6 @@ from coach_gateway.udp.protocol import (
     ProgramRequest,
 )
 from coach_gateway.udp.session import AT_ONCE, PER_SECOND, SequenceStatus, Session
-from coach_gateway.web.protocol import OrderContent, PageAction, PageOrder
 from schemas.game import ActionName, RefereeAction
 from schemas.message import reason_of
 from schemas.messages.coach import CoachMode
@@ -210,7 +209,7 @@ def _late(ask: Any) -> Ack:
 def _act(
     session: Session, sequence: int, kind: str, address: Address, action: RefereeAction, robots: Mapping[str, Side]
 ) -> PendingRequest | str:
-    why = rights.refusal(session.role, PageAction(id=0, deed="action", action=action), robots)
+    why = rights.refusal(session.role, action.action.value, robots, robot=action.robot)
     if why is not None:
         return why
     return PendingRequest(
@@ -222,7 +221,7 @@ def _order(session: Session, ask: ProgramOrder, address: Address, robots: Mappin
     side = ask.side or COACHES.get(session.role)
     if side is None:
         return "the referee's order has to name its side"
-    why = rights.refusal(session.role, PageOrder(id=0, deed="order", side=side, order=OrderContent()), robots)
+    why = rights.refusal(session.role, "order", robots, side=side)
     if why is not None:
         return why
     content = ask.order.model_dump(exclude={"sequence", "version"})

@@ -1,10 +1,11 @@
 """Carries out what a page asks for and its role allows: asks host or replay, gives orders, drives robots."""
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
+from coach_gateway.access import rights
 from coach_gateway.access.roles import Role
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.web.protocol import (
@@ -15,6 +16,7 @@ from coach_gateway.web.protocol import (
     PageReplay,
     PageRequest,
     PageScene,
+    PageTokenCheck,
     Reply,
 )
 from schemas.bus.contract import Bus, Publisher
@@ -22,6 +24,7 @@ from schemas.errors import TouchlineError
 from schemas.game import ActionName
 from schemas.message import Message
 from schemas.messages.coach import CoachOrder
+from schemas.messages.parameters import ParameterOperation
 from schemas.side import Side
 from schemas.topics import MANUAL
 
@@ -88,6 +91,24 @@ class RequestHandler:
     def _order(self, request: PageOrder) -> CoachOrder:
         content = request.order.model_dump(exclude={"version", "sequence"}, exclude_unset=True)
         return self._order_clients[request.side].order(request.side, **content)
+
+
+def refusal(role: Role, request: PageRequest, robots: Mapping[str, Side]) -> str | None:
+    """Why a role may not ask for this; None when it may. `robots` are all robots of the match with their sides."""
+    match request:
+        case PageTokenCheck():
+            return None
+        case PageAction():
+            action = request.action
+            return rights.refusal(role, action.action.value, robots, robot=action.robot)
+        case PageOrder():
+            return rights.refusal(role, "order", robots, side=request.side)
+        case PageDrive():
+            return rights.refusal(role, "drive", robots, robot=request.robot)
+        case PageParameters():
+            changes = request.request.operation in (ParameterOperation.SET, ParameterOperation.RESET)
+            return rights.refusal(role, "parameters" if changes else "read_parameters", robots)
+    return rights.refusal(role, request.deed, robots)
 
 
 def is_stop(request: PageRequest) -> bool:

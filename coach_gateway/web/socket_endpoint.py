@@ -7,7 +7,6 @@ from pydantic import ValidationError
 from pydantic_core import from_json
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from coach_gateway.access import rights
 from coach_gateway.access.client_network import client_network
 from coach_gateway.access.origins import Origins
 from coach_gateway.access.roles import Role
@@ -24,7 +23,7 @@ from coach_gateway.web.protocol import (
     Refusal,
     Reply,
 )
-from coach_gateway.web.requests import RequestHandler, is_stop
+from coach_gateway.web.requests import RequestHandler, is_stop, refusal
 from schemas.process.clock import Clock
 
 _MOST_PENDING = 8
@@ -141,7 +140,7 @@ class SocketEndpoint:
             _reply(page, Reply(id=request.id, accepted=False, reason=_UNKNOWN_TOKEN))
             return
         why = (
-            rights.refusal(role, request, self._broadcaster.robots())
+            refusal(role, request, self._broadcaster.robots())
             or self._broadcaster.refusal(request)
             or self._why_busy(page, request)
         )
