@@ -8,12 +8,22 @@ whoever gave them.
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Annotated
+
+from pydantic import Field
 
 from schemas.bus.contract import Bus
 from schemas.message import BadMessageError
-from schemas.messages.coach import ActiveOrder
+from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER
+
+
+class OrderContent(CoachOrder):
+    """An order that the gateway numbers."""
+
+    sequence: Annotated[int, Field(ge=1)] = 1
+    """Filled in by the gateway."""
 
 
 class OrderStatus(StrEnum):

@@ -9,8 +9,8 @@ from typing import Annotated, Literal
 from pydantic import Field, StringConstraints, TypeAdapter
 
 from coach_gateway.access.roles import Role
+from coach_gateway.match.orders import OrderContent
 from coach_gateway.udp.coach_record import MatchMode
-from coach_gateway.web.protocol import OrderContent
 from schemas.game import GameEvent, GameState, RefereeAction
 from schemas.message import Name, Part
 from schemas.messages.host import Belief

@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, StringConstraints, TypeAdapter
 
 from coach_gateway.access.roles import Role
+from coach_gateway.match.orders import OrderContent
 from schemas.config.scene import SceneRequest
 from schemas.game import GameEvent, GameState, RefereeAction
 from schemas.message import Name, Part
@@ -179,13 +180,6 @@ class PageAction(_PageRequest):
 
     deed: Literal["action"]
     action: RefereeAction
-
-
-class OrderContent(CoachOrder):
-    """An order that the server numbers."""
-
-    sequence: Annotated[int, Field(ge=1)] = 1
-    """Filled in by the server."""
 
 
 class PageOrder(_PageRequest):
