@@ -13,6 +13,7 @@ from coach_gateway.access.tokens import Tokens, tokens_of
 from coach_gateway.bridges import NO_BRIDGES, Bridges, bridges_of, services_of
 from coach_gateway.match.change_log import log_changes
 from coach_gateway.match.lines import printable
+from coach_gateway.ports import LOOPBACK
 from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.service import Service
 from coach_gateway.service import run as run_services
@@ -20,7 +21,6 @@ from coach_gateway.web.settings import (
     DEFAULT_PAGES,
     DEFAULT_PAGES_EACH,
     DEFAULT_PORT,
-    LOOPBACK,
     BeliefsFor,
     WebSettings,
     need_web,

@@ -9,14 +9,13 @@ from coach_gateway import refbox
 from coach_gateway.access.roles import COACHES
 from coach_gateway.access.tokens import Tokens
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.ports import port_tried
+from coach_gateway.ports import LOOPBACK, port_tried
 from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
 from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from coach_gateway.service import Service
 from coach_gateway.udp.server import UdpServer
-from coach_gateway.web.settings import LOOPBACK
 from schemas.bus.contract import Bus
 from schemas.errors import TouchlineError
 from schemas.side import Side

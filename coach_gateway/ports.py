@@ -7,6 +7,9 @@ from contextlib import ExitStack, contextmanager
 
 from schemas.errors import TouchlineError
 
+LOOPBACK = "127.0.0.1"
+"""Address that only this machine can reach."""
+
 
 @contextmanager
 def port_tried(option: str, address: str, port: int, kind: socket.SocketKind) -> Iterator[None]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.ports import cannot_listen
+from coach_gateway.ports import LOOPBACK, cannot_listen
 from coach_gateway.refbox import DEFAULT_PORT, commands
 from coach_gateway.refbox.call_generator import CallGenerator
 from coach_gateway.refbox.commands import BoxCommand
@@ -40,7 +40,7 @@ class ServerAddress:
 
     port: int = DEFAULT_PORT
     side: Side | None = None
-    host: str = "127.0.0.1"
+    host: str = LOOPBACK
 
 
 @dataclass(eq=False)

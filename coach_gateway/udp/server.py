@@ -7,7 +7,7 @@ from typing import Any
 from coach_gateway.access.rights import sides_shown
 from coach_gateway.access.roles import Role
 from coach_gateway.match.live import LiveMatch, pause
-from coach_gateway.ports import cannot_listen
+from coach_gateway.ports import LOOPBACK, cannot_listen
 from coach_gateway.udp import DEFAULT_PORT
 from coach_gateway.udp.coach_programs import Address, CoachPrograms, PendingRequest
 from coach_gateway.udp.coach_record import MatchMode
@@ -33,7 +33,7 @@ class UdpServer(asyncio.DatagramProtocol):
         role_of: Callable[[str], Role | None],
         log: Callable[[str], None],
         port: int = DEFAULT_PORT,
-        host: str = "127.0.0.1",
+        host: str = LOOPBACK,
     ) -> None:
         """`role_of` tells whom a token stands for; `log` is given a line whenever people should know something."""
         self._live = live

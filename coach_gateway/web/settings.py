@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
+from coach_gateway.ports import LOOPBACK
 from schemas.errors import TouchlineError
 
 DEFAULT_PORT = 8080
-LOOPBACK = "127.0.0.1"
 DEFAULT_PAGES = 300
 DEFAULT_PAGES_EACH = 100
 """Three classrooms behind one address; a third of the room."""

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from coach_gateway.ports import LOOPBACK
 from coach_gateway.refbox.framing import BoxProtocol
-from coach_gateway.web.settings import LOOPBACK
 from schemas.side import Side
 
 if TYPE_CHECKING:

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from coach_gateway.web.settings import DEFAULT_PORT, LOOPBACK
+from coach_gateway.ports import LOOPBACK
+from coach_gateway.web.settings import DEFAULT_PORT
 from touchline.cli import options
 from touchline.cli.bridge_options import NO_BRIDGES, BridgeOptions
 from touchline.cli.option_groups import expand_option_groups

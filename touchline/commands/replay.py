@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from coach_gateway.web.settings import DEFAULT_PORT, LOOPBACK
+from coach_gateway.ports import LOOPBACK
+from coach_gateway.web.settings import DEFAULT_PORT
 from schemas.bus.endpoint import local_endpoint, parse_endpoint
 from schemas.errors import TouchlineError
 from touchline.cli import options

@@ -5,11 +5,11 @@ from typing import Annotated
 
 import typer
 
+from coach_gateway.ports import LOOPBACK
 from coach_gateway.web.settings import (
     DEFAULT_PAGES,
     DEFAULT_PAGES_EACH,
     DEFAULT_PORT,
-    LOOPBACK,
     BeliefsFor,
     WebSettings,
 )
