@@ -4,6 +4,7 @@ The process waits for a host however long that takes, and stays when the host go
 """
 
 import asyncio
+import contextlib
 import signal
 from collections.abc import Callable, Sequence
 from typing import Protocol
@@ -100,3 +101,10 @@ async def together(services: Sequence[Service], stop: asyncio.Event) -> None:
         await asyncio.wait(tasks)
     for task in tasks:
         task.result()
+
+
+async def pause(stop: asyncio.Event, seconds: float) -> bool:
+    """Wait `seconds` of wall time, or until `stop` is set; whether it is."""
+    with contextlib.suppress(TimeoutError):
+        await asyncio.wait_for(stop.wait(), seconds)
+    return stop.is_set()

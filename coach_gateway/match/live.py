@@ -4,7 +4,6 @@ One task follows the bus; questions to the host wait in a thread, and hold up no
 """
 
 import asyncio
-import contextlib
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeVar
@@ -13,6 +12,7 @@ from coach_gateway.match.host_change import HostChangeDetector
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.host_presence import HostPresence
 from coach_gateway.match.orders import OrderFollower
+from coach_gateway.service import pause
 from schemas.bus.contract import Bus, ReceivedMessage, Subscription
 from schemas.errors import TouchlineError
 from schemas.game import REFBOX, ActionName, ActionReply, GameEvent, GameState, RefereeAction
@@ -231,10 +231,3 @@ class LiveMatch:
         except BadMessageError:
             self.unreadable += 1
             return None
-
-
-async def pause(stop: asyncio.Event, seconds: float) -> bool:
-    """Wait so long, or until `stop` is set; whether it is."""
-    with contextlib.suppress(TimeoutError):
-        await asyncio.wait_for(stop.wait(), seconds)
-    return stop.is_set()

@@ -6,11 +6,12 @@ import socket
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from coach_gateway.match.live import LiveMatch, pause
+from coach_gateway.match.live import LiveMatch
 from coach_gateway.refbox.audience import Audience, event
 from coach_gateway.refbox.call_generator import CallGenerator
 from coach_gateway.refbox.own_world_state import own_world_state
 from coach_gateway.refbox.team_world_state import TeamWorldState
+from coach_gateway.service import pause
 from schemas.errors import TouchlineError
 from schemas.game import GameState
 from schemas.league.robot_numbers import numbers_of

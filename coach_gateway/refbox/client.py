@@ -12,11 +12,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from coach_gateway.access.rate_limit import TokenBucket
-from coach_gateway.match.live import LiveMatch, pause
+from coach_gateway.match.live import LiveMatch
 from coach_gateway.refbox import DEFAULT_PORT, characters, commands
 from coach_gateway.refbox.forwarding import WAITS_FOR_START, SignalResponse, is_ours, response_to, speaks_for
 from coach_gateway.refbox.framing import BoxProtocol, Framer
 from coach_gateway.refbox.own_world_state import own_world_state
+from coach_gateway.service import pause
 from schemas.errors import TouchlineError
 from schemas.game import OfficiatingMode, RefereeAction
 from schemas.league.robot_numbers import numbers_of

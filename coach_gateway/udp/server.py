@@ -6,8 +6,9 @@ from typing import Any
 
 from coach_gateway.access.rights import sides_shown
 from coach_gateway.access.roles import Role
-from coach_gateway.match.live import LiveMatch, pause
+from coach_gateway.match.live import LiveMatch
 from coach_gateway.ports import LOOPBACK, cannot_listen
+from coach_gateway.service import pause
 from coach_gateway.udp import DEFAULT_PORT
 from coach_gateway.udp.coach_programs import Address, CoachPrograms, PendingRequest
 from coach_gateway.udp.coach_record import MatchMode
