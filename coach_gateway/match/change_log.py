@@ -4,7 +4,6 @@ import threading
 from collections.abc import Callable
 
 from coach_gateway.match.follower import MatchFollower
-from coach_gateway.match.host_presence import HostPresence
 from coach_gateway.match.lines import event_line, state_line
 from schemas.bus.contract import Bus
 from schemas.errors import TouchlineError
@@ -22,19 +21,19 @@ def log_changes(bus: Bus, log: Callable[[str], None], stop: threading.Event, pat
         TouchlineError: no host shows itself within `patience` s of wall time.
     """
     follower = MatchFollower(bus)
-    host = HostPresence(bus)
     bus.declare_alive("coach", "watch")
-    if not host.wait(patience):
+    if not follower.host.wait(patience):
         raise TouchlineError(f'match "{bus.match}": no host plays it there; name the match with --match')
     before: GameState | None = None
     going = True
     while going:
-        going = not (host.gone() or stop.is_set())  # looked at first, so that the last messages are still said
-        for message in follower.update():
+        going = not stop.is_set()
+        for message in follower.update().messages:
             line = change_line(before, message)
             before = message if isinstance(message, GameState) else before
             if line is not None:
                 log(line)
+        going = going and not follower.gone
         if going:
             bus.clock.sleep_until(bus.clock.now() + _POLL)
 

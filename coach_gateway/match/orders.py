@@ -98,9 +98,10 @@ class OrderBook:
 class OrderFollower:
     """Hears what the host says of the orders."""
 
-    def __init__(self, bus: Bus) -> None:
+    def __init__(self, bus: Bus, book: OrderBook | None = None) -> None:
+        """`book` is filled in; without one a new one is."""
         self._subscription = bus.subscribe(ACTIVE_ORDER)
-        self.book = OrderBook()
+        self.book = book if book is not None else OrderBook()
         self.unreadable = 0
         """Messages that could not be read; each was left out."""
 

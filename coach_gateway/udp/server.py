@@ -119,7 +119,7 @@ class UdpServer(asyncio.DatagramProtocol):
                 number = order.sequence
         except TouchlineError as error:
             return Ack(**ack, accepted=False, reason=str(error))
-        receipts = [self._live.orders.book.receipt(side, number or 0) for side in request.sides]
+        receipts = [self._live.orders.receipt(side, number or 0) for side in request.sides]
         had = [name for receipt in receipts for name in receipt.acknowledged]
         robots = [name for name, its in self._live.sides.items() if its in request.sides]
         missing = [name for name in robots if name not in had]
@@ -162,7 +162,7 @@ class UdpServer(asyncio.DatagramProtocol):
             modes = {side: MatchMode.of_game(phase, running=state.running) for side, phase in phases.items()}
         orders = {}
         for side in own:
-            active = live.orders.book.active(side)
+            active = live.orders.active(side)
             if active is not None:
                 orders[side] = SideOrder(order=active.order.sequence, acknowledged=active.acknowledged)
         return Frame(

@@ -156,13 +156,15 @@ def test_an_order_of_one_side_waits_for_none_of_the_others(opened: Any, until: A
     async def play() -> None:
         async with opened() as bench:
             held = threading.Event()
-            bench.live._benches[Side.CYAN].order = lambda *_, **__: held.wait(30.0)
+            bench.live._order_clients[Side.CYAN].order = lambda *_, **__: held.wait(30.0)
             slow = [asyncio.create_task(bench.live.order(Side.CYAN, mode="hold")) for _ in range(50)]
             await asyncio.sleep(0)
             assert (await bench.live.order(Side.MAGENTA, mode="hold")).mode == "hold"
             assert not any(one.done() for one in slow)
             held.set()
             await asyncio.gather(*slow)
+
+    asyncio.run(play())
 
 
 def test_what_changes_while_the_host_answers_is_asked_for_again(until: Any) -> None:
@@ -203,9 +205,9 @@ def test_what_cannot_be_read_is_counted_and_left_out(opened: Any, until: Any) ->
         async with opened() as bench:
             for topic, chunks in ((STATE, {}), (EVENT, {}), (BELIEF, {"side": "cyan", "robot": "cyan1"})):
                 bench.stage.bus.publisher(topic, **chunks).put_payload(b"{")
-            await until(lambda: bench.live.unreadable >= 2)
+            await until(lambda: bench.live.follower.unreadable >= 2)
             assert bench.live.beliefs(list(Side)) == {}
-            assert bench.live.unreadable == 3
+            assert bench.live.follower.unreadable == 3
 
     asyncio.run(play())
 

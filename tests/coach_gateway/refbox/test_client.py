@@ -334,7 +334,10 @@ def test_a_box_that_says_more_than_can_be_done_is_heard_in_what_it_said_last(
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
-            state, bench.live.state = bench.live.state, None  # nothing is passed on as long as no match is known
+            state, bench.live.follower.state = (
+                bench.live.state,
+                None,
+            )  # nothing is passed on as long as no match is known
             box.hang_up()
             box.came = 0
             await until(lambda: client.counts["connections"] == 2 and box.links)
@@ -342,7 +345,7 @@ def test_a_box_that_says_more_than_can_be_done_is_heard_in_what_it_said_last(
                 b"".join(json.dumps({"command": name, "targetTeam": CYAN_AT}).encode() + b"\0" for name in RESTARTS)
             )
             await until(lambda: client.counts["heard"] >= len(RESTARTS) + 1)
-            bench.live.state = state
+            bench.live.follower.state = state
             await until(lambda: len(bench.stage.asked) == 3)
             assert asked(bench) == [f"{word} cyan" for word in list(RESTARTS.values())[-3:]]
             assert client.counts["passed over"] >= 3
