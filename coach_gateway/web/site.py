@@ -12,8 +12,12 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket
 
+import schemas
+
 PAGE = Path(__file__).parent / "page"
 """What runs in the browser."""
+SHARED = Path(schemas.__file__).parent / "page"
+"""Modules that the page of a match's statistics uses too; served below `/shared`."""
 
 HEADERS = {
     "Content-Security-Policy": (
@@ -37,7 +41,11 @@ def site(enter: Callable[[WebSocket], Awaitable[None]], folder: Path = PAGE) -> 
     for ending, kind in _TYPES.items():
         mimetypes.add_type(kind, ending)
     return Starlette(
-        routes=[WebSocketRoute("/ws", enter), Mount("/", _Files(directory=folder, html=True))],
+        routes=[
+            WebSocketRoute("/ws", enter),
+            Mount("/shared", _Files(directory=SHARED)),
+            Mount("/", _Files(directory=folder, html=True)),
+        ],
         middleware=[Middleware(_Strict)],
     )
 

@@ -1,7 +1,7 @@
 // What robots believe, beside what is true: their own place and the ball, as they said it on the radio, and passes.
 
-import { SIDES, circle, arrowHead, line, write } from "./shapes.js";
-import { bodyPath, drawnRadius } from "./bodies.js";
+import { bodyPath, drawnRadius } from "./shared/bodies.js";
+import { SIDES, circle, line, write } from "./shared/shapes.js";
 import { numberOf } from "./text.js";
 
 /** Turns what is said in the frame of a side into the field's. */
@@ -65,4 +65,19 @@ function drawBall(context, projection, ball, own, colours, name, match, side) {
   const number = numberOf(name, match.setup.teams[side].robots);
   write(context, number, projection.x(ball.x) + 12, projection.y(ball.y) - 9, 10, { colour: colours.line });
   context.globalAlpha = 1;
+}
+
+/** An arrow's head at `to`, in the colour of the lines. */
+function arrowHead(context, projection, from, to, size) {
+  const angle = Math.atan2(projection.y(to.y) - projection.y(from.y), projection.x(to.x) - projection.x(from.x));
+  context.save();
+  context.translate(projection.x(to.x), projection.y(to.y));
+  context.rotate(angle);
+  context.fillStyle = context.strokeStyle;
+  context.beginPath();
+  context.moveTo(0, 0);
+  context.lineTo(-size, 0.5 * size);
+  context.lineTo(-size, -0.5 * size);
+  context.fill();
+  context.restore();
 }

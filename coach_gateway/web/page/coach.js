@@ -1,6 +1,6 @@
 // Orders to a side: what the team shall do, and the test mode with points and angles picked on the field.
 
-import { circle, write } from "./shapes.js";
+import { circle, write } from "./shared/shapes.js";
 import { onField } from "./beliefs.js";
 import { byId, choice, element, mark, offer, setText, show } from "./elements.js";
 import { FIELDS, TESTS } from "./coach_tests.js";

@@ -1,6 +1,6 @@
 // How far robots have to stay from the ball, while a restart is signalled and until the ball is in play.
 
-import { SIDES, circle, write } from "./shapes.js";
+import { SIDES, circle, write } from "./shared/shapes.js";
 
 const SIDED = new Set(["kick_off", "free_kick", "goal_kick", "throw_in", "corner", "penalty"]);
 

@@ -2,7 +2,7 @@
 
 import { byId, choice, element, offer } from "./elements.js";
 import { TRAILS } from "./trails.js";
-import { SEEN_FROM } from "./projection.js";
+import { SEEN_FROM } from "./seen_from.js";
 
 const KEY = "touchline.layers";
 const SWITCHES = [

@@ -1,11 +1,11 @@
 // A recording is played here: a bar with the marks of its events, play, pause, step, rate, loop, and jumps.
 
 import { byId, mark, setText, show } from "./elements.js";
-import { LEAD_S } from "./events.js";
-import { SIDES } from "./shapes.js";
+import { SYMBOLS, jumpTarget } from "./shared/events.js";
+import { SIDES } from "./shared/shapes.js";
 import { clockText } from "./text.js";
 
-const MARKED = { goal: "★", card: "▮", foul: "•", half_time: "|", full_time: "|" };
+const MARKED = new Set(["goal", "card", "foul", "half_time", "full_time"]);
 
 export class Replay {
   #wanted = null;
@@ -109,9 +109,8 @@ export class Replay {
 
   /** To the event before or after the shown moment. */
   jump(step) {
-    const times = this.match.events.filter(({ kind }) => MARKED[kind]).map(({ time }) => Math.max(time - LEAD_S, this.match.replay?.start ?? 0));
-    const now = this.time;
-    const to = step > 0 ? times.find((time) => time > now + 0.05) : times.findLast((time) => time < now - 0.5);
+    const marked = this.match.events.filter(({ kind }) => MARKED.has(kind));
+    const to = jumpTarget(marked, step, this.time, this.match.replay?.start ?? 0);
     if (to !== undefined) this.seek(to);
   }
 
@@ -149,11 +148,11 @@ export class Replay {
     context.textBaseline = "middle";
     const ink = getComputedStyle(canvas).color;
     for (const event of events) {
-      if (!MARKED[event.kind] || event.time < replay.start || event.time > replay.end) continue;
+      if (!MARKED.has(event.kind) || event.time < replay.start || event.time > replay.end) continue;
       const left = ((event.time - replay.start) / Math.max(replay.end - replay.start, 0.01)) * width;
       context.fillStyle = event.kind === "goal" && event.side ? SIDES[event.side].fill : ink;
       context.font = `${event.kind === "goal" ? 17 : 12}px system-ui, "DejaVu Sans", sans-serif`;
-      context.fillText(MARKED[event.kind], Math.min(Math.max(left, 7), width - 7), height / 2);
+      context.fillText(SYMBOLS[event.kind], Math.min(Math.max(left, 7), width - 7), height / 2);
     }
   }
 }

@@ -1,6 +1,6 @@
 // Where everything has been: a tail behind each body, or all of its way.
 
-import { SIDES } from "./shapes.js";
+import { SIDES } from "./shared/shapes.js";
 
 export const TRAILS = [
   ["off", "off"],

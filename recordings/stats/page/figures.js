@@ -1,6 +1,6 @@
 // The figures: what both sides did, side by side, and a table of robots.
 
-import { element } from "./events.js";
+import { element } from "./event_list.js";
 
 /** A row for each figure of the two sides, with a bar that shows their shares. */
 export function showSides(place, rows) {

@@ -1,14 +1,13 @@
 // The list of what happened; of a recording, each event leads to its moment.
 
 import { byId, element, mark } from "./elements.js";
+import { LEAD_S, indexAt, isKey } from "./shared/events.js";
 import { clockText, capitalized } from "./text.js";
 
-const LESSER = new Set(["stop", "start", "in_play", "restart", "ball_out", "agent", "parameters", "action", "no_goal"]);
 const GREAT = new Set(["goal", "half_time", "full_time", "forfeit"]);
 const MOST = 400; // lines shown
-export const LEAD_S = 2; // a jump goes to so long before the event
 
-export class Events {
+export class EventList {
   #shown = 0;
   #all = false;
   #rows = [];
@@ -31,7 +30,7 @@ export class Events {
   /** Marks the event that the shown moment follows. */
   follow(time) {
     if (this.match.live) return;
-    const now = this.#rows.findLast(({ event }) => event.time <= time + 1e-6)?.row;
+    const now = this.#rows[indexAt(this.#rows, time)]?.row;
     if (now === this.#now) return;
     this.#now = now;
     for (const { row } of this.#rows) mark(row, "now-is", row === now);
@@ -61,9 +60,9 @@ export class Events {
     const list = byId("events");
     const { events, eventCount } = this.match;
     for (const event of events.slice(Math.max(0, events.length - (eventCount - this.#shown)))) {
-      if (!this.#all && LESSER.has(event.kind)) continue;
+      if (!this.#all && !isKey(event)) continue;
       const row = this.#row(event);
-      this.#rows.push({ row, event });
+      this.#rows.push({ row, time: event.time });
       if (this.match.live) list.prepend(row);
       else list.append(row);
     }
