@@ -1,4 +1,4 @@
-"""Who may do what from the page: one table of deeds, and whose robots a deed is about. Pure."""
+"""Which role may do which deed, as one table; a coach may do some deeds for its own side alone. Pure."""
 
 from collections.abc import Mapping
 
@@ -22,7 +22,7 @@ RIGHTS: dict[str, frozenset[Role]] = {
     "scene": _REFEREE,
     "replay": _REFEREE,
 }
-"""Deed → the roles that may do it: referee's actions by their names, and what else the page asks for."""
+"""Deed → the roles that may do it: the referee's actions by name, and other requests of the page."""
 
 _FOR_A_SIDE = frozenset(
     {ActionName.REPAIR.value, ActionName.SUBSTITUTE.value, ActionName.ENTER.value, "order", "drive"}
@@ -31,12 +31,12 @@ _FOR_A_SIDE = frozenset(
 
 
 def deeds_of(role: Role) -> list[str]:
-    """What a role may do."""
+    """The deeds of a role."""
     return [deed for deed, roles in RIGHTS.items() if role in roles]
 
 
 def sides_shown(role: Role, *, to_all: bool) -> list[Side]:
-    """Whose own affairs, orders or beliefs, a role is shown: a coach never the other side's, unless `to_all`."""
+    """The sides whose orders or beliefs a role is shown: a coach only its own, unless `to_all`."""
     if to_all or role is Role.REFEREE:
         return list(Side)
     return [COACHES[role]] if role in COACHES else []

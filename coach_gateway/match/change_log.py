@@ -1,4 +1,4 @@
-"""The match as plain lines, one whenever something changes, until its host goes."""
+"""The match as plain lines, one for each change, until its host leaves."""
 
 import threading
 from collections.abc import Callable
@@ -15,10 +15,10 @@ _POLL = 0.05
 
 
 def log_changes(bus: Bus, log: Callable[[str], None], stop: threading.Event, patience: float = 5.0) -> None:
-    """Say a line for each change until the host goes or `stop` is set.
+    """Log a line for each change until the host leaves or `stop` is set.
 
     Raises:
-        TouchlineError: no host shows itself within `patience` s of wall time.
+        TouchlineError: no host appears within `patience` s of wall time.
     """
     follower = MatchFollower(bus)
     bus.declare_alive("coach", "watch")
@@ -39,7 +39,7 @@ def log_changes(bus: Bus, log: Callable[[str], None], stop: threading.Event, pat
 
 
 def change_line(before: GameState | None, message: GameEvent | GameState | Health) -> str | None:
-    """The line for a message, or nothing when it holds nothing new to people."""
+    """The line for a message; None when it holds nothing new to people."""
     match message:
         case GameEvent():
             return event_line(message)

@@ -1,4 +1,4 @@
-"""Whether the host of a match is there: its token seen, and the link to it up."""
+"""Whether the host of a match is there: its liveliness token is seen, and the link to it is up."""
 
 from schemas.bus.contract import Bus
 
@@ -19,7 +19,7 @@ class HostPresence:
         """The host's token is there."""
 
     def gone(self) -> bool:
-        """The host was there and is no more."""
+        """Whether the host was there and has left."""
         while (presence := self._watch.receive()) is not None:
             if presence.kind == "host":
                 self.there = presence.alive
@@ -30,7 +30,7 @@ class HostPresence:
         return self.seen and (not self.there or now - self._linked_at > GRACE)
 
     def wait(self, patience: float) -> bool:
-        """Whether the host shows itself within `patience` s of wall time."""
+        """Wait up to `patience` s of wall time for the host; returns whether it has appeared."""
         clock = self._bus.clock
         deadline = clock.now() + patience
         while not self.seen and clock.now() < deadline:

@@ -132,19 +132,22 @@ class LiveMatch:
         return {name: beliefs[name] for name in sorted(beliefs) if self.sides.get(name) in wanted}
 
     def on_state(self, handle: Callable[[GameState], None]) -> None:
-        """Have every state told from now on, in order, beginning with the one that stands."""
+        """Call `handle` with every state from now on, in order, beginning with the newest one."""
         self._state_handlers.append(handle)
         if self.state is not None:
             handle(self.state)
 
     def connect_refbox(self, side: Side, *, connected: bool) -> None:
-        """Tell everybody whether this side's base station hears a referee box: then others may only stop the game."""
+        """Declare on the bus whether this side's base station is connected to a referee box.
+
+        While one is, everyone else may only stop the game.
+        """
         (self._bus.declare_alive if connected else self._bus.withdraw_alive)(REFBOX, side.value)
 
     async def act(self, action: RefereeAction) -> ActionReply:
         """Ask the referee; without a host the answer is a refusal that says so.
 
-        When it returns, `state` is what the action has led to, so that who asks on decides by no older one.
+        When it returns, `state` is at least as new as the action: the next request never rests on an older state.
         """
         urgent = action.action is ActionName.STOP or action.source == REFBOX
         threads = self._urgent if urgent else self._threads
@@ -157,17 +160,17 @@ class LiveMatch:
         return reply
 
     async def _catch_up(self, tick: int) -> None:
-        """Wait for the state of a tick, which the host has told; one that is lost on its way is not waited for long."""
+        """Wait for the state of a tick that the host has published, for a limited time in case it was lost."""
         until = self.now + _CATCH_UP_S
         while (self.state is None or self.state.tick < tick) and self.now < until:
             await asyncio.sleep(_LOOK_S)
             self.update()
 
     async def order(self, side: Side, **content: Any) -> CoachOrder:
-        """Give a side its new standing order; of two, the later one has the larger number. No side waits for the other.
+        """Send a side its new order; of two orders the later has the larger number. No side waits for the other.
 
         Raises:
-            TouchlineError: no host answers, or the order may not be what it is.
+            TouchlineError: no host answers, or the order is invalid.
         """
         async with self._ordering[side]:
             return await self._in_thread(lambda: self._order_clients[side].order(side, **content), self._threads)
@@ -178,18 +181,18 @@ class LiveMatch:
         return await asyncio.get_running_loop().run_in_executor(threads, ask)
 
     def _refresh_setup(self) -> None:
-        """Ask how the match is set up, one question at a time."""
+        """Query how the match is set up, one query at a time."""
         asking = self._asking is not None and not self._asking.done()
         if self._stale and not asking and self.now >= self._asked_at + _ASK_S:
             self._asked_at = self.now
             self._asking = asyncio.get_running_loop().create_task(self._ask_setup())
 
     async def _ask_setup(self) -> None:
-        self._stale = False  # another host may come before this one has answered
+        self._stale = False  # another host may come before this one replies
         try:
             setup = await self._in_thread(self._client.setup, self._threads)
         except TouchlineError:
-            self._stale = True  # there is no host yet; it is asked again
+            self._stale = True  # there is no host yet; the query is repeated
             return
         self.setup = setup
         self.sides = {name: side for side, team in setup.teams.items() for name in team.robots}

@@ -1,4 +1,4 @@
-"""The socket that coach programs speak to: nobody waits for anybody, and what is lost is known by its number."""
+"""The socket that coach programs use. No program waits for another; lost datagrams show as gaps in the numbers."""
 
 import asyncio
 from collections.abc import Callable
@@ -22,7 +22,7 @@ from schemas.side import Side
 _LOOK_S = 0.01
 """s of wall time between two looks at which program is due."""
 _EVENTS_AT_ONCE = 50
-"""Told at most with one frame, or for one datagram that asks for them: more would be lost in a full buffer."""
+"""Events sent at most with one frame, or for one request for events: more would be lost in a full buffer."""
 
 
 class UdpServer(asyncio.DatagramProtocol):
@@ -36,20 +36,20 @@ class UdpServer(asyncio.DatagramProtocol):
         port: int = DEFAULT_PORT,
         host: str = LOOPBACK,
     ) -> None:
-        """`role_of` tells whom a token stands for; `log` is given a line whenever people should know something."""
+        """`role_of` returns the role of a token; `log` is called with lines for people."""
         self._live = live
         self._log = log
         self._at = (host, port)
         self._coaches = CoachPrograms(role_of, live.now)
         self._transport: asyncio.DatagramTransport | None = None
         self._full = False
-        """The socket takes no more just now: frames are left out."""
+        """The socket's buffer is full: frames are left out."""
         self._tasks: dict[asyncio.Task[None], None] = {}
         self.port = 0
         """Where it listens, once it does."""
 
     async def serve(self, stop: asyncio.Event) -> None:
-        """Hear coach programs, and tell them how things stand, until `stop` is set.
+        """Receive datagrams of coach programs and send them frames until `stop` is set.
 
         Raises:
             TouchlineError: the port is taken.
@@ -73,7 +73,7 @@ class UdpServer(asyncio.DatagramProtocol):
             transport.close()
 
     def datagram_received(self, data: bytes, addr: Address) -> None:
-        """A datagram came."""
+        """Handle a datagram."""
         result = self._coaches.handle(data, addr, self._live.now, self._live.sides)
         if result.ack is not None:
             self._send(result.ack, addr)
@@ -90,18 +90,18 @@ class UdpServer(asyncio.DatagramProtocol):
             task.add_done_callback(lambda done: self._tasks.pop(done, None))
 
     def pause_writing(self) -> None:
-        """The socket is full."""
+        """Leave out frames: the socket's buffer is full."""
         self._full = True
 
     def resume_writing(self) -> None:
-        """The socket takes datagrams again."""
+        """Send frames again: the socket's buffer has room."""
         self._full = False
 
     def error_received(self, exc: Exception) -> None:
-        """A program's port is closed: its session ends by its silence."""
+        """Ignore that a program's port is closed: its session ends by its silence."""
 
     async def _do(self, request: PendingRequest) -> None:
-        """Ask the referee or give an order, and answer."""
+        """Ask the referee or send an order, and acknowledge the datagram."""
         ack: dict[str, Any] = {"sequence": request.sequence, "of": request.kind}
         if request.action is not None:
             reply = await self._live.act(request.action)
@@ -126,12 +126,12 @@ class UdpServer(asyncio.DatagramProtocol):
         return Ack(**ack, accepted=True, order=number, acknowledged=had, missing=missing)
 
     def _send_due(self) -> None:
-        """Frames to those who are due, and an end to those who have fallen silent."""
+        """Send frames to sessions that are due, and end those that have fallen silent."""
         now = self._live.now
         for address, session in tuple(self._coaches.sessions.items()):
             if session.is_over(now):
                 self._coaches.end(address)
-                self._send(SessionEnd(reason=f"nothing was heard for {SILENCE_S:g} s"), address)
+                self._send(SessionEnd(reason=f"nothing was received for {SILENCE_S:g} s"), address)
                 self._log(f"{session.role} program {session.name} has fallen silent")
             elif now >= session.due_at:
                 session.due_at = max(session.due_at + 1.0 / session.rate, now)

@@ -1,4 +1,4 @@
-"""Carries out what a page asks for and its role allows: asks host or replay, gives orders, drives robots."""
+"""Carries out the requests of pages that their roles allow: queries to the host or a replay, orders, manual control."""
 
 import asyncio
 from collections.abc import Callable, Mapping
@@ -29,15 +29,15 @@ from schemas.side import Side
 from schemas.topics import MANUAL
 
 SOURCES = {Role.REFEREE: "referee's page", Role.CYAN: "cyan's page", Role.MAGENTA: "magenta's page"}
-"""How the match names who asked."""
+"""Role → the source that the match records for a request."""
 
 _THREADS = 4
-"""Questions of one role, or stops, that are on their way at once; further ones wait."""
+"""Requests of one role, or stops, that are in progress at once; further ones wait."""
 _IN_EVERY_REPLY = frozenset({"version", "accepted", "reason"})
 
 
 class RequestHandler:
-    """Takes what pages ask to the match."""
+    """Takes requests of pages to the match."""
 
     def __init__(self, bus: Bus) -> None:
         self.client = HostClient(bus)
@@ -49,8 +49,11 @@ class RequestHandler:
         self._stops = ThreadPoolExecutor(_THREADS, thread_name_prefix="stop")
 
     async def answer(self, role: Role, request: PageRequest) -> Reply:
-        """Ask the match, and say what came of it; questions of one role wait for no other's, orders of one side
-        for none of the other's, and a stop for nothing at all."""
+        """Send a request to the match and return its reply.
+
+        Requests of one role do not wait for those of another, orders of one side not for those of the other, and a stop
+        waits for nothing.
+        """
         try:
             match request:
                 case PageOrder():
@@ -65,13 +68,13 @@ class RequestHandler:
         return Reply(id=request.id, accepted=reply.accepted, reason=reply.reason, answer=_content(reply))
 
     def drive(self, request: PageDrive) -> None:
-        """Have a person drive a robot; sent, and not waited for."""
+        """Send a drive to a robot, without waiting."""
         if request.robot not in self._manual:
             self._manual[request.robot] = self._bus.publisher(MANUAL, robot=request.robot)
         self._manual[request.robot].put(request.manual)
 
     def _query(self, role: Role, request: PageRequest) -> Callable[[], Any]:
-        """What to ask the match; takes as long as the answer."""
+        """The query of a request; it blocks until the reply."""
         source = {"source": SOURCES.get(role, role.value)}
         match request:
             case PageAction():
@@ -86,7 +89,7 @@ class RequestHandler:
             case PageReplay():
                 replay = request.request
                 return lambda: self.client.replay(replay)
-        raise TypeError(f"{request.deed} is no question to the match")
+        raise TypeError(f"{request.deed} is not a query to the match")
 
     def _order(self, request: PageOrder) -> CoachOrder:
         content = request.order.model_dump(exclude={"version", "sequence"}, exclude_unset=True)
@@ -112,7 +115,7 @@ def refusal(role: Role, request: PageRequest, robots: Mapping[str, Side]) -> str
 
 
 def is_stop(request: PageRequest) -> bool:
-    """Whether the game is to be stopped."""
+    """Whether a request stops the game."""
     return isinstance(request, PageAction) and request.action.action is ActionName.STOP
 
 
@@ -125,5 +128,5 @@ def _accepted(request: PageRequest, order: CoachOrder) -> Reply:
 
 
 def _content(reply: Message) -> dict[str, Any] | None:
-    """What was said beside yes or no."""
+    """The fields of a reply beside `accepted` and `reason`."""
     return reply.model_dump(mode="json", exclude=set(_IN_EVERY_REPLY)) or None

@@ -104,7 +104,7 @@ def test_a_port_that_is_asked_for_twice_is_told_too() -> None:
 
 @pytest.mark.parametrize("address", ["192.0.2.1", "a..b"])
 def test_an_address_that_is_not_this_machines_is_told_as_such(address: str) -> None:
-    with pytest.raises(TouchlineError, match=f"--listen-bridges {address} is no address of this machine"):
+    with pytest.raises(TouchlineError, match=f"--listen-bridges {address} is not an address of this machine"):
         asked(udp=0, listen=address).try_ports()
 
 

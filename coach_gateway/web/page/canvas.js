@@ -1,4 +1,4 @@
-// The picture of the match: the ground when it changes, all that moves thirty times a second or more.
+// The picture of the match: the ground is drawn when it changes, everything that moves with each frame of the browser.
 
 import { drawBeliefs, drawPasses } from "./beliefs.js";
 import { drawDistances } from "./distances.js";
@@ -12,17 +12,17 @@ import { SIDES } from "./shared/shapes.js";
 import { Trails } from "./trails.js";
 
 const BALL_VELOCITY = "#ffd978";
-const ROOM_PX = 520; // a narrower field has room for the chosen robot's role alone
+const ROOM_PX = 520; // a narrower field shows the role of the chosen robot alone
 
 export class PitchCanvas {
   projection = new Projection();
-  /** What is drawn now, or nothing. */
+  /** The world that is drawn, or null. */
   world = null;
-  /** Pictures drawn since the page was opened. */
+  /** Frames drawn since the page was opened. */
   drawn = 0;
-  /** Pictures in the last whole second. */
+  /** Frames in the last whole second. */
   rate = 0;
-  /** What others draw over it all: functions of (context, projection). */
+  /** Functions of (context, projection) that draw over everything. */
   over = [];
   #trails = new Trails();
   #second = 0;

@@ -1,4 +1,4 @@
-// The list of what happened; of a recording, each event leads to its moment.
+// The list of events; in a recording, a click on one seeks to it.
 
 import { byId, element, mark } from "./elements.js";
 import { LEAD_S, indexAt, isKey } from "./shared/events.js";
@@ -15,19 +15,19 @@ export class EventList {
 
   constructor(match, jump) {
     Object.assign(this, { match, jump });
-    match.on("welcome", () => this.#anew());
+    match.on("welcome", () => this.#restart());
     match.on("event", () => this.#later());
     for (const [id, all] of [["key-events", false], ["all-events", true]]) {
       byId(id).addEventListener("click", () => {
         this.#all = all;
         byId("key-events").setAttribute("aria-pressed", !all);
         byId("all-events").setAttribute("aria-pressed", all);
-        this.#anew();
+        this.#restart();
       });
     }
   }
 
-  /** Marks the event that the shown moment follows. */
+  /** Marks the newest event at the shown time. */
   follow(time) {
     if (this.match.live) return;
     const now = this.#rows[indexAt(this.#rows, time)]?.row;
@@ -38,7 +38,7 @@ export class EventList {
     if (now) list.scrollTop += now.getBoundingClientRect().top - list.getBoundingClientRect().top - list.clientHeight / 2;
   }
 
-  #anew() {
+  #restart() {
     this.#shown = 0;
     this.#rows = [];
     this.#now = undefined;
@@ -46,7 +46,7 @@ export class EventList {
     this.#later();
   }
 
-  /** Events come in crowds at the beginning: they are shown together. */
+  /** Many events come at once at the beginning: they are shown together. */
   #later() {
     if (this.waiting) return;
     this.waiting = true;

@@ -68,8 +68,8 @@ def test_a_token_stands_behind_the_sign_that_no_browser_sends() -> None:
         ("no json", "is not JSON; delete it"),
         ({}, "need a token each"),
         ([], "need a token each"),
-        ({"referee": "short", "cyan": "long-enough-1", "magenta": "long-enough-2"}, "at least 8 characters"),
-        ({"referee": "the-same-token", "cyan": "the-same-token", "magenta": "another-token"}, "different ones"),
+        ({"referee": "short", "cyan": "long-enough-1", "magenta": "long-enough-2"}, "8 characters or longer"),
+        ({"referee": "the-same-token", "cyan": "the-same-token", "magenta": "another-token"}, "all different"),
         ({"referee": 12345678, "cyan": "long-enough-1", "magenta": "long-enough-2"}, "need a token each"),
     ],
 )

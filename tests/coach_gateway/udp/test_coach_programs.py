@@ -114,12 +114,12 @@ def test_a_program_waits_for_its_answers_before_it_asks_more_but_a_stop_is_alway
 
 @pytest.mark.parametrize("session", ["", "guessed", "é"])
 def test_without_its_session_nothing_is_done(cyan: Program, session: str) -> None:
-    assert "no such session" in cyan.refusal("order", order={"mode": "hold"}, session=session)
+    assert "unknown session" in cyan.refusal("order", order={"mode": "hold"}, session=session)
 
 
 def test_another_address_has_no_part_in_a_session(coaches: CoachPrograms, cyan: Program) -> None:
     cyan.address = ("127.0.0.1", 77)
-    assert "no such session" in cyan.refusal("order", order={"mode": "hold"})
+    assert "unknown session" in cyan.refusal("order", order={"mode": "hold"})
 
 
 def test_an_order_is_for_the_coachs_own_side(cyan: Program) -> None:
@@ -185,7 +185,7 @@ def test_a_match_mode_of_the_referee_is_an_action(
 def test_a_match_mode_of_a_coach_is_an_order_to_its_robots(cyan: Program) -> None:
     deed = cyan.say("match_mode", mode="stop").request
     assert deed is not None and (deed.sides, deed.order) == ((Side.CYAN,), {"mode": CoachMode.HOLD})
-    assert "says which" in cyan.refusal("match_mode", mode="test")
+    assert "names the test" in cyan.refusal("match_mode", mode="test")
     assert "mode is 14; known: 0, 1" in cyan.refusal("match_mode", mode=14)
 
 

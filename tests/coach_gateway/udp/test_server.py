@@ -298,7 +298,7 @@ def test_a_program_that_falls_silent_is_told_that_its_session_is_over(
             frames = len(quiet.of("frame"))
             asked = quiet.send("alive")
             await until(lambda: quiet.acks(asked))
-            assert "no such session" in quiet.acks(asked)[0]["reason"]
+            assert "unknown session" in quiet.acks(asked)[0]["reason"]
             assert len(quiet.of("frame")) == frames
 
     asyncio.run(play())
@@ -343,7 +343,7 @@ def test_the_example_coaches_a_side_with_nothing_but_pythons_own_library(served:
             lines = output.splitlines()
             assert lines[0] == "coach of cyan"
             assert "order mode hold: acknowledged by all" in lines
-            assert any(line.startswith("a corner for us: our_corner is the referee's") for line in lines)
+            assert any(line.startswith("a corner for us: our_corner is for the referee alone") for line in lines)
             assert "cyan2 at 1.00, 2.00, wait" in lines
             given: list[CoachOrder] = [order for _, order in bench.stage.orders]
             assert [order.mode.value for order in given] == ["hold", "play", "test", "play"]

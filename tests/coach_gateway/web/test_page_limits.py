@@ -39,7 +39,7 @@ def test_one_address_does_not_take_the_room_of_all_others():
     pages = Pages(300, 100)
     fill(pages, 100, "192.0.2.7")
     assert pages.why_no_room("192.0.2.7") == (
-        "100 pages of your address are open; close one, or have more let in: --pages-per-address"
+        "100 pages of your address are open; close one, or raise --pages-per-address"
     )
     fill(pages, 100, "192.0.2.8")
     pages.forget(next(page for page in pages if page.network == "192.0.2.7"))
@@ -62,6 +62,6 @@ def test_who_is_refused_for_its_address_is_told_so_and_others_come_in(
     other = Visitor(gateway.origin, source_address=("127.0.0.3", 0))
     assert second.hear("refusal")["reason"].startswith("1 pages of your address are open")
     assert other.hear()["kind"] == first.hear()["kind"] == "welcome"
-    assert "1 pages without room" in gateway.server.pages.fault_summary()
+    assert "1 page refused for lack of room" in gateway.server.pages.fault_summary()
     for visitor in (first, second, other):
         visitor.close()

@@ -128,7 +128,7 @@ def test_questions_that_wait_hold_up_neither_a_stop_nor_another_role(
         for _ in range(8):
             page.say("parameters", request={"operation": "list"})
         refused = page.ask("parameters", request={"operation": "list"})
-        assert refused["reason"] == "8 questions of this page still wait for their answers"
+        assert refused["reason"] == "8 requests of this page still wait for their replies"
     assert referee.ask("action", action={"action": "stop"})["accepted"]
     assert not slow.is_set()
     slow.set()

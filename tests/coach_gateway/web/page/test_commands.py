@@ -154,7 +154,7 @@ def test_a_coach_commands_its_own_side_alone(match, visit) -> None:
     match.until(lambda: Side.CYAN in match.host.simulation.orders)
     assert match.host.simulation.orders[Side.CYAN].mode is CoachMode.HOLD
     assert Side.MAGENTA not in match.host.simulation.orders
-    tab.until("document.querySelector('[data-robot=cyan2] [data-is=order]').textContent === 'taken in'")
+    tab.until("document.querySelector('[data-robot=cyan2] [data-is=order]').textContent === 'acknowledged'")
     match.until(lambda: math.hypot(*(match.world["robots"]["cyan2"][axis] for axis in ("vx", "vy"))) < 0.02)
 
 
@@ -171,7 +171,7 @@ def test_a_token_is_taken_from_the_address_kept_and_given_up(match, visit) -> No
     tab.page.locator("#enter-token").click()
     tab.page.locator("#token").fill("nonsense")
     tab.page.keyboard.press("Enter")
-    tab.until("document.getElementById('token-says').textContent.startsWith('refused: nobody has this token')")
+    tab.until("document.getElementById('token-says').textContent.startsWith('refused: unknown token')")
     tab.page.locator("#token").fill("cyans-coach")
     tab.page.keyboard.press("Enter")
     tab.until("window.touchline.match.role === 'cyan'")
@@ -246,7 +246,7 @@ def test_speed_and_noise_are_set_within_their_range_and_reset(match, visit) -> N
     row.wait_for()
     assert "m/s" in row.inner_text()
     before = match.host.simulation.profile.drive.max_speed
-    for wrong, why in (("fast", "refused: fast is no number"), ("1000", "refused: drive.max_speed is 1000")):
+    for wrong, why in (("fast", "refused: fast is not a number"), ("1000", "refused: drive.max_speed is 1000")):
         row.locator("input").fill(wrong)
         row.get_by_role("button", name="Set drive.max_speed", exact=True).click()
         tab.wait_for_log(why)
@@ -317,7 +317,7 @@ def test_a_robot_is_driven_by_keys_in_place_of_its_brain_and_given_back(match, v
     tab.page.keyboard.up("q")
     tab.page.keyboard.press("Escape")
     match.until(lambda: said(match, "cyan2 is given back to its brain"))
-    assert tab.page.locator("#drive-take").inner_text() == "Take in hand"
+    assert tab.page.locator("#drive-take").inner_text() == "Take over"
 
 
 def test_a_gamepad_drives_kicks_and_dribbles(match, visit) -> None:

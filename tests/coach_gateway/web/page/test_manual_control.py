@@ -113,7 +113,7 @@ def test_a_page_that_is_no_longer_seen_gives_the_robot_back(match, visit) -> Non
         }"""
     )
     match.until(lambda: said(match, "cyan2 is given back to its brain"))
-    assert tab.page.locator("#drive-take").inner_text() == "Take in hand"
+    assert tab.page.locator("#drive-take").inner_text() == "Take over"
 
 
 def test_a_robot_that_another_page_drives_cannot_be_taken(match, visit) -> None:
@@ -123,7 +123,7 @@ def test_a_robot_that_another_page_drives_cannot_be_taken(match, visit) -> None:
     second.page.locator("#drive-robot").select_option("cyan2")
     second.page.locator("#drive-take").click()
     second.wait_for_log("Drive cyan2 refused: cyan2 is driven from another page")
-    assert second.page.locator("#drive-take").inner_text() == "Take in hand"
+    assert second.page.locator("#drive-take").inner_text() == "Take over"
     assert first.page.locator("#drive-take").inner_text() == "Give cyan2 back"
     first.page.keyboard.press("Escape")
     match.until(lambda: said(match, "cyan2 is given back to its brain"))
@@ -136,7 +136,7 @@ def test_what_a_coach_drags_stays_where_it_is(resting, visit) -> None:
     for body, (x, y) in (("ball", drop(match, referee)), ("robots.cyan1", match.where("cyan1"))):
         tab.until_seen(body, x, y)
         tab.drag((x, y), (3.0, 3.0))
-        tab.wait_for_log("refused: only the referee sets bodies down")
+        tab.wait_for_log("refused: only the referee places bodies")
         tab.until_seen(body, x, y)
     assert tab.ask("window.touchline.selection.dragged") is None
 
