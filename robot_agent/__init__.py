@@ -1,1 +1,1 @@
-"""The robot side: a brain's contract, runner, world model, skills, the teams that ship. Knows no simulator."""
+"""Robot agents: the contract of a brain, its runner, a world model, skills, the shipped teams. Knows no simulator."""

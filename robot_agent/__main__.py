@@ -3,7 +3,7 @@
     python -m robot_agent --connect tcp/127.0.0.1:7447 --match friendly --robot cyan1 --brain my_team:Brain
 
 Each option may come from the environment instead, as TOUCHLINE_CONNECT and so on. Exit status: 0 the match is over
-or somebody ended it, 1 the brain raised, 2 wrong usage or no host.
+or the process was ended, 1 the brain raised, 2 wrong usage or no host.
 """
 
 import argparse

@@ -131,7 +131,7 @@ def test_after_forgetting_an_equal_tick_is_a_new_sight(played, sight_of):
 
 def test_without_a_host_the_setup_is_asked_for_until_patience_ends(seats):
     _, robot = seats
-    with pytest.raises(TouchlineError, match=r"no host told the setup for 3 s .*--match"):
+    with pytest.raises(TouchlineError, match=r"no host replied with the setup within 3 s .*--match"):
         ask_setup(robot, 3.0)
     assert robot.clock.now() >= 3.0
 
