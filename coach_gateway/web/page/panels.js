@@ -110,7 +110,7 @@ function stateOf({ body, holds, health }) {
 function ballWords({ ball, possession }) {
   const words = [`at ${placeText(ball)}`, `${metres(Math.hypot(ball.vx, ball.vy))} m/s`];
   if (ball.z > HIGH_M) words.push(`${metres(ball.z)} m high`);
-  return [...words, possession ? `${possession} has it` : "free"].join(", ");
+  return [...words, possession ? `${possession} has it` : "no robot has it"].join(", ");
 }
 
 /** A share up to 1 in percent; a larger number is a voltage. */

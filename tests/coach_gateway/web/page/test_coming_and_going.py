@@ -49,7 +49,7 @@ def test_a_host_that_is_killed_and_started_again_is_waited_for(match, visit) -> 
     tab.button("goal", "cyan").click()
     tab.until("document.getElementById('score').textContent === '1 : 0'")
     match.stop()
-    tab.until("document.getElementById('notice').textContent.includes('The host is gone')")
+    tab.until("document.getElementById('notice').textContent.includes('The host has left')")
     assert tab.button("start").is_disabled()
     match.start()
     match.signal_kick_off()
