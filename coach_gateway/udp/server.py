@@ -148,10 +148,10 @@ class UdpServer(asyncio.DatagramProtocol):
                 if session.beliefs_sent.get(robot) != belief.time:
                     session.beliefs_sent[robot] = belief.time
                     self._send(BeliefUpdate(number=session.frames, side=side, belief=belief), address)
-        told = min(session.events_sent, len(self._live.events)) if session.hosts == self._live.hosts else 0
+        sent = min(session.events_sent, len(self._live.events)) if session.hosts == self._live.hosts else 0
         session.hosts = self._live.hosts
-        session.events_sent = min(len(self._live.events), told + _EVENTS_AT_ONCE)
-        for number in range(told, session.events_sent):
+        session.events_sent = min(len(self._live.events), sent + _EVENTS_AT_ONCE)
+        for number in range(sent, session.events_sent):
             self._send_event(number, address)
 
     def _frame(self, session: Session, own: list[Side]) -> Frame:

@@ -50,7 +50,7 @@ def test_without_a_host_the_process_ends_with_one_line_and_status_2():
 
 @pytest.mark.processes
 @pytest.mark.parametrize("polite", [signal.SIGTERM, signal.SIGINT])
-def test_a_robot_told_by_the_environment_answers_a_host_and_ends_politely(setup, sight_of, polite):
+def test_a_robot_configured_by_the_environment_answers_a_host_and_ends_cleanly(setup, sight_of, polite):
     endpoint = with_free_port("tcp/127.0.0.1:0")
     told = {"CONNECT": endpoint, "MATCH": "friendly", "ROBOT": "cyan2", "BRAIN": BRAIN}
     environment = os.environ | {f"TOUCHLINE_{name}": value for name, value in told.items()}

@@ -51,7 +51,7 @@ def test_a_token_stands_for_its_role(role: Role) -> None:
     assert tokens.role_of(tokens.of(role)) is role
 
 
-def test_a_token_that_is_nobody_s_stands_for_nobody() -> None:
+def test_an_unknown_token_has_no_role() -> None:
     tokens = Tokens("the-referee", "the-coach-1", "the-coach-2")
     for forged in ("the-refere", "the-referee ", "THE-REFEREE", "the-coach-", "ö", " ", "\ud800"):
         assert tokens.role_of(forged) is None

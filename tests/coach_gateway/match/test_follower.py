@@ -63,7 +63,7 @@ def test_a_match_is_finished_when_full_time_was_seen() -> None:
     assert follower.finished
 
 
-def test_what_was_missed_is_completed_by_whoever_kept_it_and_nothing_is_there_twice() -> None:
+def test_missed_messages_are_completed_from_a_recording_and_none_is_there_twice() -> None:
     host, follower = seats()
     for topic, message in ((EVENT, goal(1)), (STATE, state(2))):
         host.publisher(topic).put(message)
@@ -92,12 +92,12 @@ def test_the_real_time_factor_is_simulated_over_wall_time_of_what_was_played() -
     assert follower.real_time_factor == 5.0
 
 
-def test_nothing_seen_has_no_speed() -> None:
+def test_the_speed_is_zero_before_anything_was_seen() -> None:
     _, follower = seats()
     assert (follower.wall_s, follower.real_time_factor) == (0.0, 0.0)
 
 
-def test_what_cannot_be_read_is_counted_and_left_out() -> None:
+def test_unreadable_messages_are_counted_and_left_out() -> None:
     host, follower = seats()
     host.publisher(STATE).put_payload(b"{")
     assert follower.update().messages == []
@@ -111,7 +111,7 @@ def test_waiting_for_a_state_ends_after_its_patience() -> None:
 
 
 def test_the_first_state_of_many_that_come_is_not_taken_for_the_newest() -> None:
-    """The host's cache may tell a late reader all of them, the oldest first, and not at once."""
+    """The host's cache may deliver all of them to a late subscriber, the oldest first, and not at once."""
     bus = Medium().open_bus("friendly", SteppedClock())
     follower = MatchFollower(bus)
     states = [

@@ -24,7 +24,7 @@ RESTARTS |= {"CORNER": "corner", "PENALTY": "penalty"}
 
 
 class Box:
-    """A referee box: whoever connects is welcomed with its address, and everybody hears everything."""
+    """A referee box: welcomes each base station with its address, and sends everything to all of them."""
 
     def __init__(self, greets: bool = True, reads: bool = True) -> None:
         self.greets = greets
@@ -133,9 +133,7 @@ def test_every_restart_as_a_character_reaches_the_referee_for_the_right_side(met
 
 
 @pytest.mark.parametrize("protocol", [BoxProtocol.AUTO, BoxProtocol.JSON])
-def test_fragments_and_several_commands_in_one_packet_are_all_heard(
-    protocol: BoxProtocol, met: Any, until: Any
-) -> None:
+def test_fragments_and_several_commands_in_one_packet_are_all_read(protocol: BoxProtocol, met: Any, until: Any) -> None:
     async def play() -> None:
         async with met(protocol) as (bench, box, _):
             bench.stage.say(phase=Phase.STOPPED)
@@ -152,7 +150,7 @@ def test_fragments_and_several_commands_in_one_packet_are_all_heard(
     asyncio.run(play())
 
 
-def test_garbage_between_commands_is_counted_and_the_next_one_heard(met: Any, until: Any) -> None:
+def test_garbage_between_commands_is_counted_and_the_next_command_read(met: Any, until: Any) -> None:
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
@@ -281,7 +279,7 @@ def test_manual_actions_are_locked_while_the_link_is_up_and_not_after(met: Any, 
     asyncio.run(play())
 
 
-def test_a_referee_of_ours_that_decides_beside_the_box_is_told_of(met: Any, until: Any) -> None:
+def test_a_referee_of_ours_that_decides_beside_the_box_is_logged(met: Any, until: Any) -> None:
     async def play() -> None:
         async with met() as (bench, _, _):
             await until(lambda: any("--referee manual" in line for line in bench.said))
@@ -293,7 +291,7 @@ def test_a_link_that_breaks_in_the_middle_of_a_command_is_made_again(met: Any, u
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
-            box.came = 0  # whoever comes next is welcomed as the first one was
+            box.came = 0  # the next base station is welcomed as the first one was
             box.send(b'{"command": "CORNER", "targetTe')
             await asyncio.sleep(0.02)
             box.hang_up()
@@ -305,8 +303,8 @@ def test_a_link_that_breaks_in_the_middle_of_a_command_is_made_again(met: Any, u
     asyncio.run(play())
 
 
-def test_a_box_that_lets_everybody_go_unheard_is_tried_less_and_less_often(opened: Any, until: Any) -> None:
-    """As a tunnel is whose other end is not there: it takes each link, and drops it."""
+def test_a_box_that_drops_every_link_is_tried_less_and_less_often(opened: Any, until: Any) -> None:
+    """Like a tunnel whose other end is missing: it accepts each link, and drops it."""
 
     async def play() -> None:
         came: list[float] = []
@@ -326,9 +324,7 @@ def test_a_box_that_lets_everybody_go_unheard_is_tried_less_and_less_often(opene
     asyncio.run(play())
 
 
-def test_a_box_that_says_more_than_can_be_done_is_heard_in_what_it_said_last(
-    met: Any, until: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_of_too_many_commands_the_newest_count(met: Any, until: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(client_module, "_MOST_WAITING", 3)
 
     async def play() -> None:
@@ -337,7 +333,7 @@ def test_a_box_that_says_more_than_can_be_done_is_heard_in_what_it_said_last(
             state, bench.live.follower.state = (
                 bench.live.state,
                 None,
-            )  # nothing is passed on as long as no match is known
+            )  # no command is forwarded before the match is known
             box.hang_up()
             box.came = 0
             await until(lambda: client.counts["connections"] == 2 and box.links)
@@ -353,7 +349,7 @@ def test_a_box_that_says_more_than_can_be_done_is_heard_in_what_it_said_last(
     asyncio.run(play())
 
 
-def test_a_box_that_says_nothing_that_is_known_does_not_fill_the_log(met: Any, until: Any) -> None:
+def test_unknown_commands_do_not_fill_the_log(met: Any, until: Any) -> None:
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
@@ -383,7 +379,7 @@ def test_a_box_that_comes_late_is_met(opened: Any, until: Any) -> None:
     asyncio.run(play())
 
 
-def test_a_box_that_never_reads_misses_world_states_and_holds_nobody_up(
+def test_a_box_that_never_reads_misses_world_states_and_delays_nothing(
     met: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("coach_gateway.refbox.client._UNREAD", 20_000)
@@ -416,8 +412,8 @@ def test_a_box_that_has_not_read_for_long_is_left_and_met_again(
     asyncio.run(play())
 
 
-def test_a_gateway_that_waits_for_a_box_ends_when_it_is_told(opened: Any, until: Any) -> None:
-    """The box's machine is there, and nothing accepts."""
+def test_a_gateway_that_waits_for_a_box_ends_when_stopped(opened: Any, until: Any) -> None:
+    """The box's machine is there, but does not accept."""
 
     async def play() -> None:
         with socket.socket() as full:

@@ -76,7 +76,7 @@ def test_a_signal_becomes_actions(
 
 
 @pytest.mark.parametrize("name", ["RESET", "TESTMODE_ON", "TESTMODE_OFF", "READY", "CANCEL", "RESTART"])
-def test_what_our_game_has_no_word_for_is_said(name: str) -> None:
+def test_a_signal_without_a_counterpart_in_our_game_has_a_reason(name: str) -> None:
     found = led_to(name)
     assert not found.actions and name in found.reason
 

@@ -74,7 +74,7 @@ def test_garbage_is_answered_and_the_page_goes_on(visit: Visit) -> None:
     assert page.ask("token")["accepted"]
 
 
-def test_what_was_refused_is_counted_and_said_at_the_end(host: FakeHost, gateway_of: Callable[..., Gateway]) -> None:
+def test_refusals_are_counted_and_logged_at_the_end(host: FakeHost, gateway_of: Callable[..., Gateway]) -> None:
     gateway = gateway_of()
     page = Visitor(gateway.origin)
     for rubbish in ("{", "[]", b"x"):
@@ -85,9 +85,7 @@ def test_what_was_refused_is_counted_and_said_at_the_end(host: FakeHost, gateway
         Visitor(gateway.origin, claims="http://evil.example")
     page.close()
     gateway.close()
-    assert gateway.said == [
-        "refused or dropped: 1 page refused for its origin, 3 unreadable messages, 1 unknown token"
-    ]
+    assert gateway.said == ["refused or dropped: 1 page refused for its origin, 3 unreadable messages, 1 unknown token"]
 
 
 def test_a_broken_message_is_answered_under_its_number_where_it_has_one(visit: Visit) -> None:
@@ -118,7 +116,7 @@ def test_a_flood_is_held_back_and_its_page_sent_away_while_others_command(visit:
     assert referee.ask("action", action={"action": "stop"})["accepted"]
 
 
-def test_a_page_that_does_not_read_keeps_nobody_waiting_and_is_dropped(
+def test_a_page_that_does_not_read_delays_no_other_and_is_dropped(
     visit: Visit, host: FakeHost, gateway_of: Callable[..., Gateway], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("coach_gateway.web.pages.STUCK_S", 0.5)
@@ -167,7 +165,7 @@ def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
     slow.close()
 
 
-def test_one_page_more_than_there_is_room_for_is_told_so(host: FakeHost, gateway_of: Callable[..., Gateway]) -> None:
+def test_one_page_too_many_gets_the_reason(host: FakeHost, gateway_of: Callable[..., Gateway]) -> None:
     gateway = gateway_of(pages=1)
     first, second = Visitor(gateway.origin), Visitor(gateway.origin)
     assert second.hear("refusal")["reason"] == "1 pages are open, which is the limit; try again later"

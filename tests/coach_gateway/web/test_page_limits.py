@@ -52,7 +52,7 @@ def test_pages_of_this_machine_or_of_a_proxy_on_it_may_take_all_room():
     assert "300 pages are open" in pages.why_no_room(None)
 
 
-def test_who_is_refused_for_its_address_is_told_so_and_others_come_in(
+def test_a_page_refused_for_its_address_gets_the_reason_and_others_are_admitted(
     host: FakeHost, gateway_of: Callable[..., Gateway], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Addresses of loopback stand for those of other machines."""

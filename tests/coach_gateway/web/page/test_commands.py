@@ -1,4 +1,4 @@
-"""Commands from the page: what is accepted is done, what is refused is said, and nobody does what is not theirs."""
+"""Commands from the page: accepted ones are carried out, refused ones have their reason, and roles are kept."""
 
 import math
 
@@ -25,7 +25,7 @@ def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> No
         tab.page.keyboard.press("Space")
         match.until(lambda: match.state.phase is Phase.STOPPED)
         tab.wait_for_log("Stop accepted")
-        assert tab.page.locator("#layer-roles").is_checked()  # the focus was there, and nothing else happened to it
+        assert tab.page.locator("#layer-roles").is_checked()  # it had the focus, and was not switched
         tab.open("match")
         tab.button("drop_ball").click()
         tab.wait_for_log("Drop ball accepted")
@@ -33,7 +33,7 @@ def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> No
     assert "Corner" not in tab.page.locator("#log").inner_text()
 
 
-def test_buttons_refuse_what_the_referee_refuses_and_say_why(match, visit) -> None:
+def test_buttons_show_why_the_referee_has_refused(match, visit) -> None:
     tab = visit(match, "referee")
     tab.button("enter").page.locator("[data-robot=cyan1] .who").click()
     tab.button("enter").click()
