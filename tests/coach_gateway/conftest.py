@@ -1,4 +1,4 @@
-"""A match for bridges: a host that says what the test wants, or a real one that is stepped, on the in-process bus."""
+"""A match for bridges on the in-process bus: with a scripted host, or with a real one that is stepped."""
 
 import asyncio
 from collections.abc import AsyncIterator, Callable
@@ -42,7 +42,7 @@ async def until(condition: Callable[[], Any], what: str = "") -> None:
 
 
 class Stage:
-    """A host that says what it is told to say, answers how the match is set up, and notes what it is asked for."""
+    """A scripted host: publishes what the test wants, replies with the setup, and records requests."""
 
     def __init__(self, medium: Medium, config: MatchConfig) -> None:
         self.medium = medium
@@ -93,7 +93,7 @@ class Stage:
         return world
 
     def believe(self, robot: str, radio: Radio) -> None:
-        """A robot says a word."""
+        """Publish a robot's belief."""
         side = next(side for side in Side if robot in self.config.robots(side))
         word = Belief(tick=self.state.tick, time=self.state.time, robot=robot, radio=radio)
         self.bus.publisher(BELIEF, side=side.value, robot=robot).put(word)
@@ -112,7 +112,7 @@ class Stage:
 
 
 class Attentive:
-    """A brain that stands still, acknowledges what its coach orders, and says where it is."""
+    """A brain that stands still, acknowledges orders, and sends its pose."""
 
     def __init__(self) -> None:
         self.orders: list[CoachOrder] = []
@@ -167,7 +167,7 @@ class Bench:
     stop: asyncio.Event = field(default_factory=asyncio.Event)
     tasks: list[asyncio.Task[None]] = field(default_factory=list)
     said: list[str] = field(default_factory=list)
-    """What services said to people."""
+    """Lines that services logged."""
 
     def start(self, service: Any) -> asyncio.Task[None]:
         self.tasks.append(asyncio.create_task(service.serve(self.stop)))
@@ -180,7 +180,7 @@ class Bench:
 
 @asynccontextmanager
 async def opened(**teams: Any) -> AsyncIterator[Bench]:
-    """A bench whose gateway knows the match; the words are the match file's."""
+    """A bench whose gateway knows the match; the arguments are overrides of the match file."""
     medium = Medium()
     sizes = {f"teams.{side}.size": 3 for side in Side}
     stage = Stage(medium, load_match(None, {**sizes, **teams}))
@@ -199,7 +199,7 @@ async def opened(**teams: Any) -> AsyncIterator[Bench]:
 
 @asynccontextmanager
 async def kicked_off(**words: Any) -> AsyncIterator[Bench]:
-    """The same with a real host, and two robots against one; the words are the match file's."""
+    """The same with a real host, and two robots against one; the arguments are overrides of the match file."""
     medium = Medium()
     sizes = {"teams.cyan.size": 2, "teams.magenta.size": 1}
     pitch = Pitch(medium, load_match(None, {**sizes, "pace": "lockstep", "record.wait": False, **words}))

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from rich.text import Text
 
-from coach_gateway.match.detailed_follower import DetailedFollower
+from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
 from robot_agent.contract import Briefing, load_brain
@@ -47,7 +47,7 @@ class Experiment:
         self.scene: Scene = load_scene(scene)
         medium = Medium()
         coach = self._attended(medium.open_bus(config.name, SteppedClock()))
-        self.client, self.seen = HostClient(coach), DetailedFollower(coach)
+        self.client, self.seen = HostClient(coach), MatchFollower(coach, details=True)
         self.client.orders.update()
         self.host = Host(config, medium.open_bus(config.name, SteppedClock()))
         setup = self.host.simulation.setup()
@@ -214,7 +214,7 @@ def test_one_every_robot_receives_the_coachs_command(static: Experiment, action:
     assert reply.accepted, reply.reason
     assert static.play(lambda: {static.sights[name].game.phase for name in CYAN} == {told}, 20.0)
     static.seen.update()
-    assert static.seen.match.state is not None and static.seen.match.state.phase is phase
+    assert static.seen.state is not None and static.seen.state.phase is phase
     if phase is Phase.STOPPED:
         return
     assert static.play(static.ball_lies_on_its_spot, 20.0)  # as soon as nobody stands there

@@ -49,24 +49,22 @@ def watch_on(bus: "Bus", console: "Console") -> None:
     from rich.console import Group
     from rich.live import Live
 
-    from coach_gateway.match.detailed_follower import DetailedFollower
+    from coach_gateway.match.follower import MatchFollower
     from coach_gateway.match.host_client import HostClient
     from schemas.bus.contract import PresenceKind
-    from schemas.bus.host_watch import HostWatch
     from touchline.watch.drawing import draw_match
 
-    client, host = HostClient(bus, PATIENCE), HostWatch(bus)
-    setup = client.setup()
-    host.wait(PATIENCE)
+    client, seen = HostClient(bus, PATIENCE), MatchFollower(bus, details=True)
+    setup, episode = client.setup(), 0
+    seen.host.wait(PATIENCE)
     bus.declare_alive(PresenceKind.COACH, "watch")
-    seen, episode = DetailedFollower(bus), 0
     last = Group()
     try:
         with Live(console=console, auto_refresh=False, screen=True) as live:
             going = True
             while going:
-                going = not host.has_left()  # looked at first, so that the last messages are still seen
                 seen.update()
+                going = not seen.gone
                 if going and seen.world is not None and seen.world.episode != episode:
                     setup, episode = client.setup(), seen.world.episode  # others may take part
                 last = Group(*draw_match(seen, setup, console.width, console.height - 1))

@@ -1,7 +1,7 @@
 """A whole match: its processes launched, watched and ended, and what came of it."""
 
 import signal
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from types import FrameType, TracebackType
 from typing import Self
 
@@ -140,9 +140,9 @@ class MatchRun:
         return self._supervisor.host_status is None and stop.received is None
 
     def _show(self, follower: MatchFollower) -> None:
-        self._report(follower, follower.update())
+        self._report(follower, follower.update().messages)
 
-    def _report(self, follower: MatchFollower, news: list[GameEvent | GameState | Health]) -> None:
+    def _report(self, follower: MatchFollower, news: Sequence[GameEvent | GameState | Health]) -> None:
         for message in news:
             if isinstance(message, GameEvent):
                 self._screen.event(event_line(message), notable=message.kind in NOTABLE)

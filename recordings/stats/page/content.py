@@ -37,8 +37,7 @@ def content_of(
         "started": manifest.started,
         "about": _about(manifest, setup),
         "teams": teams,
-        "pitch": dataclasses.asdict(setup.pitch)
-        | {"goal_area_width": setup.pitch.goal_area_width, "penalty_area_width": setup.pitch.penalty_area_width},
+        "pitch": dataclasses.asdict(setup.pitch),
         "start": tracks.start,
         "rate": tracks.rate,
         "samples": tracks.samples,

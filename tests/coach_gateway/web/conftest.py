@@ -74,7 +74,7 @@ class FakeHost:
         recorded: list[GameEvent] | None = None,
         slow: threading.Event | None = None,
     ) -> None:
-        """With `recorded` it is a replay of these events; with `slow` parameters are told only when that is set."""
+        """With `recorded` it is a replay of these events; with `slow`, parameters are answered once it is set."""
         self.bus: Bus = medium.open_bus("friendly", WallClock())
         self.asked: list[Any] = []
         self._rules = rules
@@ -109,7 +109,7 @@ class FakeHost:
         self._writers[key].put(message)
 
     def play(self, tick: int) -> None:
-        """Game, health, everybody's belief and the world of one tick: whoever sees this world has the beliefs."""
+        """Publish game, health, beliefs and the world of one tick; a reader of this world has the beliefs already."""
         at: dict[str, Any] = {"tick": tick, "time": tick * 0.02}
         self.put(STATE, GameState(**at, phase=Phase.PLAY))
         self.put(HEALTH, Health(**at, pace="realtime", real_time_factor=1.0))
@@ -191,7 +191,7 @@ class Visitor:
     """One open page."""
 
     def __init__(self, origin: str, token: str = "", claims: str | None = None, **more: Any) -> None:
-        """`claims` is the origin it says it comes from, its own when not given."""
+        """`claims` is the origin that it sends, by default its own."""
         self.token = token
         self._numbers = itertools.count(1)
         opening = connect(
@@ -216,7 +216,7 @@ class Visitor:
                 return message
 
     def hear_what_is_played(self) -> dict[str, Any]:
-        """The first welcome after the host has said how its match is set up: before, nothing can be asked of it."""
+        """The first welcome with a setup: before it, requests are refused."""
         welcome = self.hear("welcome")
         while welcome["setup"] is None:
             welcome = self.hear("welcome")

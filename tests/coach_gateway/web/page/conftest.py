@@ -131,7 +131,7 @@ class Match:
         return self._events
 
     def hear(self, topic: Topic) -> Callable[[], list[Any]]:
-        """What is said on a topic from now on, each time since the last."""
+        """A function for the messages on a topic since its last call."""
         ear = self.medium.open_bus("friendly", WallClock()).subscribe(topic)
         return lambda: [received.message() for received in iter(ear.receive, None)]
 
@@ -187,7 +187,7 @@ class Gateway:
 
 
 class Tunnel:
-    """A port whose links lead to another one, until they are blocked: then nothing comes through, untold."""
+    """A port that forwards to another one until it is blocked: then it silently drops everything."""
 
     def __init__(self, port: int) -> None:
         self._to = port
@@ -253,7 +253,7 @@ class Tab:
             self.faults.append(fault)
 
     def until(self, holds: str) -> None:
-        """Wait for the page; its own rules let nobody evaluate a text in it, so it is asked from outside."""
+        """Wait for the page; its policy forbids to evaluate a text inside, so it is polled from outside."""
         deadline = time.monotonic() + SOON
         while not self.page.evaluate(holds):
             assert time.monotonic() < deadline, f"never came true: {holds}"
@@ -342,7 +342,7 @@ def match(officiated: Callable[..., Match]) -> Match:
 
 @pytest.fixture
 def resting(officiated: Callable[..., Match]) -> Match:
-    """One in which nobody moves by itself."""
+    """A match in which no robot moves by itself."""
     return officiated(still=True)
 
 
@@ -416,7 +416,7 @@ class Replayed:
     """A recording that is replayed on a medium of its own."""
 
     def __init__(self, path: Path, start: str | None = "1") -> None:
-        """It stands still at `start`, where the first picture has been shown; at the beginning nothing has."""
+        """A replay that is paused at `start`, where the first frame has been shown."""
         self.medium = Medium()
         self.programme = Replay(ReplaySettings(path, start=start, paused=True, stay=True))
         clock = WallClock()

@@ -1,14 +1,9 @@
 // The list of events: each is a button that jumps there.
 
+import { LEAD_S, SYMBOLS, indexAt, isKey, jumpTarget } from "./shared/events.js";
 import { formatClock } from "./match.js";
 
-const KEY_KINDS = new Set(["goal", "no_goal", "shot", "save", "foul", "card", "forfeit", "half_time", "full_time", "scene"]);
-const SYMBOLS = {
-  goal: "★", shot: "◆", save: "◇", foul: "✕", card: "▮", ball_out: "↗", restart: "↻", half_time: "◐", full_time: "■",
-};
-const LEAD_S = 2; // one wants to see how it came to that
-
-export class Events {
+export class EventList {
   constructor(list, buttons, match, seek) {
     Object.assign(this, { list, buttons, match, seek, keyOnly: true });
     buttons.key.addEventListener("click", () => this.show(true));
@@ -20,7 +15,7 @@ export class Events {
     this.keyOnly = keyOnly;
     this.buttons.key.setAttribute("aria-pressed", String(keyOnly));
     this.buttons.all.setAttribute("aria-pressed", String(!keyOnly));
-    this.shown = this.match.events.filter((event) => !keyOnly || KEY_KINDS.has(event.kind));
+    this.shown = this.match.events.filter((event) => !keyOnly || isKey(event));
     this.list.replaceChildren(...this.shown.map((event) => this.row(event)));
     this.current = undefined;
     this.mark(this.time ?? this.match.start);
@@ -46,7 +41,7 @@ export class Events {
   /** Marks the newest event at a time. */
   mark(time) {
     this.time = time;
-    const current = this.shown.findLastIndex((event) => event.time <= time + 1e-6);
+    const current = indexAt(this.shown, time);
     if (current === this.current) return;
     this.list.children[this.current]?.classList.remove("now-is");
     this.current = current;
@@ -61,8 +56,7 @@ export class Events {
 
   /** To the next event that is shown, or with −1 to the one before. */
   jump(step, from) {
-    const times = this.shown.map((event) => Math.max(this.match.start, event.time - LEAD_S));
-    const found = step > 0 ? times.find((time) => time > from + 0.05) : times.findLast((time) => time < from - 0.5);
+    const found = jumpTarget(this.shown, step, from, this.match.start);
     if (found !== undefined) this.seek(found);
   }
 }

@@ -5,6 +5,8 @@ export const SIDES = {
   cyan: { fill: "#28b9dc", edge: "#05303a", ink: "#04222a", line: "#7fe3fa" },
   magenta: { fill: "#c9237b", edge: "#3d0527", ink: "#ffffff", line: "#ff9fd2" },
 };
+/** Colours of a robot that belongs to neither side. */
+export const NEUTRAL = { fill: "#b9c0bc", edge: "#333a36", ink: "#222222", line: "#e3e8e5" };
 const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif';
 
 export function line(context, projection, from, to) {
@@ -27,22 +29,7 @@ export function rectangle(context, projection, x1, y1, x2, y2) {
   );
 }
 
-/** An arrow's head at `to`, in the colour of the lines. */
-export function arrowHead(context, projection, from, to, size) {
-  const angle = Math.atan2(projection.y(to.y) - projection.y(from.y), projection.x(to.x) - projection.x(from.x));
-  context.save();
-  context.translate(projection.x(to.x), projection.y(to.y));
-  context.rotate(angle);
-  context.fillStyle = context.strokeStyle;
-  context.beginPath();
-  context.moveTo(0, 0);
-  context.lineTo(-size, 0.5 * size);
-  context.lineTo(-size, -0.5 * size);
-  context.fill();
-  context.restore();
-}
-
-/** A text of `size` pixels about a point of the canvas; with a `ground` it stands on a plate of that colour. */
+/** Writes a text of `size` pixels about a point of the canvas, on a plate of the colour `ground` if one is given. */
 export function write(context, text, left, top, size, { colour = INK, weight = 650, ground = null } = {}) {
   context.font = `${weight} ${size}px ${FONT}`;
   context.textAlign = "center";

@@ -1,14 +1,13 @@
-// The list of what happened; of a recording, each event leads to its moment.
+// The list of events; in a recording, a click on one seeks to it.
 
 import { byId, element, mark } from "./elements.js";
+import { LEAD_S, indexAt, isKey } from "./shared/events.js";
 import { clockText, capitalized } from "./text.js";
 
-const LESSER = new Set(["stop", "start", "in_play", "restart", "ball_out", "agent", "parameters", "action", "no_goal"]);
 const GREAT = new Set(["goal", "half_time", "full_time", "forfeit"]);
 const MOST = 400; // lines shown
-export const LEAD_S = 2; // a jump goes to so long before the event
 
-export class Events {
+export class EventList {
   #shown = 0;
   #all = false;
   #rows = [];
@@ -16,22 +15,22 @@ export class Events {
 
   constructor(match, jump) {
     Object.assign(this, { match, jump });
-    match.on("welcome", () => this.#anew());
+    match.on("welcome", () => this.#restart());
     match.on("event", () => this.#later());
     for (const [id, all] of [["key-events", false], ["all-events", true]]) {
       byId(id).addEventListener("click", () => {
         this.#all = all;
         byId("key-events").setAttribute("aria-pressed", !all);
         byId("all-events").setAttribute("aria-pressed", all);
-        this.#anew();
+        this.#restart();
       });
     }
   }
 
-  /** Marks the event that the shown moment follows. */
+  /** Marks the newest event at the shown time. */
   follow(time) {
     if (this.match.live) return;
-    const now = this.#rows.findLast(({ event }) => event.time <= time + 1e-6)?.row;
+    const now = this.#rows[indexAt(this.#rows, time)]?.row;
     if (now === this.#now) return;
     this.#now = now;
     for (const { row } of this.#rows) mark(row, "now-is", row === now);
@@ -39,7 +38,7 @@ export class Events {
     if (now) list.scrollTop += now.getBoundingClientRect().top - list.getBoundingClientRect().top - list.clientHeight / 2;
   }
 
-  #anew() {
+  #restart() {
     this.#shown = 0;
     this.#rows = [];
     this.#now = undefined;
@@ -47,7 +46,7 @@ export class Events {
     this.#later();
   }
 
-  /** Events come in crowds at the beginning: they are shown together. */
+  /** Many events come at once at the beginning: they are shown together. */
   #later() {
     if (this.waiting) return;
     this.waiting = true;
@@ -61,9 +60,9 @@ export class Events {
     const list = byId("events");
     const { events, eventCount } = this.match;
     for (const event of events.slice(Math.max(0, events.length - (eventCount - this.#shown)))) {
-      if (!this.#all && LESSER.has(event.kind)) continue;
+      if (!this.#all && !isKey(event)) continue;
       const row = this.#row(event);
-      this.#rows.push({ row, event });
+      this.#rows.push({ row, time: event.time });
       if (this.match.live) list.prepend(row);
       else list.append(row);
     }
