@@ -32,7 +32,7 @@ def answer(sight: dict[str, Any], goal_x: float) -> dict[str, Any]:
     """The command for a sight: drive to the ball; with the ball, turn to the goal and kick. `goal_x` in m."""
     me, holding = sight["self"], sight["holding"]
     ball = sight["ball"] or sight["game"]["spot"]  # before it is seen: where the referee has placed it
-    command = {"version": "1.0", "answers_tick": sight["tick"], "dribble": True}
+    command = {"version": "2.0", "answers_tick": sight["tick"], "dribble": True}
     if ball is None or not sight["game"]["running"] or sight["game"]["phase"].startswith("their_"):
         return command
     x, y = (goal_x, 0.0) if holding else (ball["x"], ball["y"])
@@ -47,7 +47,7 @@ def answer(sight: dict[str, Any], goal_x: float) -> dict[str, Any]:
 def ask_setup(session: zenoh.Session) -> dict[str, Any]:
     """The setup of the match; queries the host until it replies."""
     while True:
-        for reply in session.get(f"{ROOT}/host/setup", payload='{"version": "1.0"}', timeout=1.0):
+        for reply in session.get(f"{ROOT}/host/setup", payload='{"version": "2.0"}', timeout=1.0):
             if reply.ok is not None:
                 setup: dict[str, Any] = json.loads(reply.ok.payload.to_bytes())
                 return setup

@@ -18,6 +18,7 @@ from recordings.recorder.sequence_tracker import SequenceTracker
 from recordings.viz.viz_channels import VizChannels
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
+from schemas.older_versions import converted
 from schemas.topics import TOPICS
 
 
@@ -59,7 +60,8 @@ class CopyWriter:
             self._mcap.add_message(number, copy.log_ns, copy.payload, copy.sent_ns, copy.sequence)
             topic = TOPICS.get(channel.metadata.get("topic", ""))
             if self._viz_channels is not None and topic is not None:
-                self._viz_channels.draw(ReceivedMessage(topic, channel.key, copy.payload, stamp), copy.log_ns)
+                current = converted(copy.payload, channel.version)
+                self._viz_channels.draw(ReceivedMessage(topic, channel.key, current, stamp), copy.log_ns)
         self._messages += 1
         if counted:
             self._trackers.setdefault(channel.key, SequenceTracker()).add(stamp, len(copy.payload))

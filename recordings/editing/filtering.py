@@ -13,8 +13,9 @@ from recordings.editing.message_copies import (
     copy_manifest,
     message_copies,
 )
-from recordings.reading.recording import Recording
+from recordings.reading.recording import RecordedMessage, Recording
 from recordings.recorder.latched_messages import LatchedMessages
+from schemas.bus.contract import ReceivedMessage
 
 
 def filter_recording(
@@ -57,7 +58,7 @@ def _from(entries: Iterable[MessageCopy], start_ns: int) -> Iterator[MessageCopy
 def _latched_at(recording: Recording, selection: KeySelection, start_ns: int) -> list[MessageCopy]:
     """The latched messages at a time, as copies."""
     latched = LatchedMessages()
-    latched.update((recorded.log_ns, recorded.received()) for recorded in recording.messages(end=start_ns / 1e9))
+    latched.update((recorded.log_ns, _as_recorded(recorded)) for recorded in recording.messages(end=start_ns / 1e9))
     channels = {channel.key: channel for channel in recording.mcap_file.channels.values()}
     entries = []
     for log_ns, received in latched.messages():
@@ -69,3 +70,8 @@ def _latched_at(recording: Recording, selection: KeySelection, start_ns: int) ->
 
 def _ns(seconds: float | None) -> int | None:
     return round(seconds * 1e9) if seconds is not None else None
+
+
+def _as_recorded(recorded: RecordedMessage) -> ReceivedMessage:
+    """The message with its recorded bytes, whatever version of the protocol they are of."""
+    return ReceivedMessage(recorded.topic, recorded.key, recorded.payload, recorded.stamp)

@@ -141,7 +141,7 @@ def _ending(recording: Recording) -> _Ending:
         received = recorded.received()
         progress.update([received])
         if number >= recording.manifest.standing:
-            trackers.setdefault(recorded.key, SequenceTracker()).add(received.stamp, len(received.payload))
+            trackers.setdefault(recorded.key, SequenceTracker()).add(recorded.stamp, len(recorded.payload))
     progress.catch_up()
     state, applied = progress.state, progress.applied
     return _Ending(

@@ -27,7 +27,7 @@ class CommandMismatch(NamedTuple):
 
 
 class _SentCommand(NamedTuple):
-    payload: bytes
+    recorded: RecordedMessage
     fields: dict[str, Any]
     """Fields of the payload, not validated."""
 
@@ -56,7 +56,7 @@ class CommandCheck:
         except (ValueError, KeyError, TypeError):
             return  # the host ignored it, too
         kept = self._sent.setdefault(robot, {})
-        kept.setdefault(answers, []).append(_SentCommand(recorded.payload, fields))
+        kept.setdefault(answers, []).append(_SentCommand(recorded, fields))
         if len(kept) > _KEPT:
             del kept[next(iter(kept))]
 
@@ -95,7 +95,7 @@ def _compare(tick: int, robot: str, input_: AppliedInput, sent: Iterable[_SentCo
     applied = _fields(input_)
     for candidate in sent:
         try:
-            claimed = _fields(Command.decode(candidate.payload))
+            claimed = _fields(candidate.recorded.message())
         except BadMessageError:
             continue
         if claimed == applied:

@@ -12,6 +12,7 @@ from recordings.container.sealed_metadata import digest, from_metadata, is_seale
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
 from schemas.message import VERSION, BadMessageError
+from schemas.older_versions import READABLE, converted, is_readable
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 
@@ -45,15 +46,26 @@ class RecordedMessage(NamedTuple):
     """Wall time at which it was sent, ns since 1970."""
     sequence: int
     """Sequence number of the sender on this key, modulo 2³²."""
+    version: str = VERSION
+    """Version of the protocol in which its channel was recorded."""
+
+    @property
+    def stamp(self) -> Stamp:
+        """Sequence number and times of the message."""
+        return Stamp(self.sequence, self.sent_ns, self.log_ns)
 
     @property
     def time(self) -> float:
         """Simulated time in s."""
         return self.log_ns / 1e9
 
+    def current_payload(self) -> bytes:
+        """The payload as a message of this version of the protocol; the recorded bytes where that is theirs."""
+        return converted(self.payload, self.version)
+
     def received(self) -> ReceivedMessage:
-        """The message as it was received from the bus."""
-        return ReceivedMessage(self.topic, self.key, self.payload, Stamp(self.sequence, self.sent_ns, self.log_ns))
+        """The message as a sender of the current version publishes it on the bus."""
+        return ReceivedMessage(self.topic, self.key, self.current_payload(), self.stamp)
 
     def message(self) -> Any:
         """The validated message.
@@ -62,7 +74,7 @@ class RecordedMessage(NamedTuple):
             BadMessageError: the payload is not a message of its topic.
         """
         assert self.topic.message is not None
-        return self.topic.message.decode(self.payload)
+        return self.topic.message.decode(self.current_payload())
 
 
 class Recording:
@@ -89,6 +101,7 @@ class Recording:
         self.unreadable: Counter[str] = Counter()
         """Key → payloads that `decoded` skipped because they are not valid messages."""
         self._topics = {channel.key: _topic(channel) for channel in mcap_file.channels.values()}
+        self._versions = {channel.key: channel.version for channel in mcap_file.channels.values()}
 
     @property
     def channels(self) -> list[ChannelFacts]:
@@ -127,7 +140,13 @@ class Recording:
             topic = self._topics[key]
             if topic is not None:
                 yield RecordedMessage(
-                    key, topic, message.data, message.log_time, message.publish_time, message.sequence
+                    key,
+                    topic,
+                    message.data,
+                    message.log_time,
+                    message.publish_time,
+                    message.sequence,
+                    self._versions[key],
                 )
 
     def decoded(
@@ -170,9 +189,10 @@ def open_recording(path: Path, *, whole: bool = False) -> Recording:
 
 
 def _check_version(path: Path, theirs: str) -> None:
-    if theirs.split(".")[0] != VERSION.split(".")[0]:
+    if not is_readable(theirs):
+        readable = " and ".join(f"{major}.x" for major in READABLE)
         raise TouchlineError(
-            f"{path}: recorded with messages of version {theirs}, this program reads version {VERSION}; "
+            f"{path}: recorded with messages of version {theirs}, this program reads {readable}; "
             "open it with the program that recorded it"
         )
 

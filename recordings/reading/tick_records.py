@@ -67,7 +67,7 @@ def tick_records(recording: Recording, segment: Segment, check: CommandCheck) ->
         if recorded.topic is COMMAND:
             check.add_command(recorded)
         elif recorded.topic is WORLD:
-            fields = _fields(recorded.payload)
+            fields = _fields(recorded.current_payload())
             tick = fields.get("tick")
             if isinstance(tick, int) and tick in ticks:
                 worlds[tick] = fields

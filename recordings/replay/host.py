@@ -11,7 +11,7 @@ from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, PresenceKind, Publisher, ReceivedMessage, Server, Stamp
 from schemas.config.scene import SceneReply
 from schemas.game import ActionReply
-from schemas.message import BadMessageError, Message
+from schemas.message import VERSION, BadMessageError, Message
 from schemas.messages.host import Setup
 from schemas.messages.parameters import ParametersReply
 from schemas.messages.replay import ReplayReply, ReplayRequest
@@ -41,7 +41,7 @@ class ReplayHost:
         """`make_player` is called with `publish` and `can_publish`; `setup` is the recorded setup, or None."""
         self._bus = bus
         self._clock = bus.clock
-        self._setup = setup.model_copy(update={"match": bus.match}) if setup is not None else None
+        self._setup = setup.model_copy(update={"match": bus.match, "version": VERSION}) if setup is not None else None
         self._publishers: dict[str, Publisher | None] = {}
         self._setups, self._controls = bus.serve(SETUP), bus.serve(REPLAY_CONTROL)
         self._refused: list[tuple[Server, Callable[[], Message]]] = [
@@ -110,10 +110,11 @@ class ReplayHost:
         if publisher is None:
             self.unknown_keys += 1
         else:
-            stamp = publisher.put_payload(recorded.payload)
+            payload = recorded.current_payload()
+            stamp = publisher.put_payload(payload)
             if recorded.topic.writer is not Party.HOST:
                 stamp = Stamp(stamp.sequence, recorded.sent_ns, recorded.log_ns)
-                self._batches.add_received(ReceivedMessage(recorded.topic, recorded.key, recorded.payload, stamp))
+                self._batches.add_received(ReceivedMessage(recorded.topic, recorded.key, payload, stamp))
             self._listeners.note_published(recorded)
 
     def _tick(self) -> int:

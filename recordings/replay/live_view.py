@@ -91,9 +91,10 @@ class LiveView:
             self._world_ns = recorded.log_ns
         if recorded.key not in self._channels:
             self._open(recorded.key, "json", self._schema_of(recorded))
-        self._send(recorded.key, recorded.payload, recorded.log_ns)
+        received = recorded.received()
+        self._send(recorded.key, received.payload, recorded.log_ns)
         if self._drawing is not None:
-            for topic, payload in self._drawing.draw(recorded.received(), recorded.log_ns):
+            for topic, payload in self._drawing.draw(received, recorded.log_ns):
                 self._send(topic, payload, recorded.log_ns)
 
     def update(self, player: Player) -> None:

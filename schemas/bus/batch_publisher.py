@@ -1,7 +1,7 @@
-"""Publishes what is to be recorded of a match in batches of several ticks, and keeps the newest of them.
+"""Publishes the messages to be recorded of a match in batches of several ticks, and keeps the newest batches.
 
-A robot publishes its commands once and keeps none. In a batch they can be fetched from the host again, whatever program
-the robot is, and a recording has exactly what the host took in.
+A robot publishes its commands once and keeps none. In a batch, they can be requested from the host again, whatever
+program the robot runs, and a recording has exactly the messages that the host received.
 """
 
 from collections import deque
@@ -23,16 +23,16 @@ from schemas.topic import Topic
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
 
 _MOST = 1000
-"""Payloads of one tick from others that are recorded; a flood is not. What is left out shows as a gap in its sender's
-numbers."""
+"""Most payloads of other processes that are recorded in one tick, as protection from a flood. Those beyond it show as a
+gap in their sender's sequence numbers."""
 _LONGEST = 65_536
-"""Bytes of a payload from others that is recorded: no longer one is a valid message."""
+"""Most bytes of a payload of another process that is recorded: longer payloads are not valid messages."""
 _AT_ONCE = 256 * 1024
-"""Bytes after which a batch is published at once."""
+"""Bytes at which a batch is published at once."""
 _REPLY = 512 * 1024
-"""Bytes of the batches in a reply, unless there is only one: small enough that a link has room for it soon."""
+"""Most bytes of the batches in a reply with more than one batch: small enough to fit on a busy link soon."""
 _REPLIES = 4
-"""Replies between two ticks: recorders that ask much do not hold the host up."""
+"""Most replies between two ticks, so that recorders with many requests do not delay the host."""
 
 
 class _Kept(NamedTuple):
@@ -41,15 +41,15 @@ class _Kept(NamedTuple):
 
 
 class BatchPublisher:
-    """Collects messages, publishes them now and then, and answers recorders that ask for batches again."""
+    """Collects messages, publishes them in batches, and serves requests for earlier batches."""
 
     def __init__(self, bus: Bus, note_invalid: Callable[[str, str, bytes], None] = lambda *_: None) -> None:
-        """`note_invalid` is given key, reason and payload of a question that is no valid one."""
+        """`note_invalid` is called with key, reason and payload of an invalid request."""
         self._bus = bus
         self._clock = bus.clock
         self._note_invalid = note_invalid
         self._writer = bus.publisher(RECORD_BATCH)
-        self._questions = bus.serve(RECORD_BATCHES)
+        self._requests = bus.serve(RECORD_BATCHES)
         self._stream = self._clock.unix_ns()
         self._entries: list[Entry] = []
         self._count = self._size = self._ticks = 0
@@ -59,12 +59,12 @@ class BatchPublisher:
         self._kept_bytes = self._next = 0
 
     def publisher(self, topic: Topic, *, recorded: bool = False, **chunks: str) -> Publisher:
-        """A publisher of the host's whose messages are recorded: if the topic is, or in any case if `recorded`."""
+        """A publisher of the host whose messages are recorded where the topic is, and in any case with `recorded`."""
         writer = self._bus.publisher(topic, **chunks)
         return _Recorded(writer, self) if topic.recorded or recorded else writer
 
     def add_received(self, received: ReceivedMessage) -> None:
-        """A message of another process is to be recorded."""
+        """Add a message of another process."""
         payload = received.payload
         if self._count >= _MOST or len(payload) > _LONGEST:
             return
@@ -80,11 +80,11 @@ class BatchPublisher:
         self._enter(entry, len(payload))
 
     def add_own(self, key: str, payload: bytes, stamp: Stamp) -> None:
-        """A message that the host has published is to be recorded."""
+        """Add a message that the host has published."""
         self._enter(Entry(key, **payload_fields(payload), **stamp._asdict()), len(payload))
 
     def end_tick(self, tick: int) -> None:
-        """All messages of this tick were noted; what is noted from now on belongs to the next."""
+        """End a tick: later messages belong to the next one."""
         self._tick = tick
         self._ticks += 1
         self._count = 0
@@ -94,12 +94,12 @@ class BatchPublisher:
             self.send_if_due()
 
     def send_if_due(self) -> None:
-        """Publish what was noted, if the last batch is a while ago."""
+        """Publish the collected messages where `BATCH_S` has passed since the last batch."""
         if self._entries and self._clock.now() - self._sent_at >= BATCH_S:
             self.send()
 
     def send(self) -> None:
-        """Publish what was noted, even if that is nothing: it tells recorders how far the host is."""
+        """Publish the collected messages; an empty batch reports the host's progress to recorders."""
         sent_ns = self._clock.unix_ns()
         payload = write_batch(self._stream, self._next, self._tick, sent_ns, self._entries)
         self._next += 1
@@ -110,15 +110,15 @@ class BatchPublisher:
         self._sent_at = self._clock.now()
 
     def process(self) -> None:
-        """Answer recorders that ask for batches again."""
-        for question in islice(iter(self._questions.receive, None), _REPLIES):
+        """Reply to requests for earlier batches."""
+        for query in islice(iter(self._requests.receive, None), _REPLIES):
             try:
-                request: RecordBatchesRequest = question.message()
+                request: RecordBatchesRequest = query.message()
             except BadMessageError as error:
-                self._note_invalid(question.key, str(error), question.payload)
-                question.fail(str(error))
+                self._note_invalid(query.key, str(error), query.payload)
+                query.fail(str(error))
             else:
-                question.reply_payload(self._reply(request))
+                query.reply_payload(self._reply(request))
 
     def _enter(self, entry: Entry, size: int) -> None:
         self._entries.append(entry)
@@ -147,7 +147,7 @@ class BatchPublisher:
 
 
 class _Recorded(Publisher):
-    """A publisher whose messages are recorded, too."""
+    """A publisher whose messages are also recorded."""
 
     def __init__(self, writer: Publisher, batches: BatchPublisher) -> None:
         super().__init__(writer.topic, writer.key)

@@ -1,21 +1,21 @@
-"""Whether the host of a match is there: by its token, and by the link to it.
+"""Presence of a match's host, by its liveliness token and the link to it.
 
-The token goes with the link, and comes back a moment after the link does.
+The token disappears with the link, and appears again a moment after the link is restored.
 """
 
 from schemas.bus.contract import LEASE_S, Bus, PresenceKind
 from schemas.process.active_clock import ActiveClock
 
 LINK_GRACE_S = LEASE_S + 0.5
-"""Wall time that watchers give a broken link to come back."""
+"""Wall time for which watchers tolerate a broken link."""
 RECONNECT_S = 10.0
-"""Wall time that agents and recorders give a host to come back: until then a match, or a recording, can go on."""
+"""Wall time for which agents and recorders wait for an unreachable host before they give up the match."""
 _LOOK_S = 0.02
-"""Wall time between two looks for a host that is waited for."""
+"""Wall time between two checks while waiting for a host."""
 
 
 class HostWatch:
-    """Follows the host's token from the moment it is made. Wall time in which it was suspended does not count."""
+    """Follows the host's token from construction on. Wall time in which the process was suspended does not count."""
 
     def __init__(self, bus: Bus) -> None:
         self._bus = bus
@@ -25,10 +25,10 @@ class HostWatch:
         self._active = ActiveClock(bus.clock.now())
         self._reached_at = self._linked_at = 0.0
         self.seen = False
-        """Whether a host was ever there."""
+        """Whether a host has been present."""
 
     def update(self) -> bool:
-        """Take in who came and went; whether a host went since the last time, even if it is back by now."""
+        """Process changes of presence; returns whether a host has left since the last call, even if it is back."""
         if self._is_quiet():
             return False
         went = False
@@ -44,7 +44,7 @@ class HostWatch:
         return went
 
     def is_reachable(self) -> bool:
-        """Whether token and link are there; a host that never had a token counts while the link is up."""
+        """Whether the token exists and the link is up; before the first token, the link alone counts."""
         now = self._now()
         reachable = self._bus.connected() and (bool(self._hosts) or not self.seen)
         if reachable:
@@ -52,11 +52,11 @@ class HostWatch:
         return reachable
 
     def unreachable_s(self) -> float:
-        """Wall time since the host was last found reachable, s."""
+        """Wall time since the host was last reachable, in s."""
         return self._now() - self._reached_at
 
     def has_left(self) -> bool:
-        """For watchers: whether the host was there, and its token is gone or the link broken for too long."""
+        """For watchers: whether the host was present and its token is gone, or the link has been down for too long."""
         self.update()
         now = self._now()
         if self._bus.connected():
@@ -64,7 +64,7 @@ class HostWatch:
         return self.seen and (not self._hosts or now - self._linked_at > LINK_GRACE_S)
 
     def wait(self, patience: float) -> bool:
-        """Whether the host shows itself within `patience` s of wall time."""
+        """Wait up to `patience` s of wall time for the host; returns whether it is present."""
         clock = self._bus.clock
         deadline = clock.now() + patience
         self.update()

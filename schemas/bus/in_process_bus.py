@@ -1,4 +1,4 @@
-"""The bus within one process: the same behaviour without a network, for tests and for learning."""
+"""The bus within one process: the same behaviour without a network, for tests and matches in one process."""
 
 import threading
 from collections import deque
@@ -30,7 +30,7 @@ from schemas.topic import Delivery, Topic
 
 @dataclass(eq=False)
 class Medium:
-    """What the buses of one process share in place of a network."""
+    """The shared state of the buses of one process, in place of a network."""
 
     lock: threading.Lock = field(default_factory=threading.Lock)
     subscriptions: dict[str, list["_Subscription"]] = field(default_factory=dict)
@@ -38,14 +38,14 @@ class Medium:
     alive: dict[tuple[str, str], int] = field(default_factory=dict)
     watches: list["_Watch"] = field(default_factory=list)
     caches: dict[str, dict[str, deque[ReceivedMessage]]] = field(default_factory=dict)
-    """Topic with its match before it → key → what its writer has sent, where that can be recovered."""
+    """Match and topic → key → messages that the publisher of a `recovered` topic keeps."""
 
     def open_bus(self, match: str, clock: Clock) -> "InProcessBus":
         """A new bus for a match."""
         return InProcessBus(match, clock, self)
 
     def count_token(self, match: str, who: tuple[str, str], by: int) -> None:
-        """Count a token, and tell the watchers when the first came or the last went."""
+        """Count a token; watches are notified when the first appears or the last disappears."""
         with self.lock:
             before = self.alive.get(who, 0)
             self.alive[who] = before + by
@@ -143,7 +143,7 @@ class _PendingReply(PendingReply):
     def payload(self, timeout: float) -> bytes:
         reply = self.mailbox.get(timeout)
         if reply is None:
-            raise NoReplyError(f"nobody answers {self._topic.key}")
+            raise NoReplyError(f"no process answers {self._topic.key}")
         if isinstance(reply, str):
             raise NoReplyError(reply)
         return reply
@@ -173,7 +173,7 @@ class InProcessBus(Bus):
         self._kept: list[tuple[str, str]] = []
 
     def keep(self, topic: Topic, key: str) -> deque[ReceivedMessage]:
-        """Where a writer of this key keeps what it sends, for as long as its bus is open."""
+        """The cache of a publisher of this key, for as long as its bus is open."""
         kept: deque[ReceivedMessage] = deque(maxlen=topic.cache_size)
         with self.medium.lock:
             self.medium.caches.setdefault(self.prefix + topic.key, {})[key] = kept
@@ -181,7 +181,7 @@ class InProcessBus(Bus):
         return kept
 
     def check_open(self) -> None:
-        """Raise `BusError` when this bus is closed."""
+        """Raise `BusError` where this bus is closed."""
         if self._closed:
             raise BusError("this bus is closed")
 
@@ -217,12 +217,12 @@ class InProcessBus(Bus):
         self, topic: Topic, request: WireMessage, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
     ) -> PendingReply:
         self.check_open()
-        del timeout, droppable  # nothing is on its way here: a question waits with its server or was refused at once
+        del timeout, droppable  # a request waits with its server or is refused at once
         answer = _PendingReply(topic)
         key = full_key(topic, chunks)
         server = self.medium.servers.get(self.prefix + key)
         if server is None:
-            answer.mailbox.put("", f"nobody answers {key}")
+            answer.mailbox.put("", f"no process answers {key}")
         else:
             server.mailbox.put("", _Query(topic, request.encode(), answer))
         return answer

@@ -1,4 +1,4 @@
-"""What a process is started with to meet others on the bus: where to connect, or where to listen."""
+"""Settings of a process for the bus: the endpoint and the match to connect to, or the endpoint to listen on."""
 
 import re
 from typing import Annotated
@@ -19,13 +19,13 @@ def _endpoint(endpoint: str) -> str:
 
 
 def match_name(name: str) -> str:
-    """The name of a match itself.
+    """The name of a match, unchanged.
 
     Raises:
-        ValueError: it is no key chunk.
+        ValueError: the name is not a key chunk.
     """
     if re.fullmatch(r"[a-z][a-z0-9_]{0,31}", name) is None:
-        raise ValueError("a match name is a key chunk: small letters, digits and _")
+        raise ValueError("a match name is a key chunk: lower-case letters, digits and _")
     return name
 
 
@@ -36,7 +36,7 @@ MatchName = Annotated[str, AfterValidator(match_name)]
 
 
 class ClientSettings(Settings):
-    """Which match a process joins."""
+    """Settings of a process that joins a match."""
 
     connect: Annotated[Endpoint, CommandLine(environment="TOUCHLINE_CONNECT")] = DEFAULT_ENDPOINT
     """Endpoint of the host."""
@@ -45,9 +45,9 @@ class ClientSettings(Settings):
 
 
 class ListenSettings(Settings):
-    """Where a process listens for all others of its match."""
+    """Settings of a process that listens for the others of its match."""
 
     listen: Endpoint = DEFAULT_ENDPOINT
     """Endpoint of the host; port 0 picks a free one."""
     insecure: bool = False
-    """Let other machines in, without any password."""
+    """Accept connections of other machines, without authentication."""

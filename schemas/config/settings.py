@@ -1,8 +1,8 @@
-"""What a process is started with: the base of its settings, and what the recorder has in common with the match file.
+"""Settings of processes: their base class, and the options that the recorder and the match file share.
 
-Each kind of process has one model of its own: `HostSettings`, `AgentSettings`, `GatewaySettings`, `RecorderSettings`. A
-field of it is a key of its settings file and an option of its command: name, type, default, limits, and the docstring
-as the option's help.
+Each kind of process has its own model: `HostSettings`, `AgentSettings`, `GatewaySettings`, `RecorderSettings`. Each
+field is a key of the settings file and an option of the command, with its name, type, default and limits, and its
+docstring as help.
 """
 
 from dataclasses import dataclass
@@ -13,21 +13,21 @@ from pydantic import Field, model_validator
 from schemas.message import Part
 
 DEFAULT_MATCH = "friendly"
-"""The match that is played, and that a process joins, when no other is named."""
+"""The default name of a match, for hosts and for processes that join one."""
 
 
 @dataclass(frozen=True, slots=True)
 class CommandLine:
-    """What the command line has to know of a field beyond the field itself; stands in its `Annotated`."""
+    """Details of a field's option on the command line, in the field's `Annotated`."""
 
     environment: str | None = None
-    """Environment variable that stands in for the option."""
+    """Environment variable with the default of the option."""
     metavar: str | None = None
-    """How the value is written, `HOST:PORT`."""
+    """The form of the value in the help, `HOST:PORT`."""
 
 
 class Settings(Part):
-    """The base of all settings: frozen, closed, and explained by the docstrings of its fields."""
+    """The base of all settings: immutable, without unknown fields, described by the docstrings of its fields."""
 
 
 class RecordOptions(Settings):

@@ -1,7 +1,7 @@
-"""Batches of all messages that are to be recorded, byte for byte, those of several ticks in one.
+"""Batches of all messages to be recorded, byte for byte, several ticks in one batch.
 
-A recorder reads one key. The cost of a message to host and recorder is paid once for several ticks, and what robots and
-coaches publish once can be fetched again like everything that the host publishes.
+A recorder subscribes to one key. The cost of a message to host and recorder is paid once for several ticks, and
+messages that robots and coaches publish once can be requested again like those of the host.
 """
 
 from base64 import b64decode, b64encode
@@ -14,83 +14,83 @@ from pydantic import Field
 from schemas.message import VERSION, BadMessageError, Message, Part
 
 MAX_KEY = 200
-"""Characters of a key."""
+"""Most characters of a key."""
 
 
 class BatchEntry(Part):
-    """One message, with what travelled beside it."""
+    """One message with its metadata."""
 
     key: Annotated[str, Field(max_length=MAX_KEY)]
     """Key below the match, `robot/cyan1/command`."""
     message: Any = None
-    """The payload where it is JSON: the very bytes that were sent."""
+    """The payload where it is JSON, byte for byte."""
     octets: str | None = None
-    """The payload in base64 where it is anything else."""
+    """The payload in base64 where it is not JSON; otherwise None."""
     sequence: Annotated[int, Field(ge=0)] | None = None
-    """Its sender's number on that key; None when it gave none."""
+    """The sender's sequence number on that key; None where the sender gave none."""
     sent_ns: int = 0
     """The sender's wall time, ns since 1970."""
     sim_ns: int = -1
-    """The sender's simulated time in ns, −1 when it knows none."""
+    """The sender's simulated time in ns, −1 where it has none."""
     arrived_ns: int = 0
-    """When it reached the host, by the host's wall clock, ns since 1970; 0 for the host's own messages."""
+    """Wall time at which it reached the host, by the host's clock, ns since 1970; 0 for the host's own messages."""
     arrived_sim_ns: int = -1
-    """The host's simulated time in ns when it took the message in; −1 for the host's own messages."""
+    """The host's simulated time in ns when it received the message; −1 for the host's own messages."""
 
 
 class RecordBatch(Message):
-    """All messages to be recorded that the host published or took in since the batch before, up to the end of `tick`.
+    """All messages to be recorded that the host published or received since the last batch, up to the end of `tick`.
 
-    Recorders read everything from here, and nothing from its senders. A gap in `number` is closed by a question on
+    Recorders read all messages from here, and none from their senders. Missing numbers are requested on
     `host/record_batches`.
     """
 
     max_bytes: ClassVar[int] = 4 * 2**20
 
     stream: Annotated[int, Field(ge=0)]
-    """Wall time at which the host began, ns since 1970: a batch with another one is from another host."""
+    """Wall time at which the host began, ns since 1970, which distinguishes hosts."""
     number: Annotated[int, Field(ge=0)]
-    """Counts this host's batches, from 0."""
+    """Sequence number of the batch, from 0."""
     tick: int
-    """The last tick that is complete; −1 before the first."""
+    """The last complete tick; −1 before the first."""
     sent_ns: int
-    """The host's wall time at which it published the batch, ns since 1970."""
+    """The host's wall time when it published the batch, ns since 1970."""
     entries: list[BatchEntry]
-    """In the order in which the host published or took them in."""
+    """The messages, in the order in which the host published or received them."""
 
 
 class RecordBatchesRequest(Message):
-    """Asks the host for batches that it has published already, from number `first` to number `last`, both included."""
+    """A request for published batches, from number `first` to number `last`, both included."""
 
     first: Annotated[int, Field(ge=0)]
-    """Number of the first batch that is requested."""
+    """Number of the first requested batch."""
     last: Annotated[int, Field(ge=0)] | None = None
-    """None: up to the newest."""
+    """Number of the last requested batch; None for the newest."""
     since_ns: Annotated[int, Field(ge=0)] = 0
     """Batches published before this wall time, ns since 1970, are left out."""
 
 
 class RecordBatchesReply(Message):
-    """Batches that were asked for, in order and without a gap; as many as fit into half a megabyte, but at least one.
+    """The requested batches, in order and without a gap: as many as fit into half a megabyte, and at least one.
 
-    If the last of them is not the last that was asked for, the rest is asked for again.
+    Where it ends before the last requested batch, the rest is requested again.
     """
 
     max_bytes: ClassVar[int] = 8 * 2**20
 
     stream: Annotated[int, Field(ge=0)]
-    """As in `RecordBatch`."""
+    """The host's `stream`, as in `RecordBatch`."""
     oldest: Annotated[int, Field(ge=0)]
-    """Number of the oldest batch that the host keeps and that is not left out; of the next one where there is none.
+    """Number of the oldest available batch, without those before `since_ns`; of the next batch where there is none.
 
-    What has a smaller number cannot be had any more.
+    Batches with smaller numbers are lost.
     """
     batches: list[RecordBatch] = Field(default_factory=list)
-    """Begins with the larger of `first` and `oldest`; empty where that is not published yet, or beyond `last`."""
+    """The batches from the larger of `first` and `oldest` on; empty where that is unpublished or beyond `last`."""
 
 
 class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True, gc=False):
-    """A `BatchEntry` whose message is kept as the bytes it is."""
+    """A `BatchEntry` whose message stays encoded."""
 
     key: Annotated[str, msgspec.Meta(max_length=MAX_KEY)]
     message: msgspec.Raw = msgspec.Raw(b"null")
@@ -106,7 +106,7 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaul
         """The bytes that were sent.
 
         Raises:
-            ValueError: they are no base64.
+            ValueError: `octets` is not base64.
         """
         return bytes(self.message) if self.octets is None else b64decode(self.octets, validate=True)
 
@@ -115,7 +115,7 @@ _Count = Annotated[int, msgspec.Meta(ge=0)]
 
 
 class Batch(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):
-    """A `RecordBatch` of such entries."""
+    """A `RecordBatch` of `Entry`."""
 
     version: str
     stream: _Count
@@ -126,7 +126,7 @@ class Batch(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):
 
 
 class BatchesReply(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):
-    """A `RecordBatchesReply` whose batches are kept as the bytes they are."""
+    """A `RecordBatchesReply` whose batches stay encoded."""
 
     version: str
     stream: _Count
@@ -141,7 +141,7 @@ _skim = msgspec.json.Decoder(msgspec.Raw).decode
 
 
 def payload_fields(payload: bytes) -> dict[str, Any]:
-    """The fields of an `Entry` that carry a payload from outside, which may be anything."""
+    """The fields of an `Entry` for a payload, which may be any bytes."""
     try:
         payload.decode()
         message = _skim(payload)
@@ -152,20 +152,20 @@ def payload_fields(payload: bytes) -> dict[str, Any]:
 
 
 def write_batch(stream: int, number: int, tick: int, sent_ns: int, entries: Sequence[Entry]) -> bytes:
-    """A `RecordBatch` as it is published."""
+    """An encoded `RecordBatch`."""
     return _encode(Batch(VERSION, stream, number, tick, sent_ns, entries))
 
 
 def read_batch(payload: bytes) -> Batch:
-    """A `RecordBatch` as it came.
+    """The batch in a payload.
 
     Raises:
-        BadMessageError: it is none.
+        BadMessageError: the payload is not a `RecordBatch`.
     """
     try:
         batch = _decode_batch(payload) if len(payload) <= RecordBatch.max_bytes else None
     except (ValueError, RecursionError) as error:
-        RecordBatch.decode(payload)  # says more of another version
+        RecordBatch.decode(payload)  # names another version
         raise BadMessageError(f"RecordBatch: {error}") from None
     if batch is None or batch.version != VERSION:
         RecordBatch.decode(payload)
@@ -174,15 +174,15 @@ def read_batch(payload: bytes) -> Batch:
 
 
 def write_reply(stream: int, oldest: int, batches: Sequence[bytes]) -> bytes:
-    """A `RecordBatchesReply` of batches as they were published."""
+    """An encoded `RecordBatchesReply` of encoded batches."""
     return _encode(BatchesReply(VERSION, stream, oldest, [msgspec.Raw(batch) for batch in batches]))
 
 
 def read_reply(payload: bytes) -> BatchesReply:
-    """A `RecordBatchesReply` as it came; its batches are read by `read_batch`.
+    """The reply in a payload; `read_batch` reads its batches.
 
     Raises:
-        BadMessageError: it is none.
+        BadMessageError: the payload is not a `RecordBatchesReply`.
     """
     try:
         reply = _decode_reply(payload) if len(payload) <= RecordBatchesReply.max_bytes else None

@@ -1,19 +1,19 @@
-"""Wall time as a process lived it: one that was suspended has not waited meanwhile."""
+"""Wall time without the times in which the process was suspended."""
 
 LONGEST_S = 0.5
-"""Wall time between two looks that counts; what is longer was not lived through."""
+"""Most wall time between two calls that counts; the rest is taken for suspension."""
 
 
 class ActiveClock:
-    """A clock that is looked at again and again, and stands still while its process does."""
+    """A clock that is read repeatedly, and stands still while its process is suspended."""
 
     def __init__(self, now: float) -> None:
         self.passed = 0.0
-        """Wall time lived through so far, s."""
+        """Active wall time so far, in s."""
         self._looked_at = now
 
     def look(self, now: float) -> float:
-        """It is `now`, in s of wall time; returns the wall time lived through so far, s."""
+        """Advance to `now`, wall time in s; returns the active wall time so far, in s."""
         self.passed += min(now - self._looked_at, LONGEST_S)
         self._looked_at = now
         return self.passed

@@ -15,20 +15,20 @@ from schemas.errors import TouchlineError
 S = TypeVar("S", bound=Settings)
 
 STANDARD_INPUT = "-"
-"""In place of a file."""
+"""The name of standard input in place of a file."""
 WRONG = 2
-"""Exit status of a process that was started with wrong settings, or cannot begin."""
+"""Exit status of a process with invalid settings, or one that cannot begin."""
 
 
 def write_settings(settings: Settings, path: Path) -> None:
     """Write a settings file that only its owner may read.
 
     Raises:
-        OSError: it cannot be written.
+        OSError: the file cannot be written.
     """
     handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
     with os.fdopen(handle, "w", encoding="utf-8") as file:
-        path.chmod(0o600)  # of a file that was there before
+        path.chmod(0o600)  # of an existing file
         file.write(settings.model_dump_json(indent=2) + "\n")
 
 
@@ -36,7 +36,7 @@ def read_settings(model: type[S], source: str) -> S:
     """The settings in a file, or on standard input where `source` is `-`.
 
     Raises:
-        TouchlineError: the file cannot be read, or is not JSON, or a field is wrong: file, field, value, expectation.
+        TouchlineError: the file cannot be read, is not JSON, or has an invalid field.
     """
     name = "standard input" if source == STANDARD_INPUT else source
     try:
@@ -54,7 +54,7 @@ def read_settings(model: type[S], source: str) -> S:
 
 
 def run_process(package: str, model: type[S], run: Callable[[S], int], arguments: list[str] | None = None) -> int:
-    """What `python -m PACKAGE --settings FILE` does; the exit status of the process."""
+    """Run `python -m PACKAGE --settings FILE`; returns the exit status of the process."""
     parser = argparse.ArgumentParser(prog=f"python -m {package}", description=model.__doc__, allow_abbrev=False)
     keys = f"{', '.join(model.model_fields)}; {STANDARD_INPUT} reads standard input"
     parser.add_argument(
@@ -68,7 +68,7 @@ def run_process(package: str, model: type[S], run: Callable[[S], int], arguments
 
 
 def exit_status(run: Callable[[], int]) -> int:
-    """What `run` returns; an error that a person can mend is one line on stderr and status 2."""
+    """The result of `run`; a `TouchlineError` is written to stderr in one line, with status 2."""
     try:
         return run()
     except TouchlineError as error:

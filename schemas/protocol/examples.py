@@ -1,4 +1,4 @@
-"""One example of each message, from one tick of a match; the first that a reader sees of it."""
+"""One example of each message, from one tick of a match."""
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.roster import Placement
@@ -220,7 +220,7 @@ def _parameters() -> tuple[WireMessage, ...]:
 
 
 def _setup() -> Setup:
-    """The setup of the match that is played when nobody names a file."""
+    """The setup of the default match, which is played without a match file."""
     config = MatchConfig()
     profile, book = config.load_profile(), load_rule_book(config.rules)
     return Setup.of(config, profile, book, {"engine": "pybullet 3.2.7, api 202010061"})

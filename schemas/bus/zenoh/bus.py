@@ -1,7 +1,4 @@
-"""The bus over Zenoh: the host is the router, everyone else a client with one explicit endpoint.
-
-Only the modules of this folder import Zenoh.
-"""
+"""The bus over Zenoh: the host is the router, and all other processes are clients with one explicit endpoint."""
 
 import atexit
 import weakref
@@ -39,13 +36,13 @@ def open_host(match: str, clock: Clock, listen: str = DEFAULT_ENDPOINT) -> "Zeno
     """Open the host's bus: a router that listens on one endpoint.
 
     Raises:
-        BusError: the endpoint cannot be listened on.
+        BusError: it cannot listen on the endpoint.
     """
     return ZenohBus(match, clock, open_router(listen), is_client=False)
 
 
 def open_client(match: str, clock: Clock, connect: str = DEFAULT_ENDPOINT, patience: float = 10.0) -> "ZenohBus":
-    """Open a client's bus, trying for `patience` s of wall time.
+    """Open a client's bus, with attempts for `patience` s of wall time.
 
     Raises:
         BusError: no host answers at that endpoint.
@@ -124,7 +121,7 @@ class ZenohBus(Bus):
         try:
             self.session.close()  # type: ignore[no-untyped-call]
         except zenoh.ZError:
-            return  # the peer was gone first; nothing is left to close
+            return  # the peer has closed it
 
     def _open(self) -> SessionContext:
         if self._closed:
@@ -133,7 +130,7 @@ class ZenohBus(Bus):
 
 
 def _close_at_exit(bus: ZenohBus) -> None:
-    """Close before the interpreter is taken down: one that watches presence and exits with an open session hangs."""
+    """Close before the interpreter shuts down: a process that watches presence hangs at exit with an open session."""
     reference = weakref.ref(bus)
 
     def close() -> None:

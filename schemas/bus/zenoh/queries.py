@@ -1,4 +1,4 @@
-"""What is rare on a bus, over Zenoh: queries and their replies, and who is alive. All of it waits in mailboxes."""
+"""Queries, replies and liveliness tokens over Zenoh. They are rare, and wait in mailboxes."""
 
 import zenoh
 
@@ -67,12 +67,12 @@ class ZenohPendingReply(PendingReply):
             elif reply.err is not None:
                 mailbox.put("", reply.err.payload.to_string())
 
-        def nobody() -> None:
-            mailbox.put("", f"nobody answers {key}")
+        def end() -> None:
+            mailbox.put("", f"no process answers {key}")
 
         context.session.get(
             context.prefix + key,
-            zenoh.handlers.Callback(receive, nobody, indirect=False),
+            zenoh.handlers.Callback(receive, end, indirect=False),
             payload=request.encode(),
             timeout=timeout,
             congestion_control=zenoh.CongestionControl.DROP if droppable else zenoh.CongestionControl.BLOCK,
@@ -81,7 +81,7 @@ class ZenohPendingReply(PendingReply):
     def payload(self, timeout: float) -> bytes:
         reply = self._mailbox.get(timeout)
         if reply is None:
-            raise NoReplyError(f"nobody answers {self._key} within {timeout:g} s")
+            raise NoReplyError(f"no process answers {self._key} within {timeout:g} s")
         if isinstance(reply, str):
             raise NoReplyError(reply)
         return reply

@@ -78,7 +78,7 @@ def test_an_action_reaches_the_referee_and_its_answer_comes_back(medium: Medium,
 
 
 def test_an_action_without_a_host_names_the_match_and_what_to_do(medium: Medium) -> None:
-    with pytest.raises(TouchlineError, match=r'match "friendly": nobody answers game/action; name the match'):
+    with pytest.raises(TouchlineError, match=r'match "friendly": no process answers game/action; name the match'):
         HostClient(seat(medium)).act(RefereeAction(action=ActionName.STOP))
 
 

@@ -23,7 +23,7 @@ def test_without_a_host_the_reply_is_a_refusal_with_the_reason(opened: Any, unti
             bench.stage.bus.close()
             await until(lambda: not bench.live.there)
             reply = await bench.live.act(RefereeAction(action=ActionName.STOP))
-            assert not reply.accepted and "nobody answers game/action" in reply.reason
+            assert not reply.accepted and "no process answers game/action" in reply.reason
 
     asyncio.run(play())
 

@@ -121,7 +121,7 @@ def test_keys_may_be_spelled_in_any_way(log: Log) -> None:
     imported, recording = log.read()
     (world,) = worlds(recording)
     assert world.possession == "cyan2"
-    assert 'key "target pose" where the schema says "targetPose"' in found(imported)
+    assert 'key "target pose" where the schema has "targetPose"' in found(imported)
 
 
 LOST: dict[str, tuple[Any, str]] = {

@@ -135,7 +135,7 @@ def test_every_message_of_the_contract_has_a_class_that_keeps_its_example(model:
 @pytest.mark.parametrize("number", [0, 1, -1, 127, 128, 2**31, -(2**31), 2**63 - 1, -(2**63)])
 def test_whole_numbers_of_every_size_come_back(number: int) -> None:
     model = next(model for model in MODELS if model.__name__ == "RecorderProgress")
-    payload = encode(model, {"version": "1.0", "tick": number, "messages": 1, "lost": 0})
+    payload = encode(model, {"version": "2.0", "tick": number, "messages": 1, "lost": 0})
     assert stock_class(model).FromString(payload).tick == number
 
 

@@ -95,7 +95,7 @@ def test_channels_say_what_they_carry(rig):
         "topic": "command",
         "row": "robot/{robot}/command",
         "message": "Command",
-        "version": "1.0",
+        "version": "2.0",
         "robot": "cyan1",
         "side": "cyan",
         "team": "Team cyan",
@@ -159,7 +159,7 @@ def test_a_sender_without_simulated_time_is_recorded_at_the_hosts(make_rig):
     rig.begin()
     rig.play(range(50))
     rig.recorder.pump()
-    order.put_payload(b'{"version":"1.0","sequence":1}')
+    order.put_payload(b'{"version":"2.0","sequence":1}')
     rig.host.relay(49)
     rig.recorder.pump()
     rig.play(range(50, 100))
@@ -573,7 +573,7 @@ def test_a_stamp_counts_modulo_the_32_bits_of_the_file(rig):
 def test_batches_that_cannot_be_read_are_counted_and_passed_over(rig):
     rig.play(range(5))
     publisher = rig.host.bus.publisher(RECORD_BATCH)
-    publisher.put_payload(b'{"version":"1.0","tick":5,"entries":[{"key":"robot/cyan1/command","octets":"a"}]}')
+    publisher.put_payload(b'{"version":"2.0","tick":5,"entries":[{"key":"robot/cyan1/command","octets":"a"}]}')
     rig.play(range(5, 10))
     summary = rig.leave()
     assert summary.result.unreadable == {"host/record_batch": 1}
@@ -586,7 +586,7 @@ def test_batches_of_a_host_that_writes_spaces_are_read_and_its_payloads_stay_as_
     rig.begin()
     payload = '{ "answers_tick" : 3 , "drive" : { "vx" : 1.50 } }'
     entry = f'{{ "key" : "robot/cyan1/command", "message" : {payload} , "sequence" : 0, "sent_ns" : 7, "sim_ns" : 60 }}'
-    batch = f'{{ "version" : "1.0", "stream" : 1, "number" : 0, "tick" : 3,\n "sent_ns" : 9, "entries" : [ {entry} ] }}'
+    batch = f'{{ "version" : "2.0", "stream" : 1, "number" : 0, "tick" : 3,\n "sent_ns" : 9, "entries" : [ {entry} ] }}'
     bus.publisher(RECORD_BATCH).put_payload(batch.encode())
     rig.leave()
     (recorded,) = rig.read().messages("robot/cyan1/command")

@@ -70,11 +70,11 @@ WRONG = {
     "a phase that is none": (GOOD + '[game]\nphase = "paly"\n', "game.phase is 'paly'; one of pre_game, stopped"),
     "a phase without a beginning": (GOOD + '[game]\nphase = "half_time"\n', "no scene begins in the phase half_time"),
     "a restart of nobody": (GOOD + '[game]\nphase = "corner"\n', "corner belongs to a side; name cyan or magenta"),
-    "a side in play": (GOOD + '[game]\nphase = "play"\nside = "cyan"\n', "play belongs to nobody"),
+    "a side in play": (GOOD + '[game]\nphase = "play"\nside = "cyan"\n', "play belongs to no side"),
     "a goal too many": (GOOD + "[game]\nscore = { cyan = -1 }\n", "game.score.cyan is -1"),
     "two goalkeepers": (
         GOOD.replace('side = "magenta"', 'side = "cyan"').replace("x = ", "keeper = true\nx = "),
-        "cyan1 and magenta1 both keep cyan's goal",
+        "cyan1 and magenta1 are goalkeepers of cyan",
     ),
     "an obstacle that is half one": (
         GOOD + '[[obstacles]]\nname = "wall"\nshape = "box"\nplace = [1.0, 1.0]\n',

@@ -118,7 +118,7 @@ def test_a_name_that_no_robot_can_have_is_wrong_input(host: Host) -> None:
 def test_an_action_in_a_match_that_nobody_plays_is_wrong_input(host: Host) -> None:
     result = touchline("stop", "--match", "final")
     assert result.exit_code == 2
-    assert 'match "final": nobody answers game/action' in result.stderr
+    assert 'match "final": no process answers game/action' in result.stderr
 
 
 def test_the_state_is_shown_once_in_words_and_as_json(host: Host) -> None:

@@ -192,5 +192,5 @@ def test_a_match_is_drawn_until_its_host_goes_and_its_last_picture_stays(
 
 
 def test_a_match_that_nobody_plays_is_wrong_input() -> None:
-    with pytest.raises(TouchlineError, match='match "cup": nobody answers host/setup'):
+    with pytest.raises(TouchlineError, match='match "cup": no process answers host/setup'):
         watch_on(Medium().open_bus("cup", SteppedClock()), Console(file=io.StringIO()))
