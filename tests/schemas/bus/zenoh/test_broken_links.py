@@ -168,7 +168,7 @@ def test_a_recorder_has_all_batches_though_the_link_breaks_again_while_they_are_
         def publish(count: int) -> None:
             nonlocal published
             for _ in range(count):
-                batches.note(ReceivedMessage(COMMAND, "robot/cyan1/command", filler, None))
+                batches.add_received(ReceivedMessage(COMMAND, "robot/cyan1/command", filler, None))
                 batches.send()
                 published += 1
 
