@@ -25,7 +25,6 @@ from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.config.scene import SceneReply
 from schemas.game import ActionName, ActionReply, EventKind, GameEvent, GameState, Phase, RefereeAction
-from schemas.message import Message
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.messages.command import Radio
 from schemas.messages.host import Belief, Health, Setup
@@ -50,6 +49,7 @@ from schemas.topics import (
     STATE,
     WORLD,
 )
+from schemas.wire.message import Message
 
 SOON = 20.0
 """s; more than anything takes here, so that only what never comes fails a test."""
