@@ -15,10 +15,12 @@ from schemas.bus.in_process_bus import Medium
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
-from schemas.game import ActionReply, EventKind, GameEvent, GameState, Phase, RefereeAction
+from schemas.game import EventKind, Phase
 from schemas.messages.coach import CoachOrder
-from schemas.messages.command import Command, Radio
-from schemas.messages.host import Belief, Setup
+from schemas.messages.command import Command
+from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeAction
+from schemas.messages.radio import Belief, Radio
+from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.process.clock import SteppedClock, WallClock

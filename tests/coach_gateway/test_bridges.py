@@ -24,11 +24,12 @@ from schemas.bus.zenoh.bus import open_host
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
+from schemas.config.settings_file import write_settings
 from schemas.errors import TouchlineError
-from schemas.game import GameState, Phase
-from schemas.messages.host import Setup
+from schemas.game import Phase
+from schemas.messages.game import GameState
+from schemas.messages.setup import Setup
 from schemas.process.clock import WallClock
-from schemas.process.settings_file import write_settings
 from schemas.side import Side
 from schemas.topics import SETUP, STATE
 

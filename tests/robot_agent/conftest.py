@@ -12,9 +12,10 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.frames import from_body, wrap
-from schemas.game import GameView, TeamPhase
+from schemas.game import TeamPhase
 from schemas.messages.command import Drive
-from schemas.messages.host import Setup
+from schemas.messages.game import GameView
+from schemas.messages.setup import Setup
 from schemas.messages.sight import BallSight, Motion, Obstacle, ReceivedRadio, Sight
 from schemas.side import Side
 

@@ -10,7 +10,8 @@ from coach_gateway import run
 from coach_gateway.settings import GatewaySettings
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.game import ActionName, RefereeAction
+from schemas.game import ActionName
+from schemas.messages.game import RefereeAction
 from touchline.cli import options
 from touchline.cli.bus_client import PATIENCE, bus_client
 from touchline.cli.option_groups import from_options, with_option_groups

@@ -12,7 +12,7 @@ from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import with_option_groups
 
 if TYPE_CHECKING:
-    from schemas.config.scene import SceneRequest
+    from schemas.messages.scene import SceneRequest
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -159,7 +159,8 @@ def _request(**content: Any) -> "SceneRequest":
     Raises:
         TouchlineError: a value that it may not have.
     """
-    from schemas.config.scene import REMEDIES, SceneRequest
+    from schemas.config.scene import REMEDIES
     from schemas.config.toml_file import validate_tables
+    from schemas.messages.scene import SceneRequest
 
     return validate_tables(SceneRequest, content, f"scene {content['operation']}", REMEDIES)

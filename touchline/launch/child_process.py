@@ -7,8 +7,8 @@ import sys
 from abc import ABC, abstractmethod
 from pathlib import Path
 
+from schemas.config.settings_file import write_settings
 from schemas.errors import TouchlineError
-from schemas.process.settings_file import write_settings
 from touchline.launch import leash
 from touchline.launch.processes import Process
 

@@ -10,8 +10,8 @@ from coach_gateway.match.lines import event_line
 from schemas.bus.contract import Bus, BusError, ReceivedMessage
 from schemas.bus.zenoh.bus import open_client
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.game import GameEvent, GameState
-from schemas.messages.host import Health
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.health import Health
 from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle

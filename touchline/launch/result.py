@@ -11,7 +11,8 @@ from rich.text import Text
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text
-from schemas.game import DisciplinaryRecord, EventKind, GameEvent, Score
+from schemas.game import EventKind, Score
+from schemas.messages.game import DisciplinaryRecord, GameEvent
 
 NOTABLE = frozenset(
     {

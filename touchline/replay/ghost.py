@@ -18,8 +18,9 @@ from robot_agent.runner import serve
 from schemas.bus.zenoh.bus import open_client
 from schemas.config.match_config import LOCKSTEP, MatchConfig
 from schemas.errors import TouchlineError
+from schemas.messages.applied import Applied
 from schemas.messages.command import Command
-from schemas.messages.host import Applied, Setup
+from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.process.clock import WallClock
 from schemas.process.scheduling import use_batch_scheduling

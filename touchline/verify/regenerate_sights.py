@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 
 from recordings.reading.recording import Recording
 from schemas.errors import TouchlineError
+from schemas.messages.applied import Applied
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
-from schemas.messages.host import Applied
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.sight import Sight
 from schemas.side import Side

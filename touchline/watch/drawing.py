@@ -3,7 +3,7 @@
 from rich.text import Text
 
 from coach_gateway.match.follower import MatchFollower
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from touchline.watch import panel
 from touchline.watch.pitch import field, rows_for
 

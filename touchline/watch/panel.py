@@ -9,10 +9,12 @@ from rich.text import Text
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text, event_line, half_text, phase_text, printable
 from coach_gateway.match.orders import OrderBook
-from schemas.game import DisciplinaryRecord, EventKind, GameState
+from schemas.game import EventKind
 from schemas.messages.coach import CoachOrder
-from schemas.messages.command import Radio
-from schemas.messages.host import Health, Setup
+from schemas.messages.game import DisciplinaryRecord, GameState
+from schemas.messages.health import Health
+from schemas.messages.radio import Radio
+from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 from touchline.watch.pitch import SIDES, arrow

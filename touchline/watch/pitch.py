@@ -8,8 +8,9 @@ from rich.style import Style
 from rich.text import Text
 
 from schemas.config.sections import Pitch
-from schemas.game import RESTARTS, GameState, Phase
-from schemas.messages.host import Setup
+from schemas.game import RESTARTS, Phase
+from schemas.messages.game import GameState
+from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 from touchline.watch.braille import ACROSS, DOWN, BrailleCanvas

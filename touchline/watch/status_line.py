@@ -4,7 +4,7 @@ from collections import Counter
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import state_line
-from schemas.messages.host import Health
+from schemas.messages.health import Health
 
 _NAMED = 4
 """So many silent robots are named; more are counted."""

@@ -10,9 +10,10 @@ from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
-from schemas.game import ActionName, ActionReply, RefereeAction
+from schemas.game import ActionName
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
-from schemas.messages.host import Setup
+from schemas.messages.game import ActionReply, RefereeAction
+from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import ACTION, ACTIVE_ORDER, ORDER, SETUP

@@ -23,13 +23,15 @@ from schemas.bus.in_process_bus import Medium
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
-from schemas.config.scene import SceneReply
-from schemas.game import ActionName, ActionReply, EventKind, GameEvent, GameState, Phase, RefereeAction
+from schemas.game import ActionName, EventKind, Phase
 from schemas.messages.coach import ActiveOrder, CoachOrder
-from schemas.messages.command import Radio
-from schemas.messages.host import Belief, Health, Setup
+from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeAction
+from schemas.messages.health import Health
 from schemas.messages.parameters import ParametersReply, ParametersRequest
+from schemas.messages.radio import Belief, Radio
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
+from schemas.messages.scene import SceneReply
+from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, World
 from schemas.process.clock import WallClock
 from schemas.side import Side

@@ -3,8 +3,9 @@
 import pytest
 
 from schemas.errors import TouchlineError
-from schemas.messages.command import Command, Drive, Kick, KickMode, Radio
+from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.manual import ManualDrive
+from schemas.messages.radio import Radio
 from schemas.topics import BELIEF, INVALID, MANUAL
 from touchline.commands.drive import drive_by_keys
 from touchline.drive.keys import Speeds

@@ -8,8 +8,9 @@ from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import Medium
-from schemas.game import ActionName, ActionReply, GameState, Phase, RefereeAction, Score
-from schemas.messages.host import Health, RobotHealth
+from schemas.game import ActionName, Phase, Score
+from schemas.messages.game import ActionReply, GameState, RefereeAction
+from schemas.messages.health import Health, RobotHealth
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import ACTION, HEALTH, STATE

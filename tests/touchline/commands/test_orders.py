@@ -16,7 +16,7 @@ from schemas.config.rule_book import load_rule_book
 from schemas.game import Point
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock
 from schemas.topics import ACTIVE_ORDER, ORDER, SETUP
 from touchline.__main__ import app

@@ -11,7 +11,8 @@ from recordings.container.manifest import Result as Ending
 from recordings.recorder.recording_writer import RecordingWriter
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.config.match_config import load_match
-from schemas.game import GameState, Phase
+from schemas.game import Phase
+from schemas.messages.game import GameState
 from schemas.process.clock import SteppedClock
 from schemas.topics import STATE
 from touchline.__main__ import app

@@ -14,10 +14,12 @@ from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
-from schemas.game import DisciplinaryRecord, EventKind, GameEvent, GameState, OffField, Phase, Point, Score
+from schemas.game import EventKind, OffField, Phase, Point, Score
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
-from schemas.messages.command import Radio
-from schemas.messages.host import Belief, Health, RobotHealth, Setup
+from schemas.messages.game import DisciplinaryRecord, GameEvent, GameState
+from schemas.messages.health import Health, RobotHealth
+from schemas.messages.radio import Belief, Radio
+from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.process.clock import SteppedClock
 from schemas.side import Side

@@ -2,8 +2,10 @@ import pytest
 
 from coach_gateway.match.follower import MatchFollower
 from schemas.bus.in_process_bus import Medium
-from schemas.game import DisciplinaryRecord, GameStage, GameState, OffField, Phase, Score
-from schemas.messages.host import Health, RecorderProgress, RobotHealth
+from schemas.game import GameStage, OffField, Phase, Score
+from schemas.messages.game import DisciplinaryRecord, GameState
+from schemas.messages.health import Health, RobotHealth
+from schemas.messages.recorder import RecorderProgress
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import RECORDER_PROGRESS
