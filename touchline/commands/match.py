@@ -26,9 +26,7 @@ if TYPE_CHECKING:
 
 @with_option_groups
 def match(
-    record: Annotated[
-        Path | None, typer.Option(help="The recording to write; by default in the run's folder.")
-    ] = None,
+    record: Annotated[Path | None, typer.Option(help="The recording to write; by default in the run's folder.")] = None,
     no_record: Annotated[bool, typer.Option("--no-record", help="Do not record the match.")] = False,
     ghost: Annotated[
         list[str] | None, typer.Option(help="A side played by its recorded commands: magenta=RECORDING.mcap.")
@@ -135,9 +133,7 @@ def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> "MatchResult":
             return MatchRun(plan, screen, clock, _losses, _recorded).play()
     except InterruptedMatchError as stopped:
         left = plan.recording is not None and plan.recording.exists()
-        typer.echo(
-            f"touchline: match interrupted; see {plan.recording if left else plan.folder}", err=True
-        )
+        typer.echo(f"touchline: match interrupted; see {plan.recording if left else plan.folder}", err=True)
         raise typer.Exit(128 + stopped.number) from None
 
 

@@ -35,7 +35,9 @@ def replay(
     start: Annotated[
         str | None, typer.Option("--from", help="Start: seconds, or an event such as goal:2 or goal:2-5.")
     ] = None,
-    end: Annotated[str | None, typer.Option("--to", help="End, inclusive: seconds, or an event such as goal:2.")] = None,
+    end: Annotated[
+        str | None, typer.Option("--to", help="End, inclusive: seconds, or an event such as goal:2.")
+    ] = None,
     loop: Annotated[bool, typer.Option("--loop", help="Start again at the end.")] = False,
     paused: Annotated[bool, typer.Option("--paused", help="Start paused.")] = False,
     stay: Annotated[bool, typer.Option("--stay", help="Pause at the end instead of exiting.")] = False,
@@ -206,9 +208,7 @@ def _play(
 
         host.run(meanwhile)
     if host.unknown_keys:
-        typer.echo(
-            f"touchline: {host.unknown_keys} messages on unknown keys were left out", err=True
-        )
+        typer.echo(f"touchline: {host.unknown_keys} messages on unknown keys were left out", err=True)
     if stop.received is not None:
         raise typer.Exit(128 + stop.received)
     return host.player

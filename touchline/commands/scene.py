@@ -131,7 +131,9 @@ def remove(
 @app.command("reset")
 @with_option_groups
 def reset(
-    to_start: Annotated[bool, typer.Option("--to-start", help="Go to the start of the match, not of the scene.")] = False,
+    to_start: Annotated[
+        bool, typer.Option("--to-start", help="Go to the start of the match, not of the scene.")
+    ] = False,
     *,
     connection: ClientSettings,
 ) -> None:

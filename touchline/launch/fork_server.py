@@ -1,7 +1,7 @@
 """Launches robots with the standard library's fork server, which has the common modules imported.
 
-A robot is launched by its command line instead if the kernel is not Linux, if the robot has its own program, or if it is
-restarted after a crash.
+A robot is launched by its command line instead if the kernel is not Linux, if the robot has its own program, or if it
+is restarted after a crash.
 """
 
 import multiprocessing

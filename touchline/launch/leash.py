@@ -1,8 +1,8 @@
 """Run a program that dies with the process that launched it: `python leash.py PID PROGRAM …`.
 
 This file is run by its path and imports the standard library alone, so that it costs a few milliseconds. It avoids
-running code between fork and exec in a supervisor that has threads. If the kernel is not Linux, the program runs without
-this protection.
+running code between fork and exec in a supervisor that has threads. If the kernel is not Linux, the program runs
+without this protection.
 """
 
 import ctypes

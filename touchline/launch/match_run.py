@@ -86,7 +86,7 @@ class MatchRun:
         """Play the match.
 
         Raises:
-            InterruptedMatchError: SIGINT or SIGTERM was received; all processes have ended and the recording is finished.
+            InterruptedMatchError: SIGINT or SIGTERM; all processes have ended and the recording is finished.
             MatchFailedError: the host ended before full time, or the recording was lost.
             TouchlineError: the host could not start; the message is the host's.
         """
@@ -171,7 +171,7 @@ class MatchRun:
         if recording is not None and (self._supervisor.ended.get("recorder") != 0 or missing):
             log = self._supervisor.last_lines("recorder")
             raise MatchFailedError(
-                f"the match was played but its recording was lost: {log[-1] if log else 'the recorder logged no reason'}; "
+                f"the match was played but its recording was lost: {log[-1] if log else 'no reason logged'}; "
                 f"its log is {self._plan.folder / 'recorder.log'}"
             )
         return MatchResult.of(follower, recording, self._losses(self._plan))

@@ -22,7 +22,7 @@ class RunningProcess(Protocol):
         """Send a signal, unless the process has ended."""
 
     def last_lines(self, count: int = 5) -> list[str]:
-        """The end of its log."""
+        """The last lines of the log."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,11 +106,11 @@ class Supervisor:
         return self.ended.get("host")
 
     def last_lines(self, name: str) -> list[str]:
-        """The end of a process's log."""
+        """The last lines of a process's log."""
         return self._running[name].last_lines() if name in self._running else []
 
     def end(self, steps: Sequence[EndStep], hurried: Callable[[], bool] = lambda: False) -> None:
-        """End all processes by these steps; returns when all have ended, or as soon as `hurried` is true."""
+        """End all processes by these steps; returns when all have ended, or as soon as `hurried()` is true."""
         began = self._clock.now()
         waiting = list(steps)
         while self._still_running() and not hurried():

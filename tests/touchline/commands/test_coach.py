@@ -139,4 +139,4 @@ def test_the_state_of_a_match_that_waits_for_robots_says_how_many_are_there(host
 def test_a_host_that_says_nothing_is_named(host: Host) -> None:
     result = touchline("state")
     assert result.exit_code == 2
-    assert 'match "friendly": the host says nothing of it' in result.stderr
+    assert 'match "friendly": the host publishes no state of it' in result.stderr
