@@ -2,8 +2,8 @@
 
 A parameter of a command whose type is a settings model or a dataclass becomes one option per field, and the command
 receives the model or the dataclass. An option of a model is made from its field: name, type, default, limits, and the
-docstring as help. A parameter of type `Annotated[dict[str, Any], FieldsOf(Model, "a", "b")]` stands for some fields of a
-model; the command receives those whose options were used.
+docstring as help. A parameter of type `Annotated[dict[str, Any], FieldsOf(Model, "a", "b")]` stands for some fields of
+a model; the command receives those whose options were used.
 """
 
 from collections.abc import Callable

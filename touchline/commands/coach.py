@@ -20,7 +20,8 @@ from touchline.commands.serve import serve
 
 app = typer.Typer(
     no_args_is_help=True,
-    help="Send requests to the referee of a running match, order a side, or watch.\n\nExample: touchline coach kickoff magenta",
+    help="Send requests to the referee of a running match, order a side, or watch.\n\n"
+    "Example: touchline coach kickoff magenta",
 )
 
 

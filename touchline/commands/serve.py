@@ -1,4 +1,4 @@
-"""`touchline coach serve`: the match's page, for people who watch and command it in their browsers."""
+"""`touchline coach serve`: serves the match's page, to watch and command the match in a browser."""
 
 import typer
 

@@ -35,7 +35,7 @@ def _check_program(key: str, command: list[str]) -> None:
     if not command:
         raise TouchlineError(f'{key} is empty; write it as ["program", "argument"]')
     if shutil.which(command[0]) is None:
-        raise TouchlineError(f'{key} begins with "{command[0]}", which is no program here; give its path')
+        raise TouchlineError(f'{key} begins with "{command[0]}", which is not a program here; give its path')
 
 
 def _check_brain(key: str, brain: str) -> None:

@@ -70,7 +70,7 @@ def test_seconds_of_a_recording_are_copied_and_pieces_are_put_together_again(tmp
 
 def test_a_recovered_file_and_one_that_was_whole(tmp_path: Path) -> None:
     path = write(tmp_path / "a.mcap")
-    assert touchline("recover", path).stdout == f"{path}: is whole, 50 messages\n"
+    assert touchline("recover", path).stdout == f"{path}: intact, 50 messages\n"
     path.write_bytes(path.read_bytes()[:-40])
     (said,) = json.loads(touchline("recover", path, "--json").stdout)
     assert (said["repaired"], said["messages"], said["path"]) == (True, 50, str(path))
