@@ -134,10 +134,10 @@ def test_the_state_of_a_match_that_waits_for_robots_says_how_many_are_there(host
     host.says = [Health(tick=0, time=0.0, pace="lockstep", real_time_factor=0.0, robots=robots)]
     result = touchline("state")
     assert result.exit_code == 1
-    assert result.stderr == 'touchline: match "friendly" has not begun: 1 of 2 robots are there\n'
+    assert result.stderr == 'touchline: match "friendly" has not begun: 1 of 2 robots are connected\n'
 
 
 def test_a_host_that_says_nothing_is_named(host: Host) -> None:
     result = touchline("state")
     assert result.exit_code == 2
-    assert 'match "friendly": the host says nothing of it' in result.stderr
+    assert 'match "friendly": the host publishes no state of it' in result.stderr

@@ -161,7 +161,7 @@ def test_an_order_that_stands_is_shown_with_who_has_not_heard_it() -> None:
     press = CoachOrder(sequence=4, tactic="press")
     book.update(Side.MAGENTA, ActiveOrder(tick=1, time=0.0, order=press, acknowledged={"magenta1": True}))
     assert [row.plain for row in orders(book)] == [
-        " cyan  test pass, cyan2, cyan3  not heard by cyan3",
+        " cyan  test pass, cyan2, cyan3  not acknowledged by cyan3",
         " magenta  play: press",
     ]
 

@@ -28,7 +28,7 @@ def test_before_the_host_speaks_it_is_waited_for() -> None:
 def test_before_the_first_tick_the_missing_robots_are_named() -> None:
     waiting = view()
     waiting.health = health(0, cyan2=RobotHealth())
-    assert status_line(waiting, 2) == "waiting for everybody  robots 1/2 (missing: cyan2)"
+    assert status_line(waiting, 2) == "waiting for the robots  robots 1/2 (missing: cyan2)"
 
 
 def test_while_it_is_played_clock_score_phase_speed_and_robots_stand_in_one_line() -> None:
