@@ -18,6 +18,8 @@ SOURCES = {
 DOCUMENTED = {"__struct_config__", "_asdict", "_exit", "_fields", "_make", "_replace"}
 """Of named tuples and `os`: public in spite of their names."""
 SPECIAL = {name for thing in (type, ast, ast.walk, list[int], IOBase, Exception()) for name in dir(thing)} | {
+    "__all__",
+    "__post_init__",
     "__signature__",
     "__slots__",
     "__metadata__",

@@ -8,7 +8,7 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.recorder.recorder import Recorder, RecordingSummary
 from recordings.recorder.sink import Sink
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus, Publisher
+from schemas.bus.contract import Bus, Publisher, Server
 from schemas.bus.in_process_bus import InProcessBus, Medium
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
@@ -64,6 +64,9 @@ class PublisherLog(InProcessBus):
     def publisher(self, topic: Topic, **chunks: str) -> Publisher:
         made = self.made[topic.fill(**chunks)] = self._bus.publisher(topic, **chunks)
         return made
+
+    def serve(self, topic: Topic, **chunks: str) -> Server:
+        return self._bus.serve(topic, **chunks)
 
 
 @dataclass
