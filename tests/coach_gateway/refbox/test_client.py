@@ -235,12 +235,12 @@ def test_park_is_ordered_to_the_robots_and_the_next_command_has_them_play(met: A
         async with met() as (bench, box, _):
             bench.stage.say(phase=Phase.HALF_TIME)
             box.say("PARK")
-            await until(lambda: len(bench.stage.orders) == 2)
+            await until(lambda: len(bench.stage.given_orders) == 2)
             bench.stage.say(phase=Phase.STOPPED, half=2)
             await until(lambda: bench.live.state.half == 2)
             box.say("KICKOFF", MAGENTA_AT)
-            await until(lambda: len(bench.stage.orders) == 4)
-            modes = [(side, order.mode) for side, order in bench.stage.orders]
+            await until(lambda: len(bench.stage.given_orders) == 4)
+            modes = [(side, order.mode) for side, order in bench.stage.given_orders]
             assert modes == [(side, mode) for mode in (CoachMode.PARK, CoachMode.PLAY) for side in Side]
 
     asyncio.run(play())

@@ -26,8 +26,8 @@ from schemas.config.rule_book import load_rule_book
 from schemas.messages.host import Setup
 from schemas.process.clock import WallClock
 from schemas.topics import SETUP
-
-from .conftest import SOON, TOKENS, Visitor
+from support.page_gateway import SOON, TOKENS
+from support.visitor import Visitor
 
 
 @contextlib.contextmanager
