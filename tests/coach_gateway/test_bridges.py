@@ -19,15 +19,12 @@ from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.refbox.server import ServerAddress
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_host
-from schemas.config.match_config import load_match
-from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.game import GameState, Phase
-from schemas.messages.host import Setup
 from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import SETUP, STATE
+from support.messages import make_setup
 
 LIMIT_S = 60.0
 """To start, a process takes a second of a core: many, where others want it, too."""
@@ -125,7 +122,7 @@ def test_bridges_need_no_web_server() -> None:
 @pytest.mark.processes
 def test_one_process_has_all_bridges_and_ends_when_it_is_told(tmp_path: Path) -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
-    setup = Setup.of(load_match(None, {}), load_profile("msl"), load_rule_book("friendly"))
+    setup = make_setup()
     tokens = tmp_path / "tokens.json"
     command = [sys.executable, "-m", "coach_gateway", "--connect", endpoint, "--tokens", str(tokens), "--udp", "0"]
     command += ["--refbox-server", "0", "--audience", "127.0.0.1:9"]
