@@ -1,10 +1,10 @@
-# Touchline on a fresh machine: `make match` and `make test` need Python 3.11, git and make, and fetch the rest
-# into .venv. What is installed there is pinned by hash in requirements.lock.
+# Touchline on a fresh machine: `make match` and `make test` require Python 3.11, git and make, and install the rest
+# into .venv. Its packages are pinned by hash in requirements.lock.
 
 .DEFAULT_GOAL := help
 .PHONY: help match test check bench clean
 READY := .venv/.ready
-# Compiled once: where Python is told to write no bytecode, as in many containers, each process of each match would.
+# Compiled once: where Python writes no bytecode, as in many containers, each process would compile them at its start.
 PACKAGES := schemas sim_host robot_agent coach_gateway recordings touchline
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
@@ -17,7 +17,7 @@ match: $(READY) ## play a match, for example: make match ARGS="--seed 7 --durati
 test: $(READY) ## run the tests, file by file in two processes, for example: make test ARGS=tests/touchline
 	.venv/bin/pytest -n 2 --dist loadfile $(ARGS)
 
-check: $(READY) ## format, lint, types, and which package may import which
+check: $(READY) ## format, lint, types, and the contracts on imports
 	.venv/bin/ruff format --check
 	.venv/bin/ruff check
 	.venv/bin/mypy
@@ -37,10 +37,10 @@ $(READY): requirements.lock pyproject.toml
 	@.venv/bin/python -m compileall -q $(PACKAGES)
 	@touch $@
 
-# PyBullet has binary wheels for 3.11 alone among the versions that Touchline runs on. A distribution builds its Python
-# with the help of profiles and plays a match a quarter faster than one built without, as pyenv does: the system's own
-# comes first, PYTHON=/path/to/python3.11 names another. Where there is none, uv brings one: the uv that is there, or one
-# from the package index in a folder that is thrown away.
+# Of the versions that Touchline supports, PyBullet has binary wheels for 3.11 only. The system's Python comes first,
+# because a distribution builds it with profile-guided optimization: it plays a match a quarter faster than a build
+# without, such as pyenv's. PYTHON=/path/to/python3.11 selects another. Without any, uv installs one: the uv on the path,
+# or one from the package index in a temporary folder.
 PYTHON ?= /usr/bin/python3.11 python3.11
 define NEW_VENV
 found=""; \
@@ -57,7 +57,7 @@ elif uv --version >/dev/null 2>&1; then \
 else \
 	uv=$$(mktemp -d) && trap 'rm -rf "$$uv"' EXIT && { python3 -m venv "$$uv" && "$$uv/bin/pip" install --quiet uv && \
 		"$$uv/bin/uv" venv --seed --python 3.11 .venv; } >/dev/null 2>&1 || { rm -rf .venv; \
-		echo "Python 3.11 is missing and uv could not bring it; install python3.11 and its venv, then make again" >&2; \
+		echo "Python 3.11 is missing and uv could not install it; install python3.11 and its venv, then make again" >&2; \
 		exit 1; }; \
 fi
 endef

@@ -1,8 +1,8 @@
-"""One physics step of the host, everything included, against the same PyBullet world stepped raw.
+"""One physics step of the host, everything included, against a plain PyBullet loop of the same world.
 
-Host: ten robots that drive, dribble and talk; actuation, contacts, sensing with noise, radio, referee, hash chain, and
-every message encoded. Raw: the same bodies in the same engine, in the loop that any PyBullet program has: set ten
-velocities, step, read eleven bodies back. Both in one process, in turns.
+Host: ten robots that drive, dribble and send radio messages; actuation, contacts, sensing with noise, radio, referee,
+hash chain, and every message encoded. Raw: the same bodies in the same engine, in the loop of any PyBullet program: set
+ten velocities, step, read eleven bodies. Both run in one process, in turns.
 """
 
 import math
@@ -19,30 +19,31 @@ from sim_host.physics.engine import Engine
 
 ROUNDS = 15
 TURNS = 5
-"""In a round: each has its share of what is drawn at random for hundreds of ticks at once."""
+"""In a round, so that each gets its share of the random numbers that are drawn for hundreds of ticks at once."""
 TICKS = 100
-"""In a turn: no longer, or the raw bodies, which drive straight on, are at the boards."""
+"""In a turn; in more, the raw bodies, which drive straight ahead, would reach the boundary."""
 
 
 def timed(body: Callable[[], None]) -> float:
-    """Seconds that a call takes."""
+    """Duration of a call in s."""
     began = time.perf_counter()
     body()
     return time.perf_counter() - began
 
 
 def commands(simulation: Simulation, tick: int) -> dict[str, Command]:
-    """What ten lively robots answer to a tick, as the host reads it: each drives its own circle, 0.7 m wide, and speaks
-    every fifth tick.
+    """Commands of ten robots for a tick, as the host decodes them.
+
+    Each robot drives a circle of its own, 0.7 m wide, and sends a radio message in every fifth tick.
     """
-    word = Radio(self=Motion(x=1, y=2, heading=0.1), ball=BallBelief(x=1, y=2), role="striker", intention="shoot")
+    radio = Radio(self=Motion(x=1, y=2, heading=0.1), ball=BallBelief(x=1, y=2), role="striker", intention="shoot")
     return {
         name: Command.decode(
             Command(
                 answers_tick=tick,
                 drive=Drive(vx=math.cos(place), vy=math.sin(place), omega=3.0),
                 dribble=True,
-                radio=word if (tick + place) % 5 == 0 else None,
+                radio=radio if (tick + place) % 5 == 0 else None,
             ).encode()
         )
         for place, name in enumerate(simulation.roster.names)
@@ -57,7 +58,7 @@ def main() -> None:
 
     def host() -> None:
         for commanded in inputs:
-            tick = simulation.step(commanded)  # sights, beliefs and inputs leave it encoded
+            tick = simulation.step(commanded)  # returns sights, beliefs and inputs encoded
             encode({"version": VERSION, **tick.world})  # as `Publisher.put_fields` does
 
     raw = Engine(simulation.profile, simulation.roster)

@@ -1,7 +1,8 @@
-"""Sight → command → host in real time, against a raw zenoh-python ping-pong of equal size and equal many processes.
+"""Sight → command → host in real time, against a zenoh-python ping-pong of equal sizes and as many processes.
 
-Both send ten messages of a sight's size every 20 ms to ten processes, each of which sends back one of a command's
-size; both take the time from just before the first is sent to the router's stamp on the answer. One after the other.
+Both send ten messages of a sight's size every 20 ms to ten processes; each process replies with one of a command's
+size. Both measure from just before the first is sent to the time of reception at the router. They run one after the
+other.
 """
 
 import json
@@ -27,7 +28,7 @@ SECONDS = 8
 
 
 def ours() -> float:
-    """Median latency over the robots and the seconds, ms."""
+    """Median latency over all robots and reports of the host's health, in ms."""
     with (
         running_match("idle_brain:act", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, _),
         open_client(config.name, WallClock(), endpoint) as bus,
@@ -43,7 +44,7 @@ def ours() -> float:
 
 
 def settings(mode: str, **more: object) -> zenoh.Config:
-    """Zenoh as our own bus sets it up."""
+    """The configuration of Touchline's own bus."""
     config = zenoh.Config()
     quiet = {"mode": mode, "scouting/multicast/enabled": False, "scouting/gossip/enabled": False, "scouting/delay": 0}
     for key, value in {**quiet, "transport/shared_memory/enabled": False, **more}.items():
@@ -52,7 +53,7 @@ def settings(mode: str, **more: object) -> zenoh.Config:
 
 
 def raw() -> float:
-    """Median latency of the ping-pong, ms."""
+    """Median latency of the ping-pong, in ms."""
     endpoint = with_free_port("tcp/127.0.0.1:0")
     session = zenoh.open(settings("router", listen__endpoints=[endpoint]))
     players = [
@@ -79,7 +80,7 @@ def raw() -> float:
 
 
 def play(endpoint: str, number: str) -> None:
-    """One raw player: answers each ping with a pong."""
+    """One process of the ping-pong: replies to each ping."""
     with zenoh.open(settings("client", connect__endpoints=[endpoint])) as session:
         pings = session.declare_subscriber(f"raw/{number}/ping", zenoh.handlers.RingChannel(1))
         pong = session.declare_publisher(f"raw/{number}/pong")

@@ -1,4 +1,4 @@
-"""Lockstep: sense-act cycles per second of ten agent processes that answer at once, and what bounds them."""
+"""Lockstep: sense-act cycles per second of ten agent processes that answer at once, and what limits them."""
 
 import os
 import time
@@ -21,7 +21,7 @@ def cpu_seconds(process: int) -> float:
 
 
 def main() -> None:
-    """Print cycles per second, their ratio to the wanted rate, and the host's share of one core."""
+    """Print cycles per second, their ratio to the target, and the host's share of one core."""
     with (
         running_match("idle_brain:act", {"duration": 3600.0}) as (config, endpoint, host),
         open_client(config.name, WallClock(), endpoint) as bus,
@@ -44,9 +44,9 @@ def main() -> None:
         rate = ticks / span
     factor = rate * config.load_profile().time.tick
     print(
-        f"lockstep: {rate:.0f} cycles/s with ten agent processes, {rate / 500:.2f} x the 500 wanted, {factor:.1f} x "
-        f"real time; bound by the CPU: the host takes {busy / took:.0%} of a core, "
-        f"the agents what is left of {os.cpu_count()}"
+        f"lockstep: {rate:.0f} cycles/s with ten agent processes, {rate / 500:.2f} x the target of 500, {factor:.1f} x "
+        f"real time; limited by the CPU: the host uses {busy / took:.0%} of a core, "
+        f"the agents the rest of {os.cpu_count()}"
     )
 
 

@@ -1,4 +1,4 @@
-"""The default match, the whole command: seconds of play per second of waiting, launch and farewell included."""
+"""The default match, from the command line to its end: s of play per s of wall time, launch and shutdown included."""
 
 import json
 import subprocess

@@ -1,7 +1,7 @@
-"""The page in a headless browser: pictures a second with ten robots, and how soon a pressed stop reaches every robot.
+"""The page in a headless browser: pictures per second with ten robots, and how soon a stop reaches every robot.
 
-A match of ten agent processes in real time, the gateway beside it, one page. The time of a stop runs from the key to
-the first sight that is seen to tell the last robot of it, by the clock of this machine.
+A match of ten agent processes in real time, a gateway, one page. The time of a stop runs from the key press to the
+first sight with the stopped game that the host sends to the last robot, by the clock of this machine.
 """
 
 import json
@@ -9,14 +9,15 @@ import os
 import shutil
 import statistics
 import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
 
 from playwright.sync_api import Page, sync_playwright
-from running_match import running_match
+from running_match import launch, running_match
 
+from coach_gateway.settings import GatewaySettings
+from coach_gateway.web.settings import WebSettings
 from schemas.bus.contract import Bus, Subscription
 from schemas.bus.zenoh.bus import open_client
 from schemas.config.match_config import MatchConfig
@@ -46,8 +47,8 @@ def main() -> None:
         sync_playwright() as playwright,
     ):
         tokens = Path(folder) / "tokens.json"
-        words = ["--web", "--port", "0", "--tokens", str(tokens), "--connect", endpoint, "--match", config.name]
-        gateway = subprocess.Popen([sys.executable, "-m", "coach_gateway", *words], stdout=subprocess.PIPE, text=True)
+        settings = GatewaySettings(connect=endpoint, match=config.name, tokens=tokens, web=WebSettings(port=0))
+        gateway = launch("coach_gateway", settings, subprocess.PIPE)
         try:
             address = _address(gateway)
             root = ["--no-sandbox"] if os.geteuid() == 0 else []
@@ -62,18 +63,18 @@ def main() -> None:
             gateway.terminate()
             gateway.wait()
     print(
-        f"page: {rate:.0f} pictures a second with ten robots (30 at least), stop to the last robot's sight "
+        f"page: {rate:.0f} pictures per second with ten robots (at least 30), stop to the last robot's sight "
         f"median {statistics.median(reached):.0f} ms, worst {max(reached):.0f} ms of {STOPS} (at most 100)"
     )
 
 
-def _address(gateway: subprocess.Popen[str]) -> str:
-    """Where the page is, as its server says."""
+def _address(gateway: subprocess.Popen[bytes]) -> str:
+    """The address of the page, as its server prints it."""
     assert gateway.stdout is not None
-    for line in gateway.stdout:
+    for line in map(bytes.decode, gateway.stdout):
         if "http://" in line:
             return "http://" + line.split("http://")[1].split("#")[0].strip().rstrip(";,")
-    raise RuntimeError("the gateway ended before it said where its page is")
+    raise RuntimeError("the gateway ended before it printed the address of its page")
 
 
 def _rate(page: Page) -> float:
@@ -83,7 +84,7 @@ def _rate(page: Page) -> float:
 
 
 def _stop(page: Page, bus: Bus, config: MatchConfig) -> float:
-    """Let the game run, stop it by the space bar; ms until the last robot was told."""
+    """Let the game run, stop it by the space bar; ms until the last robot's sight has the stopped game."""
     page.locator("[data-action=drop_ball]").click()
     page.locator("[data-action=start]").click()
     _until(page, "window.touchline.match.state.running && window.touchline.match.state.phase !== 'stopped'")
@@ -102,7 +103,7 @@ def _stop(page: Page, bus: Bus, config: MatchConfig) -> float:
 
 
 def _stopped_at(sights: Subscription, began: int) -> int:
-    """Wall time in ns of a robot's first sight of the stopped game, as the host sent it."""
+    """Wall time in ns at which the host sent a robot's first sight of the stopped game."""
     while (received := sights.receive(10.0)) is not None:
         sent = received.stamp.sent_ns if received.stamp is not None else 0
         if sent > began and received.message().game.phase is TeamPhase.STOPPED:

@@ -1,9 +1,9 @@
 """Physics steps per second with 2 to 100 robots and both motion models: the bare engine, the world, the whole tick.
 
-Raw is the loop of any PyBullet program: set every robot's velocity, step, read all bodies back. World adds what turns
-commands into motion: possession, drives, wheels, the ball, contacts, the snapshot and the hash chain. Tick adds what
-a match needs beside them: referee, sensing, radio, and one encoded sight for each robot. All robots drive circles, each
-on its own ground, so that the number of robots changes and not the number of collisions; one holds the ball.
+Raw is the loop of any PyBullet program: set every robot's velocity, step, read all bodies. World adds everything that
+turns commands into motion: possession, drives, wheels, the ball, contacts, the snapshot and the hash chain. Tick adds
+the rest of a match: referee, sensing, radio, and one encoded sight for each robot. All robots drive circles, each in an
+area of its own, so that the number of robots changes and not the number of collisions; one robot holds the ball.
 
 The growth exponent p fits cost ~ n^p over all sizes (least squares of log cost over log n).
 """
@@ -57,7 +57,7 @@ class Cost:
 
 
 def roster_of(count: int, model: RobotModel) -> Roster:
-    """So many robots, half of them on each side, of one model; more than a match file allows."""
+    """A roster of `count` robots of one model, half of them on each side; may exceed the limit of a match file."""
     half = count // 2
     names = tuple(f"{side.value}{number}" for side in Side for number in range(1, half + 1))
     sides = tuple(side for side in Side for _ in range(half))
@@ -65,7 +65,7 @@ def roster_of(count: int, model: RobotModel) -> Roster:
 
 
 class TickRig:
-    """A pitch full of robots, and everything of a host that is not network."""
+    """Robots on a pitch, and all parts of a host but the network."""
 
     def __init__(self, profile_name: str, count: int) -> None:
         self.profile = profile = load_profile(profile_name)
@@ -101,7 +101,7 @@ class TickRig:
         self.raw.close()
 
     def _spread(self) -> list[Placement]:
-        """Everybody on a grid as wide as the pitch lets it be; the ball before the first."""
+        """All robots on a grid as wide as the pitch allows; the ball in front of the first."""
         field, names = self.profile.field, self.roster.names
         columns = math.ceil(math.sqrt(len(names) * field.length / field.width))
         rows = math.ceil(len(names) / columns)
@@ -117,7 +117,7 @@ class TickRig:
         return [*placements, Placement(body="ball", x=first.x + self.profile.dribble.gap, y=first.y)]
 
     def step_raw(self) -> None:
-        """One step as any program does it."""
+        """One step of a plain PyBullet program."""
         self.raw.set_velocities(self._drives)
         self.raw.step()
         self.raw.read()
@@ -129,7 +129,7 @@ class TickRig:
         self.world.chain()
 
     def sense(self) -> None:
-        """What all robots perceive in one tick after the other, without writing it down."""
+        """Perception of all robots in successive ticks, without encoding."""
         self.seen += 1
         self.perception.at(replace(self.snapshot, tick=self.seen), 1)
 
@@ -138,20 +138,20 @@ class TickRig:
         self.step_world()
         ruling = self.referee.step(self.state, self.snapshot, (), self.profile.time.tick)
         self.state = ruling.state
-        self.sights.at(self.snapshot, self.state, 1, self.advance.stuck, {}, {}, {}, nobody)
+        self.sights.at(self.snapshot, self.state, 1, self.advance.stuck, {}, {}, {}, discard)
 
     def ready(self) -> None:
-        """Give the raw engine the world's state, to go on from there."""
+        """Set the raw engine to the world's state."""
         self.raw.rebuild(self.snapshot.robots, self.snapshot.ball)
         self._drives = [(robot.vx, robot.vy, robot.omega) for robot in self.snapshot.robots]
 
 
-def nobody(_robot: str, _sight: bytes) -> None:
-    """Nobody reads the sights."""
+def discard(_robot: str, _sight: bytes) -> None:
+    """A publisher without readers."""
 
 
 def timed(body: Callable[[], None]) -> float:
-    """CPU seconds of one call, over as many as fill a round."""
+    """CPU time of one call in s, averaged over the calls that fill a round."""
     calls, began = 0, time.process_time()
     while True:
         body()
@@ -162,7 +162,7 @@ def timed(body: Callable[[], None]) -> float:
 
 
 def measure(profile_name: str, count: int) -> Cost:
-    """Medians over some rounds, in each of which everything has its turn."""
+    """Medians over several rounds; in each round everything has its turn."""
     rig = TickRig(profile_name, count)
     rig.step_world()
     steps = rig.profile.time.steps_per_tick
@@ -184,7 +184,7 @@ def exponent(costs: list[float]) -> float:
 
 
 def main() -> None:
-    """Print the table, and what sensing costs."""
+    """Print the table and the cost of sensing."""
     console = Console(width=120)
     table = Table(title="physics steps per second of CPU time, medians", box=None)
     for column in ("model", "robots", "raw", "world", "tick", "world/raw", "tick/raw"):

@@ -1,8 +1,8 @@
-"""Recordings: what recording costs, and how fast they are verified, replayed, recovered and sought in.
+"""Recordings: the cost of recording, and the speed of verification, replay, recovery and seeking.
 
-The recordings are of real matches: five a side in lockstep with the teams that ship, and in real time with robots that
-answer at once. The ten minutes are not played: their size is that of a shorter match, per simulated second. The 100 MB
-are the chunks of that match, one after the other as often as it takes, without an index, as a cut-off file has them.
+The recordings are of real matches: five a side in lockstep and in real time, with the teams that ship. The size of ten
+minutes is extrapolated from a shorter match. The file of 100 MB repeats the chunks of that match, without an index, as
+in a file that was cut off.
 """
 
 import contextlib
@@ -21,6 +21,7 @@ from running_match import HERE, launch, running_match
 
 from recordings.editing.recovery import recover
 from recordings.reading.recording import open_recording
+from recordings.settings import RecorderSettings
 from schemas.bus.contract import Subscription
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_client
@@ -32,14 +33,14 @@ from touchline.verify.resimulate import verify
 MATCH_S = 20
 INTERVALS = 9
 INTERVAL_S = 4.0
-"""Wall time in which a match is recorded, and in which it is not, in turn; many short intervals, because what else the
-machine does changes from one to the next by more than recording costs."""
+"""Wall time in which a match is recorded, then not, in turn. The intervals are short and many, because the load of
+other programs changes by more than the cost of recording."""
 SETTLE_S = 0.5
-"""Wall time in which a recorder's coming or going is forgotten."""
+"""Wall time after which a recorder's start or end has no more effect."""
 WARM_TICKS = 200
 REALTIME_S = 10.0
 PATIENCE_S = 120.0
-"""Wall time that a dozen processes may take to start on a busy machine."""
+"""Longest wall time in which a dozen processes start on a busy machine."""
 MB = 1_000_000
 CHUNK, DATA_END, METADATA, ATTACHMENT = 0x06, 0x0F, 0x0C, 0x09
 """Opcodes of MCAP records."""
@@ -52,14 +53,14 @@ def cpu_seconds(process: int) -> float:
 
 
 def recorder_share(folder: Path) -> float:
-    """CPU of a recorder of five a side in real time, as a share of one core."""
+    """CPU time of a recorder of five a side in real time, as a share of one core."""
     with running_match("robot_agent.teams.simple:Simple", {"duration": 3600.0, "pace": "realtime"}) as (
         config,
         endpoint,
         _,
     ):
         out = folder / "realtime.mcap"
-        recorder = launch("recordings", "--connect", endpoint, "--match", config.name, "--out", str(out))
+        recorder = launch("recordings", RecorderSettings(connect=endpoint, match=config.name, out=out))
         try:
             with open_client(config.name, WallClock(), endpoint, PATIENCE_S) as bus:
                 healths = bus.subscribe(HEALTH)
@@ -81,7 +82,7 @@ def play(path: Path) -> None:
 
 
 def speed(healths: Subscription) -> float:
-    """Ticks per wall second that a host plays just now."""
+    """Ticks per s of wall time of a host, measured over one interval."""
     marks = []
     while not marks or marks[-1][0] - marks[0][0] < INTERVAL_S:
         while healths.receive() is not None:
@@ -94,7 +95,7 @@ def speed(healths: Subscription) -> float:
 
 
 def compare(folder: Path) -> list[float]:
-    """How fast a lockstep match is with recording, of as fast as without: recorders come to one match, and leave again.
+    """Speed of a lockstep match with recording relative to without: recorders join one match and leave it again.
 
     Each interval with one is compared with the two intervals without around it.
     """
@@ -108,9 +109,8 @@ def compare(folder: Path) -> list[float]:
                 pass
             without, with_recorder = [speed(healths)], []
             for _ in range(INTERVALS):
-                recorder = launch(
-                    "recordings", "--connect", endpoint, "--match", bus.match, "--out", str(folder / "m.mcap")
-                )
+                settings = RecorderSettings(connect=endpoint, match=bus.match, out=folder / "m.mcap")
+                recorder = launch("recordings", settings)
                 try:
                     while (came := watch.receive(PATIENCE_S)) is not None and (came.kind, came.alive) != (
                         "recorder",
@@ -132,7 +132,7 @@ def compare(folder: Path) -> list[float]:
 
 
 def replay(path: Path) -> float:
-    """Simulated seconds per wall second of a replay as fast as possible, onto a bus without listeners."""
+    """Simulated s per s of wall time of a replay as fast as possible, onto a bus without subscribers."""
     command = [
         sys.executable,
         "-m",
@@ -150,7 +150,7 @@ def replay(path: Path) -> float:
 
 
 def cut_off(source: Path, path: Path, size: int) -> int:
-    """A file of about `size` bytes as a killed recorder leaves it: the head, then chunks over and over; its bytes."""
+    """Write a file of about `size` bytes as a killed recorder leaves it: head, repeated chunks. Returns its size."""
     content = source.read_bytes()
     at, head, chunks = 8, [content[:8]], []
     while content[at] != DATA_END:
@@ -163,7 +163,7 @@ def cut_off(source: Path, path: Path, size: int) -> int:
 
 
 def seek_ms(path: Path) -> float:
-    """The longest of opening a recording and reading the first world from 0, 50 and 99 % of it on."""
+    """The longest time to open a recording and read the first world from 0, 50 or 99 % of it on, in ms."""
     end = open_recording(path).channels[0].end
     longest = 0.0
     for share in (0.0, 0.5, 0.99):
@@ -174,7 +174,7 @@ def seek_ms(path: Path) -> float:
 
 
 def main() -> None:
-    """Print each figure beside its aim."""
+    """Print each figure beside its limit."""
     with tempfile.TemporaryDirectory() as name, contextlib.chdir(HERE):
         folder = Path(name)
         print(f"recorder: {recorder_share(folder):.1%} of a core in real time, five a side (below 6 %)")
@@ -182,7 +182,7 @@ def main() -> None:
         play(path)
         ratios = compare(folder)
         print(
-            f"lockstep with recording: {statistics.median(ratios):.2f} x as fast as without (at least 0.95), median of "
+            f"lockstep with recording: {statistics.median(ratios):.2f} x the speed without (at least 0.95), median of "
             f"{INTERVALS} intervals from {ratios[0]:.2f} to {ratios[-1]:.2f}"
         )
         busy = time.process_time()

@@ -1,8 +1,8 @@
-"""Twenty whole matches of the shipped teams by the league's rules: is each played to its end, and does play flow?
+"""Twenty matches of the shipped teams by the league's rules: is each played to its end, and does play flow?
 
-For each seed: score, how much of the running clock the ball was in play, and the longest time it was not. The rules
-allow as long as STOP to signal, signal to START, and the limit for putting the ball in play take together. Beside it,
-what the referee's step costs, as a share of the whole tick, measured in the same runs.
+For each seed: the score, the share of the running clock in which the ball was in play, and the longest time in which it
+was not. The rules allow the sum of STOP to signal, signal to START, and the limit for putting the ball in play. In the
+same runs the cost of the referee's step is measured, as a share of the whole tick.
 """
 
 import multiprocessing
@@ -23,7 +23,7 @@ REFEREE_AT_MOST = 0.05
 
 
 class Flow(NamedTuple):
-    """How one match went."""
+    """Figures of one match."""
 
     seed: int
     cyan: int
@@ -31,9 +31,9 @@ class Flow(NamedTuple):
     in_play: float
     """Share of the running clock."""
     longest_stop: float
-    """s of the running clock in one piece without the ball in play."""
+    """Longest time of the running clock without the ball in play, in s."""
     referee: float
-    """Share of the host's work."""
+    """Referee's share of the host's CPU time."""
     over: bool
 
 
@@ -75,7 +75,7 @@ def flow_of(seed: int) -> Flow:
 
 
 def main() -> int:
-    """Print a line for each match and one for all; 1 when something was not as it should be."""
+    """Print a line for each match and a summary. Returns 1 if a limit is exceeded."""
     restarts = load_rule_book(RULES).restarts
     waiting = max(restarts.signal_to_start, restarts.positions_limit)
     allowed = restarts.stop_to_signal + waiting + max(restarts.time_limit, restarts.penalty_limit)

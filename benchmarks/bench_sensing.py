@@ -1,8 +1,8 @@
-"""CPU of sensing and of writing sights for ten robots, against the physics of the same ticks, in one run.
+"""CPU time of sensing and of encoding sights for ten robots, against the physics of the same ticks, in one run.
 
-Sensing: what all robots perceive, `Perception.at`, mean of ticks with and without a picture. Sights: the whole of
-`Sights.at`, sensing included. Physics: setting velocities, stepping and reading in the bare engine, as often as a tick
-has steps; and `World.advance`, which is the same with actuation, dribbling and contacts.
+Sensing: `Perception.at` for all robots, mean of ticks with and without a picture. Sights: `Sights.at`, which includes
+sensing. Physics: setting velocities, stepping and reading in the bare engine, for all steps of a tick; and
+`World.advance`, which adds actuation, dribbling and contacts.
 """
 
 import statistics
@@ -19,18 +19,18 @@ from sim_host.sensing.random_streams import RandomStreams
 
 ROUNDS = 8
 TICKS = 256
-"""In a round: most of what is drawn at random is drawn for as many at once."""
+"""In a round; most random numbers are drawn for as many ticks at once."""
 
 
 class Timed:
-    """A function that adds up the CPU time of its calls."""
+    """Wraps a function and adds up the CPU time of its calls."""
 
     def __init__(self, function: Callable[..., object]) -> None:
         self._function = function
         self.seconds = 0.0
 
     def __call__(self, *given: object) -> object:
-        """Call it."""
+        """Call the function."""
         began = time.thread_time()
         result = self._function(*given)
         self.seconds += time.thread_time() - began
@@ -38,7 +38,7 @@ class Timed:
 
 
 def main() -> None:
-    """Print the median cost of each in a tick."""
+    """Print the median cost of each per tick."""
     simulation = Simulation(load_match(None, {"duration": 86_400}))
     profile, roster = simulation.profile, simulation.roster
     perception = Perception(profile.sensing, roster, RandomStreams(2), profile.time.tick)

@@ -1,7 +1,7 @@
-"""What 200 spectators cost the host: its CPU time per tick with their pages open, and without, in one run.
+"""The cost of 200 spectators for the host: its CPU time per tick with their pages open and without, in one run.
 
-Ten agents in real time, the page's server beside them, and one process that reads all pages and throws away what it
-reads. Without and with take turns, so that whatever else the machine does falls on both.
+Ten agents in real time, the page's server, and one process that reads all pages and discards the data. Both cases take
+turns, so that other load of the machine affects both.
 """
 
 import asyncio
@@ -15,7 +15,9 @@ from pathlib import Path
 
 from running_match import HERE, launch, running_match
 
+from coach_gateway.settings import GatewaySettings
 from coach_gateway.web.listener import free_port
+from coach_gateway.web.settings import WebSettings
 from schemas.bus.contract import Subscription
 from schemas.bus.zenoh.bus import open_client
 from schemas.messages.host import Health
@@ -29,13 +31,13 @@ _TICKS_A_SECOND = os.sysconf("SC_CLK_TCK")
 
 
 def cpu_s(pid: int) -> float:
-    """CPU time that a process has used, user's and system's."""
+    """User and system time of a process so far, in s."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / _TICKS_A_SECOND
 
 
 def newest(healths: Subscription) -> Health:
-    """The newest word of the host's health."""
+    """The host's newest health message."""
     received = healths.receive(30.0)
     assert received is not None
     while (more := healths.receive()) is not None:
@@ -56,7 +58,7 @@ def measure(host: int, server: int, healths: Subscription) -> tuple[float, float
 
 
 def with_pages(port: int, host: int, server: int, healths: Subscription) -> tuple[float, float, float, float]:
-    """The same with all pages open, and how many frames each was shown in a second."""
+    """The same with all pages open, and the frames per second that each page received."""
     readers = subprocess.Popen(
         [sys.executable, __file__, str(port)], cwd=HERE, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     )
@@ -68,14 +70,14 @@ def with_pages(port: int, host: int, server: int, healths: Subscription) -> tupl
 
 
 def main() -> None:
-    """Print host and server with and without spectators."""
+    """Print the cost for host and server with and without spectators."""
     with (
         running_match("idle_brain:act", {"duration": 3600.0, "pace": "realtime"}) as (config, endpoint, host),
         open_client(config.name, WallClock(), endpoint, 60.0) as bus,
     ):
         port = free_port("127.0.0.1", 0)
-        meeting = ("--connect", endpoint, "--match", config.name)
-        server = launch("coach_gateway", "--web", "--port", str(port), *meeting)
+        settings = GatewaySettings(connect=endpoint, match=config.name, web=WebSettings(port=port))
+        server = launch("coach_gateway", settings)
         try:
             healths = bus.subscribe(HEALTH)
             while newest(healths).tick < 100:
@@ -90,14 +92,14 @@ def main() -> None:
     alone, late_alone, _ = map(statistics.median, zip(*(without for without, _ in rounds), strict=True))
     crowd, late_crowd, share, frames = map(statistics.median, zip(*(many for _, many in rounds), strict=True))
     print(
-        f"spectators: the host takes {crowd:.2f} ms of CPU a tick with {PAGES} pages open, {alone:.2f} without, "
-        f"ratio {crowd / alone:.2f} (at most 1.10); late ticks a second {late_crowd:.1f} and {late_alone:.1f}; "
-        f"each page sees {frames:.0f} frames a second, the page's server takes {share:.0%} of a core"
+        f"spectators: the host uses {crowd:.2f} ms of CPU per tick with {PAGES} pages open, {alone:.2f} without, "
+        f"ratio {crowd / alone:.2f} (at most 1.10); late ticks per second {late_crowd:.1f} and {late_alone:.1f}; "
+        f"each page receives {frames:.0f} frames per second, the page's server uses {share:.0%} of a core"
     )
 
 
 async def read_pages(port: int) -> None:
-    """Open all pages, say so, and read them until told to leave; then say how many frames each got in a second."""
+    """Open all pages, report it on stdout, read until a line arrives on stdin; print frames per second and page."""
     counts = [0] * PAGES
 
     async def read(number: int, opened: asyncio.Event) -> None:

@@ -1,4 +1,4 @@
-"""A brain that answers at once, for measuring everything but brains."""
+"""A brain that answers at once, to measure everything but brains."""
 
 from schemas.messages.command import Command
 from schemas.messages.sight import Sight

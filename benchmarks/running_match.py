@@ -1,43 +1,52 @@
-"""What benchmarks with real processes share: a host and its agents, launched and ended."""
+"""A host and its agents as processes, for benchmarks."""
 
 import contextlib
 import subprocess
 import sys
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from robot_agent.settings import AgentSettings
 from schemas.bus.endpoint import with_free_port
 from schemas.config.match_config import MatchConfig, load_match
+from schemas.config.settings import Settings
 from schemas.side import Side
+from sim_host.settings import HostSettings
 
 HERE = Path(__file__).parent
 
 
-def launch(module: str, *arguments: str) -> subprocess.Popen[bytes]:
-    """A Python module as a quiet process; it finds brains beside the benchmarks."""
-    return subprocess.Popen(
-        [sys.executable, "-m", module, *arguments], cwd=HERE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+def launch(module: str, settings: Settings, stdout: int = subprocess.DEVNULL) -> subprocess.Popen[bytes]:
+    """Run a process with these settings in the folder of the benchmarks, whose brains it can import."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", module, "--settings", "-"],
+        cwd=HERE,
+        stdin=subprocess.PIPE,
+        stdout=stdout,
+        stderr=subprocess.DEVNULL,
     )
+    assert process.stdin is not None
+    process.stdin.write(settings.model_dump_json().encode())
+    process.stdin.close()
+    return process
 
 
 @contextlib.contextmanager
 def running_match(brain: str, overrides: dict[str, Any]) -> Iterator[tuple[MatchConfig, str, subprocess.Popen[bytes]]]:
-    """A host with an agent process for every robot: the match, its endpoint, and the host's process."""
+    """Run a host with an agent process for every robot: yields the match, its endpoint, and the host's process."""
     config = load_match(None, overrides)
     endpoint = with_free_port("tcp/127.0.0.1:0")
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "match.json"
-        path.write_text(config.model_dump_json())
-        host = launch("sim_host", "--listen", endpoint, "--config", str(path))
-        there = ("--connect", endpoint, "--match", config.name)
-        names = [name for side in Side for name in config.robots(side)]
-        agents = [launch("robot_agent", *there, "--robot", name, "--brain", brain) for name in names]
-        try:
-            yield config, endpoint, host
-        finally:
-            for process in (host, *agents):
-                process.terminate()
-            for process in (host, *agents):
-                process.wait()
+    host = launch("sim_host", HostSettings(config=config, listen=endpoint))
+    names = [name for side in Side for name in config.robots(side)]
+    agents = [
+        launch("robot_agent", AgentSettings(connect=endpoint, match=config.name, robot=name, brain=brain))
+        for name in names
+    ]
+    try:
+        yield config, endpoint, host
+    finally:
+        for process in (host, *agents):
+            process.terminate()
+        for process in (host, *agents):
+            process.wait()

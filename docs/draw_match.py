@@ -1,7 +1,7 @@
 """Draws a recorded match: `python docs/draw_match.py RECORDING PICTURE [SECOND …]`, one panel for each second.
 
-Without a second, its last moment of play. Seconds are simulated time. `docs/images/match.png` was drawn this way
-from a recording of `touchline match --seed 7 --duration 120`.
+Seconds are simulated time; without any, the last moment of play is drawn. `docs/images/match.png` was drawn from a
+recording of `touchline match --seed 7 --duration 120`.
 """
 
 import sys

@@ -1,8 +1,8 @@
-"""Takes a picture of the page: `python docs/draw_page.py ADDRESS PICTURE [WIDTH HEIGHT [WORDS]]`.
+"""Takes a screenshot of the page: `python docs/draw_page.py ADDRESS PICTURE [WIDTH HEIGHT [WORDS]]`.
 
-ADDRESS is what `touchline match --web` or `touchline replay FILE --web` says. The picture is taken when the page's
-phase, score or event list has WORDS, at once without them. `docs/images/page_live.png` and `page_phone.png` were taken
-of a match with seed 9, `page_replay.png` of its recording.
+ADDRESS is printed by `touchline match --web` or `touchline replay FILE --web`. The screenshot is taken when the page's
+phase, score or event list contains WORDS, or at once without WORDS. `docs/images/page_live.png` and `page_phone.png`
+show a match with seed 9, `page_replay.png` its recording.
 """
 
 import os
@@ -14,11 +14,13 @@ from playwright.sync_api import sync_playwright
 
 PATIENCE_S = 300.0
 DRAWN = "window.touchline?.pitchCanvas.world != null && window.touchline.pitchCanvas.drawn > 60"
-SAID = "(words) => ['phase', 'score', 'events'].some((id) => document.getElementById(id).textContent.includes(words))"
+CONTAINS = (
+    "(words) => ['phase', 'score', 'events'].some((id) => document.getElementById(id).textContent.includes(words))"
+)
 
 
 def main(address: str, picture: str, width: int = 1440, height: int = 900, words: str = "") -> None:
-    """Open the page, wait for the words, take the picture."""
+    """Open the page, wait for the words, take the screenshot."""
     chromium = shutil.which("chromium") or shutil.which("google-chrome")
     with sync_playwright() as playwright:
         root = ["--no-sandbox"] if os.geteuid() == 0 else []
@@ -26,9 +28,9 @@ def main(address: str, picture: str, width: int = 1440, height: int = 900, words
         page = browser.new_page(viewport={"width": width, "height": height})
         page.goto(address)
         deadline = time.monotonic() + PATIENCE_S
-        while not (page.evaluate(DRAWN) and page.evaluate(SAID, words)):
+        while not (page.evaluate(DRAWN) and page.evaluate(CONTAINS, words)):
             if time.monotonic() > deadline:
-                sys.exit(f"the page never said {words!r}")
+                sys.exit(f"the page did not show {words!r} within {PATIENCE_S:.0f} s")
             page.wait_for_timeout(50)
         page.wait_for_timeout(1200)
         page.screenshot(path=picture)

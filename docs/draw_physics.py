@@ -130,7 +130,7 @@ def lob_arcs() -> Figure:
 
 
 def duel() -> Figure:
-    """Where two robots that push each other stand, over time."""
+    """Positions over time of two robots that push each other."""
     drawn, (panel,) = figure(height=2.7)
     rivals = {
         "equal": ({}, _BLUE),
@@ -147,7 +147,7 @@ def duel() -> Figure:
 
 
 def dribble_turn() -> Figure:
-    """Distance and bearing of the ball in a turn that gets sharper, for the three ways to dribble."""
+    """Distance and bearing of the ball in a tightening turn, for the three dribble methods."""
     drawn, (distance, bearing) = figure(2)
     profile = load_profile("msl")
     for method, colour, style in zip(runs.METHODS, _COLOURS, ("-", "--", "-"), strict=True):
@@ -176,7 +176,7 @@ def dribble_turn() -> Figure:
 
 
 def noise(pictures: int = 600) -> Figure:
-    """Standard deviation of a ball's place over its distance."""
+    """Standard deviation of a perceived ball's position over its distance."""
     drawn, (panel,) = figure(height=2.7)
     s = load_profile("msl").sensing
     distances = np.arange(0.5, s.ball_range, 0.5)

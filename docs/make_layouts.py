@@ -1,4 +1,4 @@
-"""Writes docs/layouts: what Foxglove and Lichtblick show of a recording, once it is imported there.
+"""Writes docs/layouts: layouts for recordings, to be imported into Foxglove and Lichtblick.
 
 Run from the top folder: .venv/bin/python docs/make_layouts.py
 """
@@ -28,7 +28,7 @@ CAMERA: dict[str, Any] = {
     "near": 0.5,
     "far": 500.0,
 }
-"""From beside the pitch, x to the right, as one sits in a stand."""
+"""The view from a stand beside the pitch, x to the right."""
 BALL_PATH = '/tf.transforms[:]{child_frame_id=="ball"}.translation.'
 PLOTTED = (("x", "ball x, m", "#4e98e2"), ("y", "ball y, m", "#f5774d"), ("z", "ball height, m", "#f7df71"))
 

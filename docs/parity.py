@@ -1,133 +1,103 @@
-"""Writes docs/parity.md: which test shows which feature of the seed, and which defect of it is kept out.
-
-`python docs/parity.py > docs/parity.md`. The rows are found in the docstrings of the tests, which name them as
-"reference 13, row 9" and "reference 14, defect 4".
-"""
+"""Writes docs/parity.md from docs/parity.toml: `python docs/parity.py > docs/parity.md`."""
 
 import ast
-import re
-from collections import defaultdict
+import tomllib
 from collections.abc import Iterator
+from difflib import get_close_matches
+from functools import cache
+from itertools import groupby
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).parents[1]
+TABLE = ROOT / "docs" / "parity.toml"
+INTRODUCTION = """\
+# Compared with the simulation system of the NuBot team
 
-ROWS = {
-    1: "velocity interface in the body frame",
-    2: "mass, inertia and size of the robots",
-    3: "speed limits that keep the direction",
-    4: "acceleration limits in the body frame",
-    5: "hold condition by distance and total cone",
-    6: "dribbling by pose and by velocity",
-    7: "a ball in the air is refused, with the reason",
-    8: "ground kick at its exit speed",
-    9: "lob through the point under the bar",
-    10: "lob with fixed loft",
-    11: "rolling resistance",
-    12: "noise on what is perceived",
-    13: "truth of each body, and of all at one tick",
-    14: "range, occlusion and latency",
-    15: "polar ball and obstacles, in SI",
-    16: "keys by team and robot",
-    17: "one command record; refusals with reason",
-    18: "watchdog for commands that fail to come",
-    19: "the paper's state machine, state by state",
-    21: "live parameters",
-    22: "reset with a new episode",
-    23: "2 to 100 robots",
-    24: "two sides with the same code",
-    29: "each coach's command reaches every robot",
-    30: "the coach record, in SI and acknowledged",
-    31: "match modes and test modes by number, both ways",
-    32: "the coach's window: controls, panels, stop by the space bar",
-    33: "base station at a league's referee box",
-    34: "referee box for team software",
-    35: "world state in the league's schema",
-    37: "the referee's deeds by hand",
-    39: "last touch and possession",
-    40: "a fair scrum",
-    41: "pitches of either year",
-    42: "start poses, ball spots, scenes",
-    43: "driving by hand",
-    44: "stuck flag of each robot",
-    45: "lifted and tipped robots stand up",
-    51: "spectators who only watch, coaches of their own side alone",
-}
-"""Features among those of the seed, in our words."""
-DEFECTS = {
-    1: "an acceleration limit that limited nothing",
-    2: "top speed that depended on the compass",
-    3: "one noisy sample in 11 where one in 100 was meant",
-    4: "physics that decided from noisy data",
-    5: "one stuck flag for all robots",
-    6: "metres among centimetres",
-    7: "a stop that hears one side's coach alone",
-    8: "no arbitration; the ball carried through opponents",
-    9: "no watchdog",
-    10: "kicks kept for later",
-    11: "kick modes as signs, which were swapped",
-    12: "lobs without a limit",
-    13: "robots counted with one digit, five at most",
-    14: "state taken from the bus instead of the engine",
-    15: "a step that the code took for constant",
-    18: "teams told apart by their address",
-}
-"""Defects of the seed, in our words."""
+<!-- Written by `python docs/parity.py > docs/parity.md`; edit docs/parity.toml. -->
+
+What these systems and tools do, whether Touchline does it, and which test shows it:
+
+* **The paper**: W. Yao, W. Dai, J. Xiao, H. Lu, Z. Zheng, *A Simulation System Based on ROS and Gazebo for RoboCup
+  Middle Size League* (2015), and its code, nubot-nudt/single_nubot_gazebo.
+* **simatch**: its successor for two teams, with coach and automatic referee (nubot-nudt/gazebo_visual and
+  nubot-nudt/simatch).
+* **The league's tools**: the referee box, and the requirements that the Middle Size League wrote down for a simulator
+  of its own (RoboCup-MSL/RefBox and RoboCup-MSL/MSL-Simulator).
+
+`touchline match matches/paper.toml` plays on the pitch of the paper with its robots, noise and physics step. Every test
+below runs with `make test`.
+"""
 
 
-def words_of(docstring: str) -> Iterator[tuple[str, int]]:
-    """("row", 9) or ("defect", 4) for each that a docstring names."""
-    for kind, numbers in re.findall(r"(row|defect)s? ((?:\d+(?:, | and )?)+)", docstring, re.IGNORECASE):
-        for number in re.findall(r"\d+", numbers):
-            yield kind.lower(), int(number)
+def load() -> dict[str, list[dict[str, Any]]]:
+    """The rows: "feature" and "defect"."""
+    return tomllib.loads(TABLE.read_text("utf-8"))
 
 
-def named() -> dict[tuple[str, int], list[tuple[str, str]]]:
-    """("row", 9) → file and name of each test that names it, or of all tests of a file that does."""
-    found = defaultdict(list)
+@cache
+def tests() -> dict[str, dict[Path, list[str]]]:
+    """Name of a test file → each file of that name below tests/, and its test functions."""
+    found: dict[str, dict[Path, list[str]]] = {}
     for file in sorted((ROOT / "tests").rglob("test_*.py")):
-        tree = ast.parse(file.read_text("utf-8"))
-        tests = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name.startswith("test_")]
-        whole = [(f"all of {file.stem}", tree)] if tests else []
-        for name, node in [*whole, *((test.name, test) for test in tests)]:
-            for which in dict.fromkeys(words_of(ast.get_docstring(node) or "")):
-                found[which].append((file.relative_to(ROOT).as_posix(), name))
-    return dict(found)
+        functions = [node.name for node in ast.parse(file.read_text("utf-8")).body if isinstance(node, ast.FunctionDef)]
+        found.setdefault(file.name, {})[file] = [name for name in functions if name.startswith("test_")]
+    return found
 
 
-def table(kind: str, meanings: dict[int, str]) -> Iterator[str]:
+def fault(shown: str) -> str | None:
+    """What is wrong with a reference to a test or a benchmark, or None. Command lines are not checked."""
+    if shown.startswith("benchmarks/"):
+        return None if (ROOT / shown).exists() else f"no file {shown}"
+    if not shown.startswith("test_"):
+        return None
+    name, _, function = shown.partition("::")
+    files = tests().get(name, {})
+    holders = [file for file, functions in files.items() if not function or function in functions]
+    if len(holders) == 1:
+        return None
+    if len(holders) > 1:
+        return f"{shown} is in several folders: {', '.join(str(file.relative_to(ROOT)) for file in holders)}"
+    near = get_close_matches(function, [one for functions in files.values() for one in functions], 1, 0.4)
+    hint = f"; perhaps {near[0]}" if near else ""
+    return f"no test {shown}{hint}" if files else f"no file {name}"
+
+
+def link(shown: str) -> str:
+    """A reference as Markdown."""
+    if shown.startswith("benchmarks/"):
+        return f"[{Path(shown).name}](../{shown})"
+    if not shown.startswith("test_"):
+        return f"`{shown}`"
+    name, _, function = shown.partition("::")
+    (file,) = [file for file, functions in tests()[name].items() if not function or function in functions]
+    words = function.removeprefix("test_").replace("_", " ") if function else f"all of {file.stem}"
+    return f"[{words}](../{file.relative_to(ROOT).as_posix()})"
+
+
+def table(kind: str, rows: list[dict[str, Any]]) -> Iterator[str]:
     """Lines of one table."""
-    tests = named()
-    yield f"| {kind} | what | shown by |"
+    yield f"| {kind} | status | shown by |"
     yield "| --- | --- | --- |"
-    for number, meaning in meanings.items():
-        shown = [
-            f"[{test.removeprefix('test_').replace('_', ' ')}](../{file})"
-            for file, test in tests.get((kind, number), [])
-        ]
-        yield f"| {number} | {meaning} | {'; '.join(shown)} |"
+    for row in rows:
+        note = f" *{row['note']}*" if "note" in row else ""
+        yield f"| {row[kind]}.{note} | {row['status']} | {'; '.join(map(link, row['shown']))} |"
 
 
 def page() -> str:
     """The whole page."""
-    return "\n".join(
-        [
-            "# What the seed could do, and what it did wrong",
-            "",
-            "The seed is the paper's simulator and those that grew out of it. For each of its features and defects",
-            "that concern the world: the tests that show it here. Numbers are those of the project's reference.",
-            "Written by `docs/parity.py`.",
-            "",
-            "## Features",
-            "",
-            *table("row", ROWS),
-            "",
-            "## Defects",
-            "",
-            *table("defect", DEFECTS),
-            "",
-        ]
+    rows = load()
+    lines = [INTRODUCTION, "## Features", ""]
+    works, partly, missing = (
+        sum(row["status"] == status for row in rows["feature"]) for status in ("works", "partly", "missing")
     )
+    lines += [f"Of {len(rows['feature'])} features {works} work, {partly} partly, and {missing} are missing.", ""]
+    for area, group in groupby(rows["feature"], lambda row: str(row["area"])):
+        lines += [f"### {area}", "", *table("feature", list(group)), ""]
+    lines += ["## Defects of the earlier systems", ""]
+    lines += ["Found in their code or their issue trackers. Each has a test that fails where it is repeated.", ""]
+    lines += [*table("defect", rows["defect"]), ""]
+    return "\n".join(lines)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
-"""Runs of the host's world that docs/physics.md shows: each function plays one and returns its numbers.
+"""Runs of the host's world for docs/physics.md: each function simulates one and returns its numbers.
 
-Nothing here is computed from a formula: bodies are set down, told something, and read back tick by tick.
+No number is computed from a formula: bodies are placed, receive inputs, and are read tick by tick.
 """
 
 import math
@@ -24,12 +24,12 @@ from sim_host.snapshot import Roster, Snapshot
 
 Floats = NDArray[np.float64]
 Told = Callable[[float], Mapping[str, AppliedInput]]
-"""Time in s → what robots are told; who is not named rests."""
+"""Time in s → inputs of robots; a robot without an input rests."""
 Pose = tuple[float, float, float]
 """x, y in m, heading in rad."""
 NAMES = ("cyan1", "magenta1")
 DRIVES = {"velocity": "msl", "omni, four wheels": "omni", "omni, three wheels": "omni3"}
-"""What a drive is called in a plot → the profile that has it."""
+"""Label of a drive in a plot → the profile with that drive."""
 METHODS = ("pose", "velocity", "force")
 
 
@@ -65,7 +65,7 @@ def play(
     launch: tuple[float, float, float] | None = None,
     height: float = 0.0,
 ) -> Run:
-    """Two robots and the ball from where they are set down; robots that are not named stand in two corners.
+    """Simulate two robots and the ball from given poses; robots without a pose stand in two corners.
 
     `launch` sets the ball going at m/s, without spin; `height` lifts it, m.
     """
@@ -91,7 +91,7 @@ def play(
 
 
 def nothing(_time: float) -> Mapping[str, AppliedInput]:
-    """Everybody rests."""
+    """All robots rest."""
     return {}
 
 
@@ -118,7 +118,7 @@ def top_speeds(profile_name: str, directions: int) -> tuple[Floats, Floats]:
 
 
 def ball_roll(spin_free: bool, speed: float = 4.0) -> Run:
-    """A ball that sets out at `speed` m/s along x: without spin, or kicked so that it rolls."""
+    """A ball that starts at `speed` m/s along x: without spin, or rolling after a kick."""
     profile = load_profile("msl")
     if spin_free:
         return play(profile, {"ball": (-8.0, 0.0, 0.0)}, nothing, 8.0, launch=(speed, 0.0, 0.0))
@@ -128,7 +128,7 @@ def ball_roll(spin_free: bool, speed: float = 4.0) -> Run:
 
 
 def bounce(height: float = 1.0) -> Run:
-    """A ball that is let go with `height` m of air below it."""
+    """A ball that is dropped with `height` m of air below it."""
     return play(load_profile("msl"), {"ball": (0.0, 0.0, 0.0)}, nothing, 2.5, launch=(0.0, 0.0, 0.0), height=height)
 
 
@@ -146,7 +146,7 @@ def without_air(profile: Profile) -> Profile:
 
 
 def duel(change: Mapping[str, Mapping[str, float]], seconds: float = 3.0) -> Run:
-    """Two robots on wheels push head-on, each told 2 m/s; magenta's is changed: section → number → factor."""
+    """Two robots on wheels push head-on at a demand of 2 m/s; `change` scales magenta's: section → number → factor."""
     profile = load_profile("omni")
     standard = other = RobotModel.standard(profile)
     for section, factors in change.items():

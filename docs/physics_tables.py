@@ -1,7 +1,7 @@
 """Writes the tables of parameters into docs/physics.md: `python docs/physics_tables.py`.
 
-Between `<!-- table SECTION -->` and `<!-- end -->` stands each number of that section of a profile, with its unit, its
-values in the profiles `msl` and `paper`, and its sentence.
+Between `<!-- table SECTION -->` and `<!-- end -->` it writes each number of that section of a profile, with its unit,
+its values in the profiles `msl` and `paper`, and its meaning.
 """
 
 import re
@@ -33,7 +33,7 @@ def table(section: str) -> str:
 
 
 def filled(text: str) -> str:
-    """A text with all its tables as the profiles have them now."""
+    """The text with all tables filled in from the profiles."""
     return _BLOCK.sub(lambda block: f"<!-- table {block[1]} -->\n{table(block[1])}\n<!-- end -->", text)
 
 

@@ -1,6 +1,6 @@
-"""A robot that knows nothing of Touchline but its protocol: Zenoh, JSON, and what docs/protocol.md says.
+"""A robot that uses nothing of Touchline but its protocol: Zenoh, JSON and docs/protocol.md.
 
-It goes for the ball and kicks it toward the goal; a program in any other language does the same step by step.
+It drives to the ball and kicks it toward the goal. A program in any other language takes the same steps.
 """
 
 import json
@@ -29,10 +29,10 @@ TOP_SPEED = 2.0
 
 
 def answer(sight: dict[str, Any], goal_x: float) -> dict[str, Any]:
-    """The command for a sight: to the ball, and with the ball turn to the goal and kick; `goal_x` in m."""
+    """The command for a sight: drive to the ball; with the ball, turn to the goal and kick. `goal_x` in m."""
     me, holding = sight["self"], sight["holding"]
-    ball = sight["ball"] or sight["game"]["spot"]  # before it is seen, where the referee has put it
-    command = {"version": "1.0", "answers_tick": sight["tick"], "dribble": True}
+    ball = sight["ball"] or sight["game"]["spot"]  # before it is seen: where the referee has placed it
+    command = {"version": "2.0", "answers_tick": sight["tick"], "dribble": True}
     if ball is None or not sight["game"]["running"] or sight["game"]["phase"].startswith("their_"):
         return command
     x, y = (goal_x, 0.0) if holding else (ball["x"], ball["y"])
@@ -45,9 +45,9 @@ def answer(sight: dict[str, Any], goal_x: float) -> dict[str, Any]:
 
 
 def ask_setup(session: zenoh.Session) -> dict[str, Any]:
-    """How the match is set up; asks until the host answers."""
+    """The setup of the match; queries the host until it replies."""
     while True:
-        for reply in session.get(f"{ROOT}/host/setup", payload='{"version": "1.0"}', timeout=1.0):
+        for reply in session.get(f"{ROOT}/host/setup", payload='{"version": "2.0"}', timeout=1.0):
             if reply.ok is not None:
                 setup: dict[str, Any] = json.loads(reply.ok.payload.to_bytes())
                 return setup
@@ -55,7 +55,7 @@ def ask_setup(session: zenoh.Session) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Join the match, and answer every sight."""
+    """Join the match and answer every sight."""
     config = zenoh.Config()
     for key, value in SETTINGS.items():
         config.insert_json5(key, json.dumps(value))

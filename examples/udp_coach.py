@@ -1,10 +1,10 @@
-"""A coach program in nothing but Python's own library: it speaks JSON datagrams with the coach gateway.
+"""A coach program that uses Python's standard library only: it exchanges JSON datagrams with the coach gateway.
 
-    touchline match --udp 28090          # says where the tokens stand
+    touchline match --udp 28090          # prints the file of the tokens
     python examples/udp_coach.py --port 28090 --token TOKEN-OF-CYAN
 
-It has its team hold, play, and test: one robot drives to a point. After each order it shows which robots have
-acknowledged it, and at the end what the robots believe. Every datagram is numbered, and sent again
+It orders its team to hold, to play, and to perform a test: one robot drives to a point. After each order it prints
+which robots have acknowledged it, and at the end what the robots believe. Every datagram is numbered, and is sent again
 until it is answered.
 """
 
@@ -24,7 +24,7 @@ class Coach:
         self._sequence = 0
         self._session = ""
         self.frame: dict = {}
-        """The newest."""
+        """The newest frame."""
         self.beliefs: dict = {}
         """Robot → its newest radio message."""
         self.events: list = []
@@ -44,7 +44,7 @@ class Coach:
             try:
                 self._socket.send(json.dumps(request).encode())
             except ConnectionRefusedError:
-                time.sleep(0.1)  # the gateway is not there yet
+                time.sleep(0.1)  # the gateway is not listening yet
                 continue
             answer = self.listen(0.5, until=lambda one: one["kind"] == "ack" and one["sequence"] == request["sequence"])
             if answer is not None:
@@ -52,7 +52,7 @@ class Coach:
         raise SystemExit("the gateway does not answer")
 
     def listen(self, seconds: float, until=None):
-        """Take in what comes for a while, or until the datagram that is waited for; it is given back."""
+        """Receive datagrams for some seconds, or until the expected one, which is returned."""
         deadline = time.monotonic() + seconds
         while (left := deadline - time.monotonic()) > 0:
             self._socket.settimeout(left)
@@ -73,14 +73,14 @@ class Coach:
         elif datagram["kind"] == "event":
             self.events.append(datagram["event"]["text"])
         elif datagram["kind"] == "bye":
-            raise SystemExit(f"the session is over: {datagram['reason']}")
+            raise SystemExit(f"the session has ended: {datagram['reason']}")
 
     def order(self, **order) -> None:
-        """Give an order, and wait until every robot has acknowledged it."""
+        """Send an order and wait until every robot has acknowledged it."""
         answer = self.ask("order", order=order)
-        words = ", ".join(f"{key} {value}" for key, value in order.items())
+        text = ", ".join(f"{key} {value}" for key, value in order.items())
         if not answer["accepted"]:
-            print(f"refused: {words}: {answer['reason']}")
+            print(f"refused: {text}: {answer['reason']}")
             return
         missing = answer["missing"]
         deadline = time.monotonic() + 10
@@ -90,7 +90,7 @@ class Coach:
             standing = self.frame.get("orders", {}).get(self.role)
             if standing and standing["order"] == answer["order"]:
                 missing = [robot for robot, has in standing["acknowledged"].items() if not has]
-        print(f"order {words}: {'not yet by ' + ', '.join(missing) if missing else 'acknowledged by all'}")
+        print(f"order {text}: {'not yet by ' + ', '.join(missing) if missing else 'acknowledged by all'}")
 
     def leave(self) -> None:
         """End the session."""
@@ -102,15 +102,15 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--host", default="127.0.0.1")
     parser.add_argument("--port", type=int, default=28090)
-    parser.add_argument("--token", required=True, help="of cyan's or magenta's coach")
-    parser.add_argument("--seconds", type=float, default=3.0, help="to watch at the end")
+    parser.add_argument("--token", required=True, help="the token of cyan's or magenta's coach")
+    parser.add_argument("--seconds", type=float, default=3.0, help="how long to watch at the end")
     options = parser.parse_args()
     coach = Coach(options.host, options.port, options.token)
     print(f"coach of {coach.role}")
     coach.order(mode="hold")
     coach.order(mode="play", max_speed=2.0)
     answer = coach.ask("match_mode", mode="our_corner")
-    print(f"a corner for us: {'given' if answer['accepted'] else answer['reason']}")
+    print(f"a corner for us: {'accepted' if answer['accepted'] else answer['reason']}")
     coach.order(mode="test", test="move", robot_a=f"{coach.role}2", point_a={"x": -2.0, "y": 1.0}, angle_a=0.0)
     deadline = time.monotonic() + options.seconds
     while time.monotonic() < deadline:
@@ -118,8 +118,8 @@ def main() -> int:
         coach.ask("alive")
     for robot, radio in sorted(coach.beliefs.items()):
         place = radio.get("self")
-        where = f"at {place['x']:.2f}, {place['y']:.2f}" if place else "does not say where it is"
-        print(f"{robot} {where}, {radio.get('intention') or radio.get('role') or 'says no more'}")
+        where = f"at {place['x']:.2f}, {place['y']:.2f}" if place else "reports no position"
+        print(f"{robot} {where}, {radio.get('intention') or radio.get('role') or 'reports no intention'}")
     print(f"{len(coach.events)} events, the match mode is {coach.frame['match_mode'][coach.role]}")
     coach.order(mode="play")
     coach.leave()

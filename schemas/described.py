@@ -1,7 +1,7 @@
 """Descriptions of fields: the docstrings below them in the source, for JSON Schemas and for the page on the protocol.
 
-They are read when they are asked for. Pydantic's `use_attribute_docstrings` reads them when a class is made, which
-takes 0.1 s in every process of a match.
+They are read on demand. Pydantic's `use_attribute_docstrings` reads them when a class is created, which takes 0.1 s in
+every process of a match.
 """
 
 import ast
@@ -12,6 +12,9 @@ from functools import cache
 from pydantic import GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
+
+_LIBRARIES = frozenset({"builtins", "msgspec", "pydantic"})
+"""Whose classes are bases of ours, and describe no field of a message."""
 
 
 class Described:
@@ -30,10 +33,10 @@ class Described:
 
 
 def field_docstrings(cls: type) -> dict[str, str]:
-    """Field → the docstring below it, in one line, those of its bases included."""
+    """Field → its docstring in one line; the fields of base classes are included."""
     found: dict[str, str] = {}
     for base in reversed(cls.__mro__):
-        if base.__module__.split(".")[0] == __name__.split(".")[0]:
+        if base.__module__.split(".")[0] not in _LIBRARIES:
             found |= _docstrings_of_module(base.__module__).get(base.__name__, {})
     return found
 

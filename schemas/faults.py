@@ -1,7 +1,7 @@
-"""What is wrong with content that is no message: one plain sentence of field, value and expectation.
+"""Faults of invalid content: one plain sentence with the field, its value and what was expected.
 
-There is one formatter for both kinds of classes, pydantic models and msgspec structs, and for everybody who reads
-content from outside: payloads, files, options, pages.
+The one formatter for pydantic models and msgspec structs, and for all content from outside: payloads, files, options
+and pages.
 """
 
 import math
@@ -21,48 +21,50 @@ from schemas.errors import did_you_mean
 T = TypeVar("T")
 
 Path = tuple[str | int, ...]
-"""Names of fields and places in lists, from the outside in."""
+"""Names of fields and indices of lists, from the outside in."""
 
 
 class FaultKind(StrEnum):
-    """What sort of fault it is."""
+    """The kind of a fault."""
 
     VALUE = "value"
     MISSING = "missing"
     UNKNOWN = "unknown"
     RULE = "rule"
-    """A rule is broken; what was expected is a whole sentence, which names the value unless that is given, too."""
+    """A rule is broken. `expected` is a whole sentence, which names the value unless `value` is given as well."""
 
 
 class Fault(NamedTuple):
-    """One thing that is wrong."""
+    """One fault of some content."""
 
     path: Path
+    """Where the fault is; empty for the content as a whole."""
     value: Any
+    """The value found there."""
     expected: str
+    """The valid values, in words."""
     kind: FaultKind = FaultKind.VALUE
     known: tuple[str, ...] = ()
-    """Of an unknown field: the fields that there are."""
+    """Of an unknown field: the fields that exist."""
 
     @property
     def where(self) -> str:
-        """The path as people write it, `drive.vx`."""
+        """The path with dots, `drive.vx`."""
         return ".".join(str(step) for step in self.path)
 
     def below(self, path: Path) -> "Fault":
-        """The same fault, seen from farther outside."""
+        """The same fault in content that is nested at `path`."""
         return self._replace(path=(*path, *self.path))
 
     def sentence(self, remedy: str = "") -> str:
-        """One line; `remedy` says what to do, in place of what was expected."""
+        """The fault in one line; `remedy`, an instruction, takes the place of what was expected."""
         where = self.where
         match self.kind:
             case FaultKind.MISSING:
                 return f"{where} is missing; {remedy or 'it must be given'}"
             case FaultKind.UNKNOWN:
-                return f"{where} is not known" + (
-                    f"; {did_you_mean(str(self.path[-1]), self.known)}" if self.known else ""
-                )
+                others = f"; {did_you_mean(str(self.path[-1]), self.known)}" if self.known else ""
+                return f"{where} is not known{others}"
         if self.kind is FaultKind.RULE and not where:
             return self.expected
         if self.kind is FaultKind.RULE and self.value is None:
@@ -71,10 +73,10 @@ class Fault(NamedTuple):
 
 
 class FaultError(ValueError):
-    """Content that may not be what it is."""
+    """Invalid content."""
 
     def __init__(self, fault: Fault, owner: str = "") -> None:
-        """`owner` is what the field belongs to, `drive` of `drive.vx`."""
+        """`owner` is the name of the part with the fault, `drive` of `drive.vx`."""
         super().__init__((fault.below((owner,)) if owner and fault.path else fault).sentence())
         self.fault = fault
 
@@ -83,7 +85,7 @@ def validated(kind: type[T], content: Mapping[str, Any]) -> T:
     """A message or a part, model or struct, with this content.
 
     Raises:
-        FaultError: it may not have this content.
+        FaultError: the content is invalid.
     """
     if issubclass(kind, BaseModel):
         try:
@@ -93,13 +95,13 @@ def validated(kind: type[T], content: Mapping[str, Any]) -> T:
     try:
         return msgspec.convert(content, kind)
     except msgspec.ValidationError as error:
-        raise FaultError(fault_in(kind, content) or _own_words(error)) from None
+        raise FaultError(fault_in(kind, content) or _msgspec_fault(error)) from None
 
 
 def fault_of(error: ValidationError, kind: Any = None) -> Fault:
     """The first fault that pydantic found in content for a `kind` of model."""
     first = error.errors(include_url=False)[0]
-    path = tuple(step for step in first["loc"] if step not in _ABOUT_TYPES)
+    path = tuple(step for step in first["loc"] if step not in _TYPE_STEPS)
     value, context = first["input"], first.get("ctx", {})
     match first["type"]:
         case "missing":
@@ -114,26 +116,25 @@ def fault_of(error: ValidationError, kind: Any = None) -> Fault:
         case "union_tag_not_found":
             return Fault((*path, *_quoted(context["discriminator"])), None, "", FaultKind.MISSING)
         case "union_tag_invalid":
-            words = ", ".join(_quoted(context["expected_tags"]))
-            return Fault((*path, *_quoted(context["discriminator"])), context["tag"], f"one of {words}")
+            tags = ", ".join(_quoted(context["expected_tags"]))
+            return Fault((*path, *_quoted(context["discriminator"])), context["tag"], f"one of {tags}")
         case "json_invalid":
             return not_json(value, context["error"])
     if "expected" in context:
         context = {"expected": ", ".join(_quoted(context["expected"]))}
-    said = _EXPECTED.get(first["type"])
-    return Fault(path, value, said.format_map(context) if said is not None else _without_jargon(first["msg"]))
+    template = _EXPECTED.get(first["type"])
+    return Fault(path, value, template.format_map(context) if template is not None else _without_jargon(first["msg"]))
 
 
 def not_json(text: str | bytes, reason: object) -> Fault:
-    """The fault of a text that is no JSON."""
+    """The fault of a text that is not JSON."""
     return Fault((), text, f"{_SHOWN.repr(text)} is not JSON: {reason}", FaultKind.RULE)
 
 
 def fault_in(hint: Any, value: Any) -> Fault | None:
-    """The first fault of a value for a field or a struct that is declared so; None where it has none.
+    """The first fault of a value for a field or a struct of this type; None where it has none.
 
-    Slow, and for explanations: msgspec has refused the value, and says neither which entry of a mapping it means nor
-    what it would take.
+    Slow, for explanations only: the error of msgspec names neither the entry of a mapping nor the valid values.
     """
     kind, inner = get_origin(hint), get_args(hint)
     if kind is Annotated and get_origin(inner[0]) is not None:
@@ -151,20 +152,20 @@ def fault_in(hint: Any, value: Any) -> Fault | None:
 
 
 def expected(hint: Any) -> str:
-    """What a field that is declared so takes, in words: `m/s from -20 to 20`."""
+    """The valid values of a field of this type, in words: `m/s from -20 to 20`."""
     kind, inner = get_origin(hint), get_args(hint)
     if kind is Annotated:
         return _limited(inner[0], [one for one in inner[1:] if isinstance(one, msgspec.Meta)])
     if kind in (Union, types.UnionType):
-        apart = {types.NoneType, int} if float in inner else {types.NoneType}
-        return " or ".join(expected(choice) for choice in inner if choice not in apart)
+        implied = {types.NoneType, int} if float in inner else {types.NoneType}
+        return " or ".join(expected(choice) for choice in inner if choice not in implied)
     if isinstance(hint, type) and issubclass(hint, Enum):
         return f"one of {', '.join(str(member.value) for member in hint)}"
     return _PLAIN.get(hint, "a list" if kind is list else "an object")
 
 
 def field_names(kind: Any) -> tuple[str, ...]:
-    """The fields of a model or a struct; none of anything else."""
+    """The fields of a model or a struct; empty for any other type."""
     if not isinstance(kind, type):
         return ()
     if issubclass(kind, BaseModel):
@@ -174,7 +175,7 @@ def field_names(kind: Any) -> tuple[str, ...]:
 
 @cache
 def hints_of(kind: type) -> dict[str, Any]:
-    """Field → its type with its limits, of a class."""
+    """Field of a class → its type with its limits."""
     return get_type_hints(kind, include_extras=True)
 
 
@@ -182,8 +183,8 @@ _SHOWN = Repr()
 _SHOWN.maxstring = _SHOWN.maxother = _SHOWN.maxlong = 60
 _SHOWN.maxlevel = 3
 
-_ABOUT_TYPES = frozenset({"constrained-str", "str", "int", "float", "bool"})
-"""Steps that pydantic puts into a place to tell which type of several it tried."""
+_TYPE_STEPS = frozenset({"constrained-str", "str", "int", "float", "bool"})
+"""Steps in pydantic's locations that name which type of a union was tried."""
 
 _PLAIN: dict[Any, str] = {
     float: "a finite number",
@@ -214,25 +215,27 @@ _EXPECTED = {
     "dataclass_type": "an object",
     "enum": "one of {expected}",
     "literal_error": "one of {expected}",
+    "string_pattern_mismatch": "text of the form {pattern}",
     "string_too_long": "text of at most {max_length} characters",
     "string_too_short": "text of at least {min_length} characters",
     "too_long": "at most {max_length} entries",
     "too_short": "at least {min_length} entries",
 }
-"""Error type of pydantic → what was expected, filled in from its context."""
+"""Error type of pydantic → what was expected, a template for the error's context."""
 
 
-def _quoted(words: str) -> list[str]:
-    """The words that stand in quotes."""
-    return re.findall(r"'([^']*)'", words)
+def _quoted(text: str) -> list[str]:
+    """The words in quotes."""
+    return re.findall(r"'([^']*)'", text)
 
 
-def _without_jargon(said: str) -> str:
-    plain = re.sub(r"^(Input should be|Value error,) ", "", said)
+def _without_jargon(message: str) -> str:
+    plain = re.sub(r"^(Input should be|Value error,) ", "", message)
     return plain[:1].lower() + plain[1:]
 
 
-def _own_words(error: Exception) -> Fault:
+def _msgspec_fault(error: Exception) -> Fault:
+    """The fault in the words of msgspec's error."""
     return Fault((), None, _without_jargon(str(error).partition(" - at ")[0]), FaultKind.RULE)
 
 
@@ -241,7 +244,7 @@ def _first(faults: Iterable[tuple[str | int, Fault | None]]) -> Fault | None:
 
 
 def _of_struct(kind: type[msgspec.Struct], value: Any) -> Fault | None:
-    """Fields that are not known, missing or wrong; then the rules over several fields."""
+    """The first unknown, missing or invalid field; then the rules over several fields."""
     if isinstance(value, kind):
         value = msgspec.structs.asdict(value)
     if not isinstance(value, Mapping):
@@ -262,7 +265,7 @@ def _rule(kind: type[msgspec.Struct], content: Mapping[str, Any]) -> Fault | Non
         msgspec.convert(content, kind)
     except msgspec.ValidationError as error:
         cause = error.__cause__
-        return cause.fault if isinstance(cause, FaultError) else _own_words(error)
+        return cause.fault if isinstance(cause, FaultError) else _msgspec_fault(error)
     return None
 
 
@@ -283,18 +286,18 @@ def _leaf(hint: Any, value: Any) -> Fault | None:
 
 def _limited(kind: Any, limits: Sequence[msgspec.Meta]) -> str:
     """A type with limits, in words."""
-    said = {key: value for one in limits for key in _LIMITS if (value := getattr(one, key)) is not None}
+    declared = {key: value for one in limits for key in _LIMITS if (value := getattr(one, key)) is not None}
     unit = next((one.extra["unit"] for one in limits if one.extra and "unit" in one.extra), "")
-    if "description" in said:
-        return str(said["description"])
+    if "description" in declared:
+        return str(declared["description"])
     if kind not in (int, float):
-        most = said.get("max_length")
+        most = declared.get("max_length")
         return expected(kind) + (
             "" if most is None else f" of at most {most} {'characters' if kind is str else 'entries'}"
         )
-    low, high = said.get("ge"), said.get("le")
+    low, high = declared.get("ge"), declared.get("le")
     words = [] if low is None else [f"from {_figure(low)}"]
-    words += [f"above {_figure(said['gt'])}"] if "gt" in said else []
+    words += [f"above {_figure(declared['gt'])}"] if "gt" in declared else []
     if high is not None:
         words.append(f"to {_figure(high)}" if low is not None else f"at most {_figure(high)}")
     if not words:
@@ -311,14 +314,14 @@ _LIMITS = ("ge", "gt", "le", "max_length", "description")
 
 
 def _kind_at(kind: Any, path: Path) -> Any:
-    """The model or struct that stands at a path of another."""
+    """The model or struct at a path in another."""
     for step in path:
         is_entry = get_origin(kind) in (list, dict)
-        kind = _held(get_args(kind)[-1] if is_entry else hints_of(kind).get(str(step)) if field_names(kind) else None)
+        kind = _bare(get_args(kind)[-1] if is_entry else hints_of(kind).get(str(step)) if field_names(kind) else None)
     return kind
 
 
-def _held(hint: Any) -> Any:
+def _bare(hint: Any) -> Any:
     """A type without its limits, and without None."""
     while get_origin(hint) in (Annotated, Union, types.UnionType):
         hint = next(choice for choice in get_args(hint) if choice is not types.NoneType)

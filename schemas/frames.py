@@ -1,8 +1,8 @@
-"""The axes, defined once: field frame, team frame, body frame, and the way from one to another.
+"""The coordinate frames, defined once: field frame, team frame, body frame, and the transforms between them.
 
-Field frame: fixed to the ground, origin at the centre mark, x along the field, y to the left of x, z up,
-heading counter-clockwise from +x. Team frame: the field frame for the side that attacks +x, turned by π for
-the other. Body frame: x in the kicking direction, y left.
+Field frame: fixed to the ground, origin at the centre mark, x along the field, y to the left of x, z up, heading
+counter-clockwise from +x. Team frame: the field frame for the side that attacks +x, and the field frame turned by π
+for the other side. Body frame: x in the kicking direction, y to the left.
 """
 
 import math
@@ -12,37 +12,38 @@ TAU = 2.0 * math.pi
 
 
 def wrap(angle: float) -> float:
-    """The same direction in (−π, π]."""
+    """The same direction as an angle in (−π, π]."""
     turned = math.remainder(angle, TAU)
     return math.pi if turned == -math.pi else turned
 
 
 def rotate(x: float, y: float, angle: float) -> tuple[float, float]:
-    """The vector (x, y) turned counter-clockwise by `angle`."""
+    """The vector (x, y) rotated counter-clockwise by `angle`."""
     c, s = math.cos(angle), math.sin(angle)
     return c * x - s * y, s * x + c * y
 
 
 def to_body(x: float, y: float, heading: float) -> tuple[float, float]:
-    """A field or team frame vector in the body frame of a robot with that heading."""
+    """A vector of the field or team frame in the body frame of a robot with that heading."""
     return rotate(x, y, -heading)
 
 
 def from_body(x: float, y: float, heading: float) -> tuple[float, float]:
-    """A body frame vector in the frame that the heading is given in."""
+    """A vector of the body frame in the frame of the heading."""
     return rotate(x, y, heading)
 
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """Position in m and heading in rad, in a frame its owner names."""
+    """Position in m and heading in rad, in the frame that its owner names."""
 
     x: float
     y: float
     heading: float = 0.0
 
     def team(self, attack: int) -> "Pose":
-        """Between field frame and team frame of a side that attacks `attack` (+1 or −1); its own inverse."""
+        """Transform between the field frame and the team frame of a side that attacks `attack` (+1 or −1); its own
+        inverse."""
         if attack > 0:
             return self
         return Pose(-self.x, -self.y, wrap(self.heading + math.pi))

@@ -14,7 +14,7 @@ from schemas.units import Metres, Seconds
 
 
 class Phase(StrEnum):
-    """What is being played; a restart belongs to the side named beside it."""
+    """What is being played; a restart belongs to the side that is given beside it."""
 
     PRE_GAME = "pre_game"
     STOPPED = "stopped"
@@ -40,7 +40,7 @@ class GameStage(StrEnum):
 
 
 class OfficiatingMode(StrEnum):
-    """Who decides: the referee, people alone, or the referee with people who may overrule it."""
+    """Who decides: the referee, people, or the referee with people who may overrule it."""
 
     AUTOMATIC = "automatic"
     MANUAL = "manual"
@@ -48,7 +48,7 @@ class OfficiatingMode(StrEnum):
 
 
 class Card(StrEnum):
-    """What a robot is shown."""
+    """A card shown to a robot."""
 
     YELLOW = "yellow"
     RED = "red"
@@ -69,7 +69,7 @@ SIDED = frozenset({Phase.KICK_OFF, Phase.FREE_KICK, Phase.GOAL_KICK, Phase.THROW
 """Restarts that one side takes."""
 
 RESTARTS = SIDED | {Phase.DROP_BALL}
-"""Every way to bring the ball back into play."""
+"""All restarts."""
 
 
 class TeamPhase(StrEnum):
@@ -97,31 +97,33 @@ class TeamPhase(StrEnum):
 
     @classmethod
     def of(cls, phase: Phase, taker: Side | None, viewer: Side) -> "TeamPhase":
-        """How `viewer` sees a phase that belongs to `taker`."""
+        """A phase that belongs to `taker`, from the point of view of `viewer`."""
         if phase not in SIDED:
             return cls(phase.value)
         return cls(f"{'our' if taker is viewer else 'their'}_{phase.value}")
 
     @property
     def ours(self) -> bool:
-        """A restart of our own."""
+        """Whether it is our restart."""
         return self.startswith("our_")
 
     @property
     def theirs(self) -> bool:
-        """A restart of the opponents."""
+        """Whether it is the opponents' restart."""
         return self.startswith("their_")
 
 
 class Point(Struct, frozen=True, kw_only=True):
-    """A point on the ground in m, in the frame its owner names."""
+    """A point on the ground, in the frame that its owner names."""
 
     x: Metres
+    """x in the frame of its owner, in m."""
     y: Metres
+    """y in the frame of its owner, in m."""
 
 
 class Score(Part):
-    """Goals."""
+    """Goals of both sides."""
 
     cyan: Annotated[int, Field(ge=0)] = 0
     """Goals of cyan."""
@@ -129,29 +131,30 @@ class Score(Part):
     """Goals of magenta."""
 
     def of(self, side: Side) -> int:
-        """The goals of one side."""
+        """The goals of a side."""
         return self.cyan if side is Side.CYAN else self.magenta
 
     def plus(self, side: Side, goals: int = 1) -> "Score":
-        """The same with more goals for one side."""
+        """The same score with more goals for a side."""
         added = {side.value: self.of(side) + goals}
         return Score(**{other.value: self.of(other) for other in Side} | added)
 
 
 class DisciplinaryRecord(Struct, frozen=True, kw_only=True):
-    """How one robot stands with the referee."""
+    """The cards of one robot, and whether it is off the field."""
 
     yellow: Annotated[int, Meta(ge=0)] = 0
     """Yellow cards that count toward the next punishment."""
     red: Annotated[int, Meta(ge=0)] = 0
+    """Red cards."""
     off_field: OffField | None = None
-    """Why it does not take part, or nothing."""
+    """Why the robot does not take part; None while it does."""
     left: Seconds | None = None
-    """Off the field: s until it may come back, at the next stoppage; nothing when no time brings it back."""
+    """Time until the robot may return, at the next stoppage, in s; None on the field, and where it may not return."""
 
 
 class GameState(Message):
-    """The game as the referee sees it, in the field frame."""
+    """The state of the game, in the field frame."""
 
     tick: int
     """Control ticks since the match began."""
@@ -162,9 +165,9 @@ class GameState(Message):
     side: Side | None = None
     """The side that takes the restart; None where no side does."""
     running: bool = False
-    """START was given; before that, robots take their positions and nobody may play the ball."""
+    """START was given; before that, robots take their positions and may not play the ball."""
     half: Annotated[int, Field(ge=1)] = 1
-    """Counts on through extra time."""
+    """The half that is being played; counts on through extra time."""
     stage: GameStage = GameStage.REGULAR
     """Regular time, extra time, or the penalty shoot-out."""
     clock: float = 0.0
@@ -178,35 +181,45 @@ class GameState(Message):
     cyan_attacks: Annotated[int, Field(ge=-1, le=1)] = 1
     """Sign of the x direction that cyan attacks."""
     spot: Point | None = None
-    """Where the ball is placed for the restart, in the field frame; None where nothing says."""
+    """Where the ball is placed for the restart, in the field frame; None where the referee has set no spot."""
     left: float | None = None
-    """Time in s until the limit of what is going on (START, ball in play, end of a break or of a shoot-out's
-    attempt); None without one."""
+    """Time in s until the limit of the current phase (START, ball in play, end of a break or of a shoot-out's attempt);
+    None without one."""
     robots: dict[Name, DisciplinaryRecord] = Field(default_factory=dict)
     """Robot → its cards, and why it is off the field; robots without either are left out."""
     proposal: str | None = None
     """Mixed officiating: what the referee has proposed and not yet carried out; None without a proposal."""
     episode: int = 1
-    """Counts the starts: the match's own, each scene that is loaded, each reset."""
+    """Counts the starts of the world: the match's own, each scene that is loaded, each reset."""
 
 
 class GameView(Struct, frozen=True, kw_only=True):
-    """The game as one team sees it; `spot` in the team frame."""
+    """The state of the game from one team's point of view."""
 
     phase: TeamPhase
+    """What is being played, and whose restart it is."""
     running: bool
+    """START was given; before that, robots take their positions and may not play the ball."""
     half: int = 1
+    """The half that is being played; counts on through extra time."""
     clock: Seconds
+    """Game clock in s: playing time of this half and those before it."""
     our_score: int
+    """Our goals, without those of a penalty shoot-out."""
     their_score: int
+    """Their goals, without those of a penalty shoot-out."""
     spot: Point | None = None
+    """Where the ball is placed for the restart, in the team frame; None where the referee has set no spot."""
     stage: GameStage = GameStage.REGULAR
+    """Regular time, extra time, or the penalty shoot-out."""
     left: Seconds | None = None
-    """s until the limit of what is going on: START, ball in play, end of a break or of a shoot-out's attempt."""
+    """Time in s until the limit of the current phase (START, ball in play, end of a break or of a shoot-out's attempt);
+    None without one."""
     robots: dict[Name, DisciplinaryRecord] = msgspec.field(default_factory=dict)
-    """Our robots with a card, or off the field; all others are there and unpunished."""
+    """Our robot → its cards, and why it is off the field; robots without either are left out."""
     episode: int = 1
-    """Another number than before: the world was set up anew, and what was believed of it is void."""
+    """Counts the starts of the world. When the number changes, the world was set up anew, and earlier beliefs are
+    void."""
 
 
 class EventKind(StrEnum):
@@ -248,31 +261,31 @@ class GameEvent(Message):
     kind: EventKind
     """What happened."""
     rule: str
-    """The rule or action that decided, by the name of its file."""
+    """Name of the rule or action that caused it."""
     side: Side | None = None
-    """The side that it is about; None where it is about neither or both."""
+    """The side that it concerns; None where it concerns neither or both."""
     robot: Name | None = None
-    """Who did it: the scorer, the last to touch the ball, the offender."""
+    """The robot that caused it: the scorer, the last to touch the ball, the offender."""
     robots: list[Name] = Field(default_factory=list)
-    """All robots that it is about, where there are more than one."""
+    """All robots that it concerns, where there is more than one."""
     place: Point | None = None
     """Where it happened, in the field frame; None where it has no place."""
     score: Score | None = None
-    """The score after it, where it changed that."""
+    """The score after it; None where the score did not change."""
     measured: float | None = None
-    """The quantity that broke the rule, in `unit`; None where nothing was measured."""
+    """The measured quantity, in `unit`; None where the rule measures none."""
     limit: float | None = None
-    """What the rule allows or requires, in `unit`; None where nothing was measured."""
+    """The limit that the rule sets for it, in `unit`; None where the rule measures none."""
     unit: str = ""
     """Unit of `measured` and `limit`; empty without them."""
     card: Card | None = None
     """The card that was shown; None without one."""
     text: str
-    """One sentence for people, with the measured quantity where there is one."""
+    """One sentence for display, with the measured quantity where there is one."""
 
 
 class ActionName(StrEnum):
-    """What a referee, a coach or the referee box may ask for."""
+    """What a human referee, a coach or the referee box may request."""
 
     START = "start"
     STOP = "stop"
@@ -300,31 +313,31 @@ class ActionName(StrEnum):
 
 
 REFBOX = "refbox"
-"""The source of what a league's referee box asks for, and the kind of the tokens of those who speak for it."""
+"""The source of requests from a league's referee box, and the kind of its liveliness token."""
 
 
 class RefereeAction(Message):
     """A request to the referee; accepted, or refused with the reason."""
 
     action: ActionName
-    """What the referee is asked to do."""
+    """The requested action."""
     side: Side | None = None
-    """The side that it is for; None for actions that are for neither."""
+    """The side that it concerns; None for actions without a side."""
     robot: Name | None = None
-    """Who scored, for a goal; whom a card, a repair, a substitution or the parking is for."""
+    """The scorer of a goal; the robot that a card, a repair, a substitution or an entry concerns."""
     place: Point | None = None
-    """Field frame; where a restart takes its spot from, by default where the ball lies."""
+    """Place of the action in the field frame, from which a restart takes its spot; by default where the ball lies."""
     source: Source = "coach"
-    """Who asks."""
+    """Name of the sender, for display."""
 
 
 class ActionReply(Message):
-    """The referee's answer to an action."""
+    """The referee's reply to an action."""
 
     accepted: bool
     """The action was carried out."""
     reason: str = ""
-    """Why it was refused."""
+    """Why it was refused; empty where it was accepted."""
     tick: int | None = None
-    """Tick that the referee judged the action in; its state is published before the reply. None where the referee
-    was not asked."""
+    """Tick in which the referee judged the action; the state of that tick is published before the reply. None where
+    the request did not reach the referee."""

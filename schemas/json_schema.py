@@ -1,4 +1,4 @@
-"""JSON Schemas in one form for models and structs: a message at the root, and its definitions beside it."""
+"""JSON Schemas in one form for models and structs: the message at the root, and its definitions beside it."""
 
 from collections.abc import Mapping
 from inspect import cleandoc
@@ -7,29 +7,40 @@ from typing import Any
 Schema = dict[str, Any]
 
 _DEFINITIONS = "#/$defs/"
-"""Where a schema refers to its definitions."""
+"""Prefix of a reference to a definition."""
 
 
-def published(schema: Schema) -> Schema:
-    """A schema that msgspec wrote, with the message itself at its root, for readers in any language."""
-    definitions = {name: _plain(one) for name, one in schema["$defs"].items()}
+def published(schema: Schema, descriptions: Mapping[str, Mapping[str, str]]) -> Schema:
+    """A schema that msgspec made, with the message itself at its root, for readers in any language.
+
+    Args:
+        descriptions: class name → field → its description.
+    """
+    definitions: Schema = {}
+    for name, one in schema["$defs"].items():
+        definitions[name] = _plain(one)
+        for field, description in descriptions.get(name, {}).items():
+            definitions[name]["properties"][field]["description"] = description
     own: Schema = definitions.pop(schema["$ref"].removeprefix(_DEFINITIONS))
     return {**own, "$defs": definitions} if definitions else own
 
 
 def in_one_piece(schema: Schema) -> Schema:
-    """The same schema with definitions in the places where it refers to them."""
+    """The same schema with each reference replaced by its definition.
+
+    Where a reference has keys beside it, the definition stands alone in `allOf`, so that the two do not mix.
+    """
     definitions = schema.get("$defs", {})
-    whole: Schema = _filled_in({key: value for key, value in schema.items() if key != "$defs"}, definitions)
+    whole: Schema = _inlined({key: value for key, value in schema.items() if key != "$defs"}, definitions)
     return whole
 
 
 def with_definitions(schema: Schema) -> Schema:
-    """The same schema with references to definitions in place of objects and enumerations that have a title."""
+    """The same schema with a reference in place of each object and enumeration that has a title."""
     definitions: Schema = {}
-    own = _taken_out({key: value for key, value in schema.items() if key != "$defs"}, definitions)
+    own = _with_references({key: value for key, value in schema.items() if key != "$defs"}, definitions)
     for name, one in schema.get("$defs", {}).items():
-        definitions[name] = _taken_out(one, definitions)
+        definitions[name] = _with_references(one, definitions)
     return {**own, "$defs": definitions} if definitions else own
 
 
@@ -48,31 +59,34 @@ def _plain(schema: Any) -> Any:
     return own
 
 
-def _filled_in(schema: Any, definitions: Mapping[str, Any]) -> Any:
+def _inlined(schema: Any, definitions: Mapping[str, Any]) -> Any:
     if isinstance(schema, list):
-        return [_filled_in(one, definitions) for one in schema]
+        return [_inlined(one, definitions) for one in schema]
     if not isinstance(schema, dict):
         return schema
-    own = {key: value for key, value in schema.items() if key != "$ref"}
-    if isinstance(schema.get("$ref"), str):
-        own = {**definitions[schema["$ref"].removeprefix(_DEFINITIONS)], **own}
-    return {key: _filled_in(value, definitions) for key, value in own.items()}
-
-
-def _taken_out(schema: Schema, definitions: Schema) -> Schema:
-    """A schema itself, whose parts go among the definitions."""
-    return {key: _referred_to(value, definitions) for key, value in schema.items()}
-
-
-def _referred_to(schema: Any, definitions: Schema) -> Any:
-    if isinstance(schema, list):
-        return [_referred_to(one, definitions) for one in schema]
-    if not isinstance(schema, dict):
-        return schema
-    own = _taken_out(schema, definitions)
-    is_named = isinstance(own.get("title"), str) and ("properties" in own or "enum" in own)
-    if not is_named:
+    own = {key: _inlined(value, definitions) for key, value in schema.items() if key != "$ref"}
+    if not isinstance(schema.get("$ref"), str):
         return own
-    beside = {"default": own.pop("default")} if "default" in own else {}
-    same = definitions.setdefault(own["title"], own)
-    return {"$ref": _DEFINITIONS + own["title"], **beside} if same == own else {**own, **beside}
+    definition = _inlined(definitions[schema["$ref"].removeprefix(_DEFINITIONS)], definitions)
+    return {"allOf": [definition], **own} if own else definition
+
+
+def _with_references(schema: Schema, definitions: Schema) -> Schema:
+    """A schema whose titled parts are moved to the definitions."""
+    return {key: _referenced(value, definitions) for key, value in schema.items()}
+
+
+def _referenced(schema: Any, definitions: Schema) -> Any:
+    if isinstance(schema, list):
+        return [_referenced(one, definitions) for one in schema]
+    if not isinstance(schema, dict):
+        return schema
+    own = _with_references(schema, definitions)
+    match own:
+        case {"allOf": [dict(only)]}:
+            return {**only, **{key: value for key, value in own.items() if key != "allOf"}}
+        case {"title": str(title)} if "properties" in own or "enum" in own:
+            beside = {"default": own.pop("default")} if "default" in own else {}
+            same = definitions.setdefault(title, own)
+            return {"$ref": _DEFINITIONS + title, **beside} if same == own else {**own, **beside}
+    return own

@@ -1,7 +1,7 @@
-"""The base of every wire message: frozen, closed, finite, and versioned.
+"""The base of every wire message: frozen, without unknown fields, finite, and versioned.
 
-There are two kinds of classes, and each message is of one of them: pydantic models, and the msgspec structs of
-`schemas.struct` for what is written and read in every tick. `WireMessage` is what both offer.
+Each message is a pydantic model, or a msgspec struct (`schemas.struct`) where it is written and read in every tick.
+`WireMessage` is the interface of both.
 """
 
 import re
@@ -16,8 +16,8 @@ from schemas.described import Described
 from schemas.faults import Fault, fault_of
 from schemas.json_schema import with_definitions
 
-VERSION = "1.0"
-"""Version of the contract that this code speaks, "major.minor"."""
+VERSION = "2.0"
+"""Version of the protocol that this package implements, "major.minor"."""
 
 Name = Annotated[
     str,
@@ -28,28 +28,27 @@ Name = Annotated[
         description="lower-case letters, digits and _, a letter first, at most 32 characters",
     ),
 ]
-"""A key chunk: the name of a robot, a match, a process."""
-
+"""A key chunk: the name of a robot, a match or a process."""
 
 Source = Annotated[str, StringConstraints(pattern=r"^[^\x00-\x1f\x7f-\x9f]*$", max_length=80)]
-"""Who asks, in words that are shown to people: one line without control characters, which a terminal would obey."""
+"""Name of the sender of a request, for display: one line without control characters, which a terminal would obey."""
 
 M = TypeVar("M", bound="WireMessage")
 
 
 class BadMessageError(ValueError):
-    """A payload that is not a valid message; the sentence says why."""
+    """A payload that is not a valid message; the text is one sentence with the reason."""
 
 
 class WireMessage(Protocol):
-    """What every message offers, model or struct."""
+    """The interface of every message, model or struct."""
 
     max_bytes: ClassVar[int]
-    """A payload longer than this is refused unread."""
+    """A longer payload is refused without being parsed."""
 
     @property
     def version(self) -> str:
-        """The version of the contract that it was written in."""
+        """Version of the protocol that the sender implements."""
 
     def encode(self) -> bytes:
         """The message as UTF-8 JSON; floats keep every bit."""
@@ -63,35 +62,35 @@ class WireMessage(Protocol):
         """
 
     def plain(self) -> dict[str, Any]:
-        """The fields as JSON has them: objects, lists, texts and numbers."""
+        """The fields as JSON values: objects, lists, texts and numbers."""
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
-        """The JSON Schema of the message as it is written, whole."""
+        """The JSON Schema of the message as it is written, with all definitions."""
 
 
 class Part(Described, BaseModel):
-    """A part of a message: no extra fields, no NaN or infinity, never changed after it was made."""
+    """A part of a message: immutable, without unknown fields, NaN or infinity."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True)
 
     def plain(self) -> dict[str, Any]:
-        """The fields as JSON has them: objects, lists, texts and numbers."""
+        """The fields as JSON values: objects, lists, texts and numbers."""
         return self.model_dump(mode="json", by_alias=True)
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
-        """The JSON Schema of the part as it is written, whole."""
+        """The JSON Schema of the part as it is written, with all definitions."""
         return with_definitions(cls.model_json_schema(by_alias=True, mode="serialization"))
 
 
 class Message(Part):
-    """A whole message; carries the version of the contract. See `WireMessage`."""
+    """A whole message, with the version of the protocol. See `WireMessage`."""
 
     max_bytes: ClassVar[int] = 65_536
 
     version: str = VERSION
-    """Version of the contract that the sender implements, "major.minor"."""
+    """Version of the protocol that the sender implements, "major.minor"."""
 
     def encode(self) -> bytes:
         """The message as UTF-8 JSON; floats keep every bit."""
@@ -104,16 +103,16 @@ class Message(Part):
         Raises:
             BadMessageError: too long, not JSON, not this message, or of another major version.
         """
-        return decoded(cls, payload, cls.model_validate_json, _fault)
+        return decode_payload(cls, payload, cls.model_validate_json, _fault)
 
 
-def decoded(
+def decode_payload(
     kind: type[M],
     payload: bytes,
-    read: Callable[[bytes], M],
+    parse: Callable[[bytes], M],
     explain: Callable[[type[M], bytes, Exception], Fault],
 ) -> M:
-    """The message that `read` finds in a payload; what it refuses, `explain` names the fault of.
+    """The message that `parse` makes of a payload; `explain` names the fault of a payload that `parse` refuses.
 
     Raises:
         BadMessageError: too long, not JSON, not this message, or of another major version.
@@ -121,12 +120,12 @@ def decoded(
     if len(payload) > kind.max_bytes:
         raise BadMessageError(f"{kind.__name__}: {len(payload)} bytes, at most {kind.max_bytes}")
     try:
-        message = read(payload)
+        message = parse(payload)
     except (ValueError, RecursionError) as error:
-        reason = _of_another_version(payload) or explain(kind, payload, error).sentence()
+        reason = _version_mismatch(payload) or explain(kind, payload, error).sentence()
         raise BadMessageError(f"{kind.__name__}: {reason}") from None
     if message.version != VERSION and message.version.split(".")[0] != _MAJOR:
-        raise BadMessageError(f"{kind.__name__}: {_versions(message.version)}")
+        raise BadMessageError(f"{kind.__name__}: {_both_versions(message.version)}")
     return message
 
 
@@ -139,16 +138,16 @@ def _fault(kind: type[Message], _payload: bytes, error: Exception) -> Fault:
     return fault_of(error, kind)
 
 
-def _versions(theirs: str) -> str:
+def _both_versions(theirs: str) -> str:
     shown = theirs if _PLAIN_VERSION.fullmatch(theirs) else repr(theirs[:20])
-    return f"version {shown} is not spoken here, this side speaks {VERSION}; update the older side"
+    return f"version {shown} is not supported, this side has {VERSION}; update the older side"
 
 
-def _of_another_version(payload: bytes) -> str:
-    """That a payload is of another major version, which explains more than its first odd field; else nothing."""
+def _version_mismatch(payload: bytes) -> str:
+    """The sentence for a payload of another major version, which explains more than its first fault; else empty."""
     try:
         content: Any = from_json(payload)
     except ValueError:
         return ""
     version = content.get("version") if isinstance(content, dict) else None
-    return _versions(version) if isinstance(version, str) and version.split(".")[0] != _MAJOR else ""
+    return _both_versions(version) if isinstance(version, str) and version.split(".")[0] != _MAJOR else ""

@@ -16,5 +16,5 @@ class Side(StrEnum):
         return Side.MAGENTA if self is Side.CYAN else Side.CYAN
 
     def attack(self, cyan_attacks: int) -> Literal[1, -1]:
-        """Sign of the x direction this side attacks, when cyan attacks `cyan_attacks` (+1 or -1)."""
+        """Sign of the x direction that this side attacks, where cyan attacks `cyan_attacks` (+1 or −1)."""
         return 1 if (self is Side.CYAN) == (cyan_attacks > 0) else -1

@@ -1,8 +1,8 @@
 """Messages and parts that are written and read in every tick: msgspec structs, whose annotations hold their limits.
 
-A robot's process is woken for each sight, when nine others have been at the caches since: what it touches is what it
-costs, and a struct keeps its fields and nothing else. A struct can be a field of a pydantic model, and is validated,
-written and described there as everywhere.
+A robot's process is woken for each sight after nine others have used the CPU's caches, so its cost is the memory that
+it touches, and a struct keeps nothing but its fields. A struct can be a field of a pydantic model, where it is
+validated, written and described in the same way.
 """
 
 import math
@@ -19,9 +19,10 @@ from msgspec import Meta
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema, from_json
 
+from schemas.described import field_docstrings
 from schemas.faults import Fault, FaultError, FaultKind, fault_in, hints_of, not_json, validated
 from schemas.json_schema import in_one_piece, published
-from schemas.message import VERSION, decoded
+from schemas.message import VERSION, decode_payload
 
 encode = msgspec.json.Encoder(enc_hook=dict).encode
 """Structs, models, dataclasses and mappings of them as UTF-8 JSON; floats keep every bit, and NaN is null."""
@@ -30,42 +31,43 @@ T = TypeVar("T")
 
 
 class Struct(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):
-    """A part of a message: no extra fields, never changed after it was made.
+    """A part of a message: immutable, without unknown fields.
 
-    What is read is validated. What is made is not, for speed, but where a class has the metaclass `Checked`.
+    Decoding validates. Construction does not, for speed, unless the class has the metaclass `Checked`.
     """
 
     def plain(self) -> dict[str, Any]:
-        """The fields as JSON has them: objects, lists, texts and numbers."""
+        """The fields as JSON values: objects, lists, texts and numbers."""
         fields: dict[str, Any] = msgspec.to_builtins(self)
         return fields
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
-        """The JSON Schema of the struct as it is written, whole."""
-        return published(msgspec.json.schema(cls))
+        """The JSON Schema of the struct as it is written, with all definitions."""
+        return published(msgspec.json.schema(cls), {part.__name__: field_docstrings(part) for part in _structs_in(cls)})
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """As a field of a model: taken as it is, or made of a mapping; written as its fields."""
+        """As a field of a model: an instance as it is, or made from a mapping; serialized as its fields."""
         return core_schema.no_info_plain_validator_function(
-            partial(_taken, cls),
+            partial(_as_struct, cls),
             ref=f"{cls.__module__}.{cls.__name__}:{id(cls)}",
             serialization=core_schema.plain_serializer_function_ser_schema(msgspec.to_builtins),
         )
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """As a field of a model: in one piece, which `schemas.message.Part.json_schema` takes apart again."""
+        """As a field of a model: in one piece, which `schemas.message.Part.json_schema` separates again."""
         return in_one_piece(cls.json_schema())
 
 
 class StructMessage(Struct, frozen=True, kw_only=True):
-    """A whole message; carries the version of the contract. See `schemas.message.WireMessage`."""
+    """A whole message, with the version of the protocol. See `schemas.message.WireMessage`."""
 
     max_bytes: ClassVar[int] = 65_536
 
     version: str = VERSION
+    """Version of the protocol that the sender implements, "major.minor"."""
 
     def encode(self) -> bytes:
         """The message as UTF-8 JSON; floats keep every bit."""
@@ -78,48 +80,51 @@ class StructMessage(Struct, frozen=True, kw_only=True):
         Raises:
             BadMessageError: too long, not JSON, not this message, or of another major version.
         """
-        return decoded(cls, payload, _reader(cls), _fault)
+        return decode_payload(cls, payload, _decoder(cls), _fault)
 
 
 class Checked(msgspec.StructMeta):
-    """The metaclass of structs that people make in their brains: one that is made by a call is checked like one that is
-    read, and for one that is read, or made by `msgspec.structs.replace`, nothing is done twice.
+    """The metaclass of structs that brains construct: a constructor call is checked like a decoded struct.
+
+    Decoding and `msgspec.structs.replace` do not call it, so that nothing is checked twice.
     """
 
     def __call__(cls: type[T], *args: Any, **fields: Any) -> T:  # noqa: N805
-        made: T = msgspec.StructMeta.__call__(cls, *args, **fields)
-        check(cast(Struct, made))
-        return made
+        part: T = msgspec.StructMeta.__call__(cls, *args, **fields)
+        check(cast(Struct, part))
+        return part
 
 
 def check(part: Struct) -> None:
-    """Check what was made as what is read is checked; numbers of other libraries and words of enumerations are settled.
+    """Check a constructed struct as a decoded one is checked.
+
+    Converts scalars of numpy to Python's numbers, and values of enumerations to their members.
 
     Raises:
-        FaultError: a field is of another type, beyond its limits, or no finite number.
+        FaultError: a field has another type, is beyond its limits, or is not a finite number.
     """
-    for name in _odd_fields(part):
-        _settle(part, name)
+    for name in _suspect_fields(part):
+        _convert(part, name)
 
 
-def _odd_fields(part: Struct) -> list[str]:
-    """The fields whose values are not plainly what they may be."""
+def _suspect_fields(part: Struct) -> list[str]:
+    """The fields whose values a quick check does not accept."""
     numbers, others = _plan(part.__class__)
-    odd = []
+    suspect = []
     for name, kind, low, high in numbers:
         value: Any = getattr(part, name)
         if value.__class__ is not kind or not low <= value <= high:
-            odd.append(name)
-    for name, looks in others:
+            suspect.append(name)
+    for name, tests in others:
         value = getattr(part, name)
-        look = looks.get(value.__class__, _never)
-        if look is not None and not look(value):
-            odd.append(name)
-    return odd
+        test = tests.get(value.__class__, _never)
+        if test is not None and not test(value):
+            suspect.append(name)
+    return suspect
 
 
-Look = Callable[[Any], object]
-"""Whether a value of the right class is plainly what it may be."""
+Test = Callable[[Any], object]
+"""Whether a value of the right class passes the quick check."""
 
 
 def _never(_: Any) -> bool:
@@ -127,12 +132,12 @@ def _never(_: Any) -> bool:
 
 
 class _Plan(NamedTuple):
-    """What a check looks at."""
+    """The quick check of one class."""
 
     numbers: list[tuple[str, type[Any], float, float]]
     """Field, class, least and greatest value."""
-    others: list[tuple[str, dict[type, Look | None]]]
-    """Field, and the classes that its value may be of, each with what has to be looked at besides."""
+    others: list[tuple[str, dict[type, Test | None]]]
+    """Field, and the classes that its value may have, each with a further test or None."""
 
 
 @cache
@@ -144,25 +149,25 @@ def _plan(kind: type[Struct]) -> _Plan:
             plan.numbers.append((name, base, *_range(base, limits)))
         else:
             choices = get_args(base) if get_origin(base) in (Union, UnionType) else (base,)
-            looks = [look for choice in choices for look in _looks(*_split(choice))]
-            plan.others.append((name, dict(looks)))
+            tests = [test for choice in choices for test in _tests(*_split(choice))]
+            plan.others.append((name, dict(tests)))
     return plan
 
 
 def _split(hint: Any) -> tuple[Any, list[Meta]]:
-    """A type, and the limits that it is declared with."""
+    """A type and its declared limits."""
     if get_origin(hint) is not Annotated:
         return hint, []
     base, *limits = get_args(hint)
     return base, [one for one in limits if isinstance(one, Meta)]
 
 
-def _looks(kind: Any, limits: list[Meta]) -> list[tuple[type, Look | None]]:
-    """The class of a type, with what has to be looked at; none of a type whose values are looked at with care."""
+def _tests(kind: Any, limits: list[Meta]) -> list[tuple[type, Test | None]]:
+    """The class of a type with its further test; empty for a type whose values always need the full check."""
     if isinstance(kind, Checked) or kind is NoneType or (isinstance(kind, type) and issubclass(kind, Enum)):
         return [(kind, None)]
     if isinstance(kind, type) and issubclass(kind, Struct):
-        return [(kind, lambda part: not _odd_fields(part))]
+        return [(kind, lambda part: not _suspect_fields(part))]
     if kind is str:
         longest = min([one.max_length for one in limits if one.max_length is not None], default=sys.maxsize)
         patterns = [re.compile(one.pattern).search for one in limits if one.pattern is not None]
@@ -183,25 +188,29 @@ def _range(kind: type, limits: list[Meta]) -> tuple[float, float]:
     return max(lows, default=-most), min(highs, default=most)
 
 
-def _settle(part: Struct, name: str) -> None:
-    """Make a field's value one of its type, or say what is wrong with it."""
+def _convert(part: Struct, name: str) -> None:
+    """Convert the value of a field to its type.
+
+    Raises:
+        FaultError: the value is not valid.
+    """
     value, hint = getattr(part, name), hints_of(part.__class__)[name]
     if getattr(value, "shape", None) == ():  # a scalar of numpy
         value = value.item()
     try:
-        settled = msgspec.convert(value, hint)
-        is_sound = _is_finite(settled)
+        converted = msgspec.convert(value, hint)
+        is_valid = _is_finite(converted)
     except (msgspec.ValidationError, FaultError):
-        is_sound = False
-    if not is_sound:
+        is_valid = False
+    if not is_valid:
         fault = fault_in(hint, value) or Fault((), value, "cannot be read")
         raise FaultError(fault.below((name,)), _snake_case(part.__class__.__name__))
-    if settled is not getattr(part, name):
-        msgspec.structs.force_setattr(part, name, settled)
+    if converted is not getattr(part, name):
+        msgspec.structs.force_setattr(part, name, converted)
 
 
 def _is_finite(value: Any) -> bool:
-    """Whether all numbers in a value are; of a struct in it every limit is looked at."""
+    """Whether all numbers in a value are finite; a struct in it is checked against all its limits."""
     if isinstance(value, Struct):
         check(value)
     if isinstance(value, dict):
@@ -209,26 +218,33 @@ def _is_finite(value: Any) -> bool:
     return not isinstance(value, float) or math.isfinite(value)
 
 
+def _structs_in(hint: Any) -> set[type[Struct]]:
+    """The structs in a type, with those in their fields."""
+    if isinstance(hint, type) and issubclass(hint, Struct):
+        return {hint}.union(*[_structs_in(inner) for inner in hints_of(hint).values()])
+    return {struct for inner in get_args(hint) for struct in _structs_in(inner)}
+
+
 def _snake_case(name: str) -> str:
     return "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in name).lstrip("_")
 
 
 @cache
-def _reader(kind: type[StructMessage]) -> Any:
+def _decoder(kind: type[StructMessage]) -> Any:
     return msgspec.json.Decoder(kind).decode
 
 
 def _fault(kind: type[Any], payload: bytes, error: Exception) -> Fault:
-    """What is wrong with a payload that msgspec has refused."""
+    """The fault of a payload that msgspec has refused."""
     try:
         content = from_json(payload)
     except ValueError as reason:
         return not_json(payload, reason)
-    return fault_in(kind, content) or Fault((), None, f"not to be read: {error}", FaultKind.RULE)
+    return fault_in(kind, content) or Fault((), None, f"cannot be read: {error}", FaultKind.RULE)
 
 
-def _taken(kind: type[Struct], value: Any) -> Struct:
-    """The struct that a model gets as a field's value."""
+def _as_struct(kind: type[Struct], value: Any) -> Struct:
+    """The value of a model's field as a struct."""
     part = value if isinstance(value, kind) else validated(kind, value)
     check(part)
     return part

@@ -1,4 +1,4 @@
-"""What a topic is: its key, what it carries, who writes and reads it, and how it travels."""
+"""A topic: its key, its message, who publishes and reads it, and how it is delivered."""
 
 import re
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from schemas.message import WireMessage
 
 
 class Party(StrEnum):
-    """Who speaks and listens on the bus."""
+    """The roles of the processes on the bus."""
 
     HOST = "host"
     ROBOT = "robot"
@@ -21,20 +21,20 @@ class Party(StrEnum):
     RECORDER = "recorder"
     VIEWER = "viewer"
     OPERATOR = "operator"
-    """Whoever runs the host."""
+    """The person who runs the host."""
 
 
 class Delivery(StrEnum):
-    """How a message travels."""
+    """How a message is delivered."""
 
     NEWEST = "newest"
-    """Dropped rather than waited for; a reader that is late gets the newest alone."""
+    """Dropped under congestion; a slow subscriber gets only the newest message."""
     EVERY = "every"
-    """Dropped rather than waited for; a reader gets all that arrive, in order."""
+    """Dropped under congestion; a subscriber gets all messages that arrive, in order."""
     RECOVERED = "recovered"
-    """As `every`, and what was dropped is fetched again from the writer's cache."""
+    """As `every`, and dropped messages are fetched from the publisher's cache."""
     QUERY = "query"
-    """Asked for, and answered."""
+    """A request with a reply."""
     PRESENCE = "presence"
     """A liveliness token: it exists while its process does."""
 
@@ -44,16 +44,20 @@ class Topic:
     """One row of the table."""
 
     key: str
+    """Key below `touchline/{match}/`, with its variable chunks in braces."""
     message: type[WireMessage] | None
+    """The message, or the request of a query; None for a liveliness token."""
     writer: Party
     readers: tuple[Party, ...]
     rate: str
+    """How often it is published, in words."""
     delivery: Delivery
     recorded: bool
     description: str
     reply: type[WireMessage] | None = None
+    """The reply of a query."""
     cache_size: int = 1500
-    """Messages of a `recovered` topic that a writer keeps of a key: 30 s of ticks in real time."""
+    """Messages that the publisher of a `recovered` topic keeps for each key: 30 s of ticks in real time."""
 
     @property
     def chunks(self) -> tuple[str, ...]:
@@ -61,10 +65,10 @@ class Topic:
         return tuple(re.findall(r"{(\w+)}", self.key))
 
     def fill(self, **chunks: str) -> str:
-        """The key with its chunks filled in; a chunk left out becomes `*`.
+        """The key with its chunks filled in; a missing chunk becomes `*`.
 
         Raises:
-            TouchlineError: a chunk that the key does not have.
+            TouchlineError: the key has no such chunk.
         """
         for name in chunks:
             if name not in self.chunks:
@@ -72,12 +76,12 @@ class Topic:
         return self.key.format_map({name: chunks.get(name, "*") for name in self.chunks})
 
     def match(self, key: str) -> dict[str, str] | None:
-        """The chunks of a filled-in key, or nothing when the key belongs to another topic."""
+        """The chunks of a filled-in key; None where the key belongs to another topic."""
         found = _pattern(self.key).fullmatch(key)
         return found.groupdict() if found else None
 
 
 @cache
 def _pattern(key: str) -> re.Pattern[str]:
-    """What a filled-in key looks like."""
+    """The pattern of filled-in keys."""
     return re.compile(re.sub(r"{(\w+)}", r"(?P<\1>[^/]+)", key))

@@ -1,7 +1,7 @@
-"""The topic table: every key, what it carries, who writes, who may read, how it travels, whether it is recorded.
+"""The topic table: every key with its message, publisher, readers, delivery, and whether it is recorded.
 
 Access rules, the recorder, `docs/protocol.md` and the tests are derived from this table; a new topic is one row.
-All keys stand below `touchline/{match}/`.
+All keys are below `touchline/{match}/`.
 """
 
 from schemas.config.scene import SceneReply, SceneRequest
@@ -11,11 +11,12 @@ from schemas.messages.command import Command
 from schemas.messages.host import Applied, Belief, Health, Invalid, RecorderProgress, Setup, SetupRequest
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParametersReply, ParametersRequest
-from schemas.messages.record_batch import RecordBatch
+from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.messages.recorder import RecorderReply, RecorderRequest
 from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.messages.sight import Sight
 from schemas.messages.world import BallFrame, RobotFrame, World
+from schemas.recovery_window import BATCH_S, BATCH_TICKS, KEPT_BATCHES
 from schemas.topic import Delivery, Party, Topic
 
 _WATCHERS = (Party.COACH, Party.REFEREE, Party.RECORDER, Party.VIEWER)
@@ -29,29 +30,29 @@ WORLD = Topic(
     Party.HOST,
     _WATCHERS,
     _TICK,
-    Delivery.RECOVERED,
+    Delivery.EVERY,
     True,
-    "whole truth of one tick, field frame",
+    "true state of everything on the field at one tick, field frame",
 )
 WORLD_ROBOT = Topic(
     "world/{robot}",
     RobotFrame,
     Party.HOST,
     _WATCHERS,
-    "each tick while somebody listens",
+    "each tick while there are subscribers",
     Delivery.NEWEST,
     False,
-    "truth of one robot; `world` holds the same",
+    "true state of one robot; `world` has the same",
 )
 WORLD_BALL = Topic(
     "world/ball",
     BallFrame,
     Party.HOST,
     _WATCHERS,
-    "each tick while somebody listens",
+    "each tick while there are subscribers",
     Delivery.NEWEST,
     False,
-    "truth of the ball; `world` holds the same",
+    "true state of the ball; `world` has the same",
 )
 SIGHT = Topic(
     "robot/{robot}/sight",
@@ -71,14 +72,14 @@ COMMAND = Topic(
     "each sight",
     Delivery.EVERY,
     True,
-    "what this robot does",
+    "drive, dribbler, kick and radio message of this robot",
 )
 MANUAL = Topic(
     "robot/{robot}/manual",
     ManualDrive,
     Party.OPERATOR,
     (Party.HOST,),
-    "20 Hz of wall time while somebody drives",
+    "20 Hz of wall time during manual control",
     Delivery.EVERY,
     False,
     "a person drives this robot in place of its brain",
@@ -88,10 +89,10 @@ BELIEF = Topic(
     Belief,
     Party.HOST,
     (Party.COACH, Party.RECORDER),
-    "each word",
-    Delivery.RECOVERED,
+    "each radio message",
+    Delivery.EVERY,
     True,
-    "what this robot last said on the radio",
+    "the newest radio message of this robot",
 )
 ORDER = Topic(
     "team/{side}/order",
@@ -101,17 +102,17 @@ ORDER = Topic(
     _ON_CHANGE,
     Delivery.EVERY,
     True,
-    "the coach's standing order",
+    "the coach's order",
 )
 ACTIVE_ORDER = Topic(
     "team/{side}/standing",
     ActiveOrder,
     Party.HOST,
     (Party.COACH, Party.RECORDER),
-    "on change, and once a second, while an order stands",
+    "on change, and once a second, while an order is in force",
     Delivery.RECOVERED,
     True,
-    "the order that stands, and which robots have acknowledged it",
+    "the order in force, and which robots have acknowledged it",
 )
 STATE = Topic(
     "game/state",
@@ -131,14 +132,14 @@ EVENT = Topic(
     _ON_CHANGE,
     Delivery.RECOVERED,
     True,
-    "goals, stops, restarts, and why",
+    "goals, stops, restarts, and their reasons",
 )
 ACTION = Topic(
     "game/action",
     RefereeAction,
     Party.COACH,
     (Party.HOST,),
-    "at will",
+    "on demand",
     Delivery.QUERY,
     False,
     "a request to the referee: accepted, or refused with the reason",
@@ -152,7 +153,7 @@ SETUP = Topic(
     "at start",
     Delivery.QUERY,
     False,
-    "how the match is set up: pitch, bodies, limits, rules, names",
+    "the setup of the match: pitch, bodies, limits, rules, names",
     reply=Setup,
 )
 PARAMETERS = Topic(
@@ -160,10 +161,10 @@ PARAMETERS = Topic(
     ParametersRequest,
     Party.OPERATOR,
     (Party.HOST,),
-    "at will",
+    "on demand",
     Delivery.QUERY,
     False,
-    "live parameters: listed, read, set, reset; refused with the reason",
+    "lists, reads, sets and resets live parameters, or is refused with the reason",
     reply=ParametersReply,
 )
 SCENE = Topic(
@@ -171,10 +172,10 @@ SCENE = Topic(
     SceneRequest,
     Party.OPERATOR,
     (Party.HOST,),
-    "at will",
+    "on demand",
     Delivery.QUERY,
     False,
-    "load a scene, place, add or remove bodies, begin anew; refused with the reason",
+    "loads a scene, places, adds or removes bodies, or resets the world, or is refused with the reason",
     reply=SceneReply,
 )
 APPLIED = Topic(
@@ -183,7 +184,7 @@ APPLIED = Topic(
     Party.HOST,
     (Party.RECORDER, Party.VIEWER),
     _TICK,
-    Delivery.RECOVERED,
+    Delivery.EVERY,
     True,
     "inputs as applied at this tick, and the hash chain",
 )
@@ -195,7 +196,7 @@ HEALTH = Topic(
     "4 Hz of wall time",
     Delivery.RECOVERED,
     True,
-    "real-time factor, late ticks, each agent's answers and losses",
+    "real-time factor, late ticks, answers and losses of each agent",
 )
 INVALID = Topic(
     "host/invalid",
@@ -203,20 +204,30 @@ INVALID = Topic(
     Party.HOST,
     (Party.COACH, Party.RECORDER, Party.VIEWER),
     "each invalid message, at most 50 Hz",
-    Delivery.RECOVERED,
+    Delivery.EVERY,
     True,
-    "a payload that was no valid message, and why",
+    "an invalid payload, and why it is invalid",
 )
 RECORD_BATCH = Topic(
     "host/record_batch",
     RecordBatch,
     Party.HOST,
     (Party.RECORDER,),
-    "every 8 ticks, or 0.15 s of wall time",
-    Delivery.RECOVERED,
+    f"every {BATCH_TICKS} ticks, or {BATCH_S:g} s of wall time",
+    Delivery.EVERY,
     False,
-    "all that is recorded, as the host said it and took it in; recorders record it on its own keys from here",
-    cache_size=300,
+    "all messages to be recorded, as the host published or received them; recorders record them on their own keys",
+)
+RECORD_BATCHES = Topic(
+    "host/record_batches",
+    RecordBatchesRequest,
+    Party.RECORDER,
+    (Party.HOST,),
+    "when batches are missing",
+    Delivery.QUERY,
+    False,
+    f"batches that the host has published already; it keeps the last {KEPT_BATCHES}",
+    reply=RecordBatchesReply,
 )
 RECORDER_PROGRESS = Topic(
     "record/{name}/progress",
@@ -226,17 +237,17 @@ RECORDER_PROGRESS = Topic(
     "5 to 20 Hz of wall time",
     Delivery.EVERY,
     False,
-    "how far a recorder has come",
+    "progress of a recorder",
 )
 RECORDER_CONTROL = Topic(
     "record/{name}/control",
     RecorderRequest,
     Party.OPERATOR,
     (Party.RECORDER,),
-    "at will",
+    "on demand",
     Delivery.QUERY,
     False,
-    "pause, resume, split, snapshot, status of a recorder; refused with the reason",
+    "pauses, resumes or splits a recorder, takes a snapshot, or reports its state; refused with the reason",
     reply=RecorderReply,
 )
 REPLAY_CONTROL = Topic(
@@ -244,10 +255,10 @@ REPLAY_CONTROL = Topic(
     ReplayRequest,
     Party.OPERATOR,
     (Party.HOST,),
-    "at will",
+    "on demand",
     Delivery.QUERY,
     False,
-    "pause, step, seek, rate of a replay, which stands in for a host; refused with the reason",
+    "controls a replay, which takes the place of a host; refused with the reason",
     reply=ReplayReply,
 )
 ALIVE = Topic(
@@ -255,10 +266,10 @@ ALIVE = Topic(
     None,
     Party.ROBOT,
     (Party.HOST, *_WATCHERS),
-    "while it lives",
+    "while the process lives",
     Delivery.PRESENCE,
     False,
-    "liveliness token of a process: host, agent, coach, recorder; refbox: a league's referee box officiates",
+    "liveliness token of a process: host, agent, coach, recorder, replay; refbox while a referee box officiates",
 )
 
 TOPICS: dict[str, Topic] = {
@@ -281,6 +292,7 @@ TOPICS: dict[str, Topic] = {
     "health": HEALTH,
     "invalid": INVALID,
     "record_batch": RECORD_BATCH,
+    "record_batches": RECORD_BATCHES,
     "recorder_progress": RECORDER_PROGRESS,
     "recorder_control": RECORDER_CONTROL,
     "replay_control": REPLAY_CONTROL,
@@ -290,5 +302,5 @@ TOPICS: dict[str, Topic] = {
 
 
 def key_prefix(match: str) -> str:
-    """What stands before every key of a match."""
+    """The prefix of every key of a match."""
     return f"touchline/{match}/"

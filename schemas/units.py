@@ -1,4 +1,4 @@
-"""Numbers of messages with their unit, which the protocol and every complaint about such a number name."""
+"""Number types with a unit, which error messages name."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""The state of the world at one tick, as plain numbers in the field frame: what the referee and the sensors look at."""
+"""The state of the world at one tick, as plain numbers in the field frame: the input of the referee and the sensors."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,6 +14,9 @@ from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel, models_of
 from schemas.config.roster import RosterEntry
 from schemas.side import Side
+
+BALL = "ball"
+"""Name of the ball among bodies; no robot and no obstacle has it."""
 
 
 class RobotState(NamedTuple):
@@ -46,7 +49,7 @@ class RobotMotions(NamedTuple):
 
     @classmethod
     def of(cls, robots: Sequence[RobotState]) -> Self:
-        """Those of these robots."""
+        """The motions of these robots."""
         numbers = np.fromiter(chain.from_iterable(robots), float, _ROBOT_NUMBERS * len(robots))
         position, height_heading, velocity, omega_holding = numbers.view(complex).reshape(-1, _ROBOT_NUMBERS // 2).T
         return cls(position, height_heading.imag, velocity, omega_holding.real)
@@ -56,10 +59,10 @@ class RobotStates(tuple[RobotState, ...]):
     """All robots, in the order of the roster."""
 
     motions: RobotMotions
-    """The same as arrays, made once for all who work with them; never changed."""
+    """The same as arrays, made once and shared by all users, which must not change them."""
 
     def __new__(cls, robots: Iterable[RobotState]) -> Self:
-        """These robots."""
+        """The states of these robots."""
         self = super().__new__(cls, robots)
         self.motions = RobotMotions.of(self)
         return self
@@ -77,14 +80,14 @@ class BallState(NamedTuple):
 
 
 class ObstacleState(NamedTuple):
-    """A body that nothing moves: centre in m, heading in rad."""
+    """A fixed body: centre in m, heading in rad."""
 
     name: str
     x: float
     y: float
     heading: float
     radius: float
-    """m; of the circle around it on the ground, which for a cylinder is its own."""
+    """m; of the smallest circle around it on the ground; for a cylinder, its own radius."""
     height: float
     """m above the ground."""
     shape: Shape
@@ -95,14 +98,14 @@ class ObstacleState(NamedTuple):
 
     @classmethod
     def of(cls, obstacle: StaticObstacle) -> "ObstacleState":
-        """An obstacle as it stands."""
+        """The state of an obstacle."""
         (x, y), (size_x, size_y, height) = obstacle.place, obstacle.extents
         return cls(obstacle.name, x, y, obstacle.heading, obstacle.reach, height, obstacle.shape, size_x, size_y)
 
 
 @dataclass(frozen=True, slots=True)
 class Roster:
-    """Who takes part, in one fixed order that every array and tuple of robots follows."""
+    """The robots that take part, in one fixed order that every array and tuple of robots follows."""
 
     names: tuple[str, ...]
     sides: tuple[Side, ...]
@@ -116,7 +119,7 @@ class Roster:
         """The robots of a match: cyan's, then magenta's, each side's goalkeeper first.
 
         Raises:
-            TouchlineError: a robot has a type that nobody knows, or a type a wrong number.
+            TouchlineError: a robot has an unknown type, or a type has an invalid number.
         """
         members, models = [(name, side) for side in Side for name in config.robots(side)], models_of(config, profile)
         return cls(
@@ -128,7 +131,7 @@ class Roster:
 
     @classmethod
     def of_entries(cls, robots: Sequence[RosterEntry], types: Mapping[str, RobotModel]) -> "Roster":
-        """These robots, in this order, with the models of their types."""
+        """A roster of these robots, in this order, with the models of their types."""
         return cls(
             names=tuple(entry.name for entry in robots),
             sides=tuple(entry.side for entry in robots),
@@ -144,7 +147,7 @@ class Roster:
 
 @dataclass(frozen=True, slots=True)
 class Snapshot:
-    """Everything there is on the field at one tick; `robots` in the order of the roster."""
+    """The state of everything on the field at one tick; `robots` in the order of the roster."""
 
     tick: int
     time: float
@@ -154,16 +157,16 @@ class Snapshot:
     possession: str | None
     """The robot that holds the ball."""
     touches: tuple[str, ...]
-    """Robots that touched, held or kicked the ball since the tick before, in order of time, from contacts and kicks."""
+    """Robots that touched, held or kicked the ball since the tick before, each once, in order of their last touch."""
     kicked: str | None = None
     """The robot whose kick was carried out in this tick."""
     silent: tuple[str, ...] = ()
-    """Robots whose program is gone or does not answer, in the order of the roster."""
+    """Robots whose agent is gone or does not answer, in the order of the roster."""
     contacts: tuple[tuple[int, int], ...] = ()
-    """Pairs of robots that touch each other, by their places in the roster, the first one first and in its order."""
+    """Pairs of robots that touch each other, by their indices in the roster, sorted, the smaller index first."""
     ball_spin: tuple[float, float] = (0.0, 0.0)
-    """rad/s; the ball's rate of turning about the field's x and y. One that rolls turns at (−vy, vx) / radius."""
+    """rad/s; the ball's spin about the field's x and y. A rolling ball has the spin (−vy, vx) / radius."""
     obstacles: tuple[ObstacleState, ...] = ()
-    """Bodies that nothing moves, in the order in which they were put down."""
+    """Fixed bodies, in the order in which they were added."""
     kickers_ready: tuple[bool, ...] = ()
     """Per robot: its kicker is charged."""

@@ -20,6 +20,7 @@ DOCUMENTED = {"__struct_config__", "_asdict", "_exit", "_fields", "_make", "_rep
 SPECIAL = {name for thing in (type, ast, ast.walk, list[int], IOBase, Exception()) for name in dir(thing)} | {
     "__signature__",
     "__slots__",
+    "__metadata__",
     "__struct_fields__",
 }
 """Names with two underscores at both ends that Python or msgspec documents."""

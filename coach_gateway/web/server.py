@@ -1,4 +1,4 @@
-"""The page's server, one of the gateway's services: a web server, and what follows the match for it."""
+"""The page's server, one of the gateway's services: a web server, and the broadcaster that follows the match."""
 
 import asyncio
 from collections.abc import Callable
@@ -10,7 +10,7 @@ from coach_gateway.web.requests import RequestHandler
 from coach_gateway.web.site import site
 from coach_gateway.web.socket_endpoint import SocketEndpoint
 from coach_gateway.web.uvicorn_server import web_server
-from schemas.bus.contract import Bus
+from schemas.bus.contract import Bus, PresenceKind
 
 
 class WebServer:
@@ -19,7 +19,7 @@ class WebServer:
     def __init__(self, bus: Bus, binding: PageBinding, log: Callable[[str], None] = lambda _: None) -> None:
         self._bus, self._binding, self._log = bus, binding, log
         settings = binding.settings
-        self.pages = Pages(settings.pages, settings.pages_each)
+        self.pages = Pages(settings.pages, settings.pages_per_address)
         requests = RequestHandler(bus)
         self._broadcaster = PageBroadcaster(bus, self.pages, requests, settings.beliefs)
         self._endpoint = SocketEndpoint(
@@ -27,9 +27,9 @@ class WebServer:
         )
 
     async def serve(self, stop: asyncio.Event) -> None:
-        """Serve until `stop` is set, then say what was refused; pages are told to come again later."""
+        """Serve until `stop` is set, then log what was refused; pages reconnect by themselves later."""
         server = web_server(site(self._endpoint.enter), self._binding.settings.pages)
-        self._bus.declare_alive("coach", "page")
+        self._bus.declare_alive(PresenceKind.COACH, "page")
         serving = asyncio.create_task(server.serve([self._binding.listener]))
         following = asyncio.create_task(self._broadcaster.follow(stop))
         try:
@@ -39,6 +39,6 @@ class WebServer:
             server.should_exit = True
             await asyncio.gather(serving, following, return_exceptions=True)
         if faults := self.pages.fault_summary():
-            self._log(f"refused: {faults}")
+            self._log(f"refused or dropped: {faults}")
         following.result()
         serving.result()

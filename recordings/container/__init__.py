@@ -1,1 +1,1 @@
-"""The file: MCAP records, manifest, header, schemas, partial and numbered files. Knows no bus."""
+"""The file: MCAP records, manifest, attachments, schemas, partial and numbered files. Independent of the bus."""

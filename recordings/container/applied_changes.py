@@ -1,4 +1,4 @@
-"""What `host/applied` changes for good: read of every tick, so nothing else of the message is taken out of it."""
+"""The lasting changes in `host/applied`. They are read for every tick, so only their fields are decoded."""
 
 from typing import Any
 
@@ -6,7 +6,7 @@ import msgspec
 
 
 class Changes(msgspec.Struct, frozen=True, gc=False):
-    """As much of a `schemas.messages.host.Applied`; what there is stays in force in all later ticks."""
+    """The fields of `schemas.messages.host.Applied` that stay in force in all later ticks."""
 
     robots: list[Any] | None = None
     obstacles: list[Any] | None = None
@@ -22,7 +22,7 @@ _decode = msgspec.json.Decoder(Changes).decode
 
 
 def changes_in(payload: bytes) -> Changes:
-    """The changes of a tick; none in a payload that is no such message."""
+    """The changes of a tick; no changes if the payload is not a valid message."""
     try:
         return _decode(payload)
     except (ValueError, RecursionError):

@@ -1,4 +1,4 @@
-"""The chunks of an MCAP file: read with their checksum, and their records found one after the other, none decoded."""
+"""Reads chunks of an MCAP file with their checksums, and iterates over their records without decoding them."""
 
 import struct
 from collections.abc import Iterator
@@ -11,18 +11,18 @@ from mcap.records import Chunk
 from mcap.stream_reader import get_chunk_data_stream
 
 BROKEN = (McapError, ValueError, LookupError, OverflowError, MemoryError, struct.error, zstandard.ZstdError)
-"""What is raised on bytes that are cut off or damaged."""
+"""Exceptions that reading truncated or damaged bytes raises."""
 RECORD_HEADER = struct.Struct("<BQ")
-"""Opcode, and length of the content, of a record."""
+"""Header of a record: opcode, and length of the content."""
 MESSAGE = struct.Struct("<HIQQ")
-"""Channel, sequence, log time and publish time, in ns, at the beginning of a message's content; its payload follows."""
+"""Beginning of a message's content: channel, sequence, log time and publish time in ns. The payload follows."""
 
 
 def read_chunk(file: IO[bytes], at: int) -> bytes:
-    """The records in the chunk whose head is at this place of a file.
+    """Return the uncompressed records of the chunk whose header begins at offset `at` of a file.
 
     Raises:
-        BROKEN: it is damaged.
+        BROKEN: the chunk is damaged.
     """
     file.seek(at + RECORD_HEADER.size)
     stream, size = get_chunk_data_stream(Chunk.read(ReadDataStream(file)), validate_crc=True)
@@ -30,7 +30,7 @@ def read_chunk(file: IO[bytes], at: int) -> bytes:
 
 
 def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:
-    """Opcode of each record in a chunk, where its content begins, and where that ends.
+    """Yield opcode, begin of the content and end of the content of each record in a chunk.
 
     Raises:
         ValueError: the chunk ends within a record.

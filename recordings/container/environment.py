@@ -1,4 +1,4 @@
-"""What a recording says of the machine that made it: versions, and a fingerprint of its mathematics."""
+"""What a recording notes about the machine that made it: versions, and a fingerprint of its maths library."""
 
 import hashlib
 import math
@@ -14,12 +14,12 @@ _FUNCTIONS = (math.sin, math.cos, math.tan, math.exp, math.log, math.atan, math.
 
 
 def library() -> str:
-    """Who wrote the file, `touchline/0.1.0`."""
+    """Name and version of the program that writes the file: `touchline/0.1.0`."""
     return f"touchline/{version('touchline')}"
 
 
 def versions() -> dict[str, str]:
-    """What the recording was made with; a package that is not installed is left out."""
+    """Versions of Python, platform and packages; a package that is not installed is left out."""
     found = {"contract": VERSION, "python": platform.python_version()}
     for package in _PACKAGES:
         try:
@@ -32,7 +32,7 @@ def versions() -> dict[str, str]:
 def libm_fingerprint() -> str:
     """A hash over results of the machine's mathematical functions.
 
-    Two machines that differ here may simulate the same match differently in the last bits.
+    Machines with different fingerprints may simulate the same match differently in the last bits.
     """
     results = [function(argument) for function in _FUNCTIONS for argument in _ARGUMENTS]
     results += [math.atan2(argument, 1.7) + math.pow(argument, 1.3) for argument in _ARGUMENTS]

@@ -1,11 +1,11 @@
-"""What stands beside a channel of protobuf messages, so that a reader needs nothing but the file."""
+"""The schema of a channel of protobuf messages: with it a reader needs nothing but the file."""
 
 from google.protobuf.descriptor import Descriptor, FileDescriptor
 from google.protobuf.descriptor_pb2 import FileDescriptorProto, FileDescriptorSet
 
 
 def file_descriptor_set(message: Descriptor) -> bytes:
-    """The `FileDescriptorSet` of a message: its file behind all files that it imports."""
+    """The `FileDescriptorSet` of a message: its file, after all files that it imports."""
     files: dict[str, FileDescriptorProto] = {}
     _collect(message.file, files)
     return FileDescriptorSet(file=files.values()).SerializeToString()

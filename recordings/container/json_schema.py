@@ -1,8 +1,8 @@
-"""The JSON Schema of a message: whole for programs, flattened for the viewers that open recordings.
+"""The JSON Schema of a message: in full for programs, flattened for the viewers that open recordings.
 
-Lichtblick and its relatives read a small part of JSON Schema: every field has one plain `type`, every object has
-`properties`, an array holds scalars or objects. They drop a topic whose schema says more, so the schema beside a
-channel is written in their words; the whole one, with limits and defaults, is attached to the file.
+Foxglove and Lichtblick support a small subset of JSON Schema: every field has one plain `type`, every object has
+`properties`, an array holds scalars or objects. They drop a topic whose schema uses more, so the schema beside a
+channel keeps to this subset. The full schema, with limits and defaults, is attached to the file.
 """
 
 from functools import cache
@@ -11,20 +11,20 @@ from typing import Any
 from schemas.message import WireMessage
 
 _KEPT = ("title", "description", "enum", "contentEncoding")
-"""What a viewer may show of a field besides its type."""
+"""Keywords that a viewer may show for a field, besides its type."""
 
 
 @cache
 def whole_schema(model: type[WireMessage]) -> dict[str, Any]:
-    """The full JSON Schema of a message as it is written on the wire; not to be changed.
+    """The full JSON Schema of a message as it is sent on the bus. Callers must not modify it.
 
-    Making those of all messages takes as long as a dozen ticks, so a recorder does it before the first, and once.
+    Generating the schemas of all messages takes as long as a dozen ticks, so a recorder does it once, before the first.
     """
     return model.json_schema()
 
 
 def flat_schema(model: type[WireMessage]) -> dict[str, Any]:
-    """The schema without `$ref`, `$defs` and unions; a field that may be nothing has the type of what it else is."""
+    """The schema without `$ref`, `$defs` and unions; a field that may be None has the type of its other values."""
     schema = whole_schema(model)
     return _flat(schema, schema.get("$defs", {}))
 
@@ -41,7 +41,7 @@ def _flat(schema: dict[str, Any], definitions: dict[str, Any]) -> dict[str, Any]
 
 
 def _entries(schema: dict[str, Any], definitions: dict[str, Any]) -> dict[str, Any]:
-    """What stands below the free keys of a mapping, where all of it is of one type."""
+    """The `additionalProperties` of a mapping with free keys, if all its values have one type."""
     patterns = list(schema.get("patternProperties", {}).values())
     value = patterns[0] if patterns else schema.get("additionalProperties")
     if not isinstance(value, dict) or len(_choices(value, definitions)) > 1:
@@ -50,15 +50,15 @@ def _entries(schema: dict[str, Any], definitions: dict[str, Any]) -> dict[str, A
 
 
 def _one_type(schema: dict[str, Any], definitions: dict[str, Any]) -> dict[str, Any]:
-    """The schema itself, or the one that its reference or its union stands for."""
+    """The schema itself, or the one schema that its reference or union stands for."""
     choices = _choices(schema, definitions)
     if len({choice.get("type") for choice in choices}) != 1 or "type" not in choices[0]:
-        raise ValueError(f"no viewer reads a field of several types: {schema}; give it one type, or one and nothing")
+        raise ValueError(f"no viewer reads a field of several types: {schema}; give it one type, or one type and None")
     return {**choices[0], **{key: schema[key] for key in _KEPT if key in schema}}
 
 
 def _choices(schema: dict[str, Any], definitions: dict[str, Any]) -> list[dict[str, Any]]:
-    """Everything but nothing that a value may be."""
+    """The schemas of all values besides None."""
     if "$ref" in schema:
         return _choices(definitions[schema["$ref"].removeprefix("#/$defs/")], definitions)
     if "anyOf" in schema:

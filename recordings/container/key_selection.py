@@ -1,4 +1,4 @@
-"""Which keys are meant: key expressions as the bus has them, some to include and some to exclude."""
+"""A selection of keys: key expressions of the bus, some to include and some to exclude."""
 
 import re
 from dataclasses import dataclass
@@ -9,13 +9,13 @@ from schemas.errors import TouchlineError
 
 @dataclass(frozen=True, slots=True)
 class KeySelection:
-    """Keys below the match: one that `include` names, or any where it names none, and that `exclude` does not name.
+    """Keys of a match that match `include`, or all keys if it is empty, and that do not match `exclude`.
 
     `*` stands for one chunk, `**` for any number of chunks, `$*` for any part of a chunk: `robot/*/command`,
     `team/**`, `robot/cyan$*/sight`.
 
     Raises:
-        TouchlineError: an expression that is none.
+        TouchlineError: an expression is not a key expression.
     """
 
     include: tuple[str, ...] = ()
@@ -26,26 +26,26 @@ class KeySelection:
             key_pattern(expression)
 
     def __bool__(self) -> bool:
-        """Whether anything is left out."""
+        """Whether any key can be left out."""
         return bool(self.include or self.exclude)
 
     def includes(self, key: str) -> bool:
-        """Whether a key is meant."""
+        """Whether a key is selected."""
         if any(key_pattern(expression).fullmatch(key) for expression in self.exclude):
             return False
         return not self.include or any(key_pattern(expression).fullmatch(key) for expression in self.include)
 
 
 EVERYTHING = KeySelection()
-"""No key is left out."""
+"""Selects all keys."""
 
 
 @cache
 def key_pattern(expression: str) -> re.Pattern[str]:
-    """What a key expression matches.
+    """The keys that a key expression matches, as a regular expression.
 
     Raises:
-        TouchlineError: it is no key expression.
+        TouchlineError: `expression` is not a key expression.
     """
     parts: list[str] = []
     chunks = expression.split("/")
@@ -62,7 +62,7 @@ def key_pattern(expression: str) -> re.Pattern[str]:
         bare = chunk.replace("$*", "")
         if not chunk or (chunk != "*" and re.search(r"[*$#?\s]", bare)):
             raise TouchlineError(
-                f'"{expression}" is no key expression; * is one chunk, ** any number of them, $* a part of one: '
+                f'"{expression}" is not a key expression; * is one chunk, ** any number of chunks, $* a part of one: '
                 "robot/*/command, team/**"
             )
         parts.append(inner + ("/" if number < len(chunks) - 1 else ""))

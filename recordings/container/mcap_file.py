@@ -1,4 +1,4 @@
-"""An MCAP file from outside: what it holds by its index, or, where it was cut off, by reading it up to the cut."""
+"""Reads an MCAP file: by its index, or, if it is truncated, record by record up to the end."""
 
 import mmap
 import struct
@@ -20,18 +20,18 @@ from mcap.writer import MCAP0_MAGIC
 from recordings.container.chunks import BROKEN, MESSAGE, read_chunk, records_in
 from schemas.errors import TouchlineError
 
-DAMAGED = "damaged inside ({}); take another copy of it, or have `touchline recover` leave out what is damaged"
+DAMAGED = "damaged inside ({}); use another copy of it, or leave out the damaged parts with `touchline recover`"
 _END_NS = 1 << 64
-"""Later than any time of a message."""
+"""Later than the time of any message."""
 _FOOTER = struct.Struct("<BQQQI")
 """Opcode, length, start of the summary, start of its offsets, checksum of the summary."""
 DERIVED = "derived"
-"""What the metadata of a channel has whose messages are made of those of others, for viewers."""
+"""Key in the metadata of a channel whose messages are derived from other channels, for viewers."""
 
 
 @dataclass(slots=True)
 class ChannelRecord:
-    """One channel and its extent; times in ns of simulated time."""
+    """One channel with its number of messages and the times of its first and last one, in ns of simulated time."""
 
     key: str
     metadata: dict[str, str]
@@ -41,8 +41,13 @@ class ChannelRecord:
     first_ns: int = 0
     last_ns: int = 0
 
+    @property
+    def version(self) -> str:
+        """Version of the protocol that its messages were recorded with."""
+        return channel_version(self.metadata)
+
     def extend(self, log_ns: int) -> None:
-        """One more message."""
+        """Count a message."""
         self.first_ns = min(self.first_ns, log_ns) if self.messages else log_ns
         self.last_ns = max(self.last_ns, log_ns)
         self.messages += 1
@@ -50,11 +55,11 @@ class ChannelRecord:
 
 @dataclass(slots=True)
 class McapFile:
-    """What is in the file."""
+    """The content of a file, apart from its messages, which `messages` reads."""
 
     path: Path
     complete: bool = True
-    """The file was finished by its writer."""
+    """Whether the file was finished by its writer."""
     library: str = ""
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     attachments: dict[str, bytes] = field(default_factory=dict)
@@ -63,10 +68,10 @@ class McapFile:
     def messages(
         self, keys: set[str], start_ns: int | None = None, end_ns: int | None = None
     ) -> Iterator[tuple[str, Message]]:
-        """Key and message, in the order of the file, from `start_ns` up to and without `end_ns`.
+        """Yield key and message, in the order of the file, from `start_ns` up to but not including `end_ns`.
 
         Raises:
-            TouchlineError: a finished file is damaged inside.
+            TouchlineError: the file is finished, and damaged.
         """
         with self.path.open("rb") as file:
             if not self.complete:
@@ -78,12 +83,12 @@ class McapFile:
                 raise TouchlineError(f"{self.path}: {DAMAGED.format(error)}") from None
 
     def _indexed(self, file: IO[bytes], keys: set[str], start_ns: int, end_ns: int) -> Iterator[tuple[str, Message]]:
-        """From the chunks that the summary says can hold some; what is not asked for is passed over unread."""
+        """Read only the chunks that can hold such messages according to the summary."""
         summary = SeekingReader(file).get_summary()
         wanted = {number: channel.key for number, channel in self.channels.items() if channel.key in keys}
         for index in summary.chunk_indexes if summary is not None else ():
             is_in_time = index.message_start_time < end_ns and index.message_end_time >= start_ns
-            places = index.message_index_offsets  # a chunk that was repaired may have none: it has to be read
+            places = index.message_index_offsets  # a repaired chunk may have none and has to be read
             if not is_in_time or (places and wanted.keys().isdisjoint(places)):
                 continue
             data = read_chunk(file, index.chunk_start_offset)
@@ -97,7 +102,7 @@ class McapFile:
     def _streamed(
         self, file: IO[bytes], keys: set[str], start_ns: int | None, end_ns: int | None
     ) -> Iterator[tuple[str, Message]]:
-        known: dict[int, str] = {}  # a file that is still written has more channels than when it was looked into
+        known: dict[int, str] = {}  # a growing file has more channels than when it was opened
         for record in _records(file, self.path.stat().st_size):
             if isinstance(record, Channel):
                 known.setdefault(record.id, record.topic)
@@ -110,10 +115,10 @@ class McapFile:
 
 
 def open_mcap_file(path: Path) -> McapFile:
-    """Look into a file.
+    """Read everything but the messages of a file.
 
     Raises:
-        TouchlineError: it cannot be read, or is not MCAP.
+        TouchlineError: the file cannot be read, or is not MCAP.
     """
     try:
         with path.open("rb") as file:
@@ -125,7 +130,7 @@ def open_mcap_file(path: Path) -> McapFile:
 
 
 def _from_summary(path: Path, file: IO[bytes]) -> McapFile | None:
-    """What the summary at the end says; nothing when the file has none, because it was cut off."""
+    """Read a file by its summary; None if it has no valid summary, because it is truncated."""
     size = path.stat().st_size
     summary = summary_of(file, size) if summary_is_whole(file, size) else None
     if summary is None or summary.statistics is None:
@@ -150,12 +155,17 @@ def _from_summary(path: Path, file: IO[bytes]) -> McapFile | None:
 
 
 def is_derived(metadata: Mapping[str, str]) -> bool:
-    """Whether a channel of this metadata is there for viewers alone."""
+    """Whether a channel with this metadata exists only for viewers."""
     return DERIVED in metadata
 
 
+def channel_version(metadata: Mapping[str, str]) -> str:
+    """Version of the protocol that a channel of this metadata was recorded with; the first recorders wrote none."""
+    return metadata.get("version", "1.0")
+
+
 def summary_is_whole(file: IO[bytes] | mmap.mmap, size: int) -> bool:
-    """Whether there is a summary and it is as it was written, by its checksum; a writer may have left that out."""
+    """Whether there is a summary and its checksum is right. Writers may leave the checksum out."""
     end = size - len(MCAP0_MAGIC) - _FOOTER.size
     if end < len(MCAP0_MAGIC):
         return False
@@ -169,7 +179,7 @@ def summary_is_whole(file: IO[bytes] | mmap.mmap, size: int) -> bool:
 
 
 def summary_of(file: IO[bytes] | mmap.mmap, size: int) -> Summary | None:
-    """The summary, or nothing where it cannot be read."""
+    """The summary; None if it cannot be read."""
     file.seek(0)
     try:
         summary = SeekingReader(cast(IO[bytes], file), record_size_limit=size).get_summary()
@@ -179,17 +189,17 @@ def summary_of(file: IO[bytes] | mmap.mmap, size: int) -> Summary | None:
 
 
 def bytes_of(builder: RecordBuilder) -> bytes:
-    """The records that were built since this was last asked."""
+    """Return the records built since the last call."""
     return bytes(builder.end())  # type: ignore[no-untyped-call]
 
 
 def stream_of(content: bytes) -> ReadDataStream:
-    """Bytes to read a record from."""
+    """Return a stream to read a record from."""
     return ReadDataStream(BytesIO(content))
 
 
 def _extent(file: IO[bytes], summary: Summary, channel: int, read: dict[int, dict[int, list[int]]]) -> tuple[int, int]:
-    """Times of the first and the last message of a channel, from its first and last chunk; `read` are chunks so far."""
+    """Times of a channel's first and last message, from its first and last chunk; `read` caches chunks."""
     chunks = [
         index
         for index in summary.chunk_indexes
@@ -201,7 +211,7 @@ def _extent(file: IO[bytes], summary: Summary, channel: int, read: dict[int, dic
 
 
 def _times(file: IO[bytes], chunk: ChunkIndex, read: dict[int, dict[int, list[int]]]) -> dict[int, list[int]]:
-    """Channel → log times of its messages in a chunk, which is checked; the indexes beside it have no checksum."""
+    """Channel → log times of its messages in a chunk. Read from the chunk, as indexes have no checksum."""
     at = chunk.chunk_start_offset
     if at not in read:
         times: dict[int, list[int]] = {}
@@ -215,7 +225,7 @@ def _times(file: IO[bytes], chunk: ChunkIndex, read: dict[int, dict[int, list[in
 
 
 def _from_records(path: Path, file: IO[bytes]) -> McapFile:
-    """What can be read before the cut."""
+    """Read a truncated file up to its end."""
     mcap_file = McapFile(path, complete=False)
     schemas: dict[int, Schema] = {}
     file.seek(0)
@@ -239,7 +249,7 @@ def _from_records(path: Path, file: IO[bytes]) -> McapFile:
 
 
 def _records(file: IO[bytes], size: int) -> Iterator[McapRecord]:
-    """Every record up to the first that is not whole, or belongs to no channel."""
+    """Yield all records up to the first one that is incomplete, or a message without a channel."""
     channels = set()
     try:
         for record in StreamReader(file, validate_crcs=True, record_size_limit=size).records:

@@ -1,11 +1,11 @@
-"""How the MCAP files of this project are written: the stock writer, with the same settings everywhere."""
+"""The MCAP library's writer with the settings that all files of this project use."""
 
 from typing import IO
 
 from mcap.writer import CompressionType, Writer
 
 CHUNK_BYTES = 256 * 1024
-"""Uncompressed size of a chunk: as small as compresses well, and stays in the cache."""
+"""Uncompressed size of a chunk, in bytes: large enough to compress well, small enough for the cache."""
 
 
 def mcap_writer(file: IO[bytes]) -> Writer:

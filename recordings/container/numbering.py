@@ -7,12 +7,12 @@ from schemas.errors import TouchlineError
 
 
 def numbered(path: Path, number: int) -> Path:
-    """The file of this number beside a path: `final.mcap` → `final.0001.mcap`."""
+    """The numbered file beside a path: `final.mcap` → `final.0001.mcap`."""
     return path.with_name(f"{path.stem}.{number:04d}{path.suffix}")
 
 
 def files_at(path: Path) -> list[Path]:
-    """The finished files of a recording at this path: itself, or its numbered ones."""
+    """The finished files of the recording at this path: the file itself, or its numbered files."""
     return [path] if path.exists() else numbered_files(path)
 
 
@@ -25,13 +25,17 @@ def numbered_files(path: Path) -> list[Path]:
 
 
 def check_free(path: Path) -> None:
-    """Numbered files of another recording would be taken for this one's."""
+    """Make sure that no numbered files exist: those of another recording would be mistaken for this one's.
+
+    Raises:
+        TouchlineError: there are such files.
+    """
     others = numbered_files(path)
     if others:
-        raise TouchlineError(f"{others[0]}: is there already; give another name, or move the files away")
+        raise TouchlineError(f"{others[0]}: already exists; give another name, or move the files away")
 
 
 def drop_oldest(files: list[Path], keep: int | None) -> None:
-    """Delete the oldest of the files until so many are left."""
+    """Delete the oldest files until `keep` of them are left; with None, keep all."""
     while keep is not None and len(files) > keep:
         files.pop(0).unlink(missing_ok=True)

@@ -1,7 +1,7 @@
-"""The file that is written before it has its name: `final.mcap.part`. It has one writer at a time, who holds it.
+"""A file that is being written: `final.mcap.part`. A lock makes sure that it has one writer at a time.
 
-The hold is a lock of the operating system's on the open file: it ends with its process, however that ends, so what a
-killed recorder leaves is held by nobody.
+The lock is the operating system's, on the open file. It ends with its process, so that the file of a killed recorder is
+not locked.
 """
 
 import errno
@@ -15,11 +15,11 @@ from typing import BinaryIO
 from schemas.errors import TouchlineError
 
 _NO_LOCKS = (errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS)
-"""What a file system says that knows no locks; there two writers of one path are on their own."""
+"""Errors of file systems without locks. There nothing keeps two writers off one path."""
 
 
 class NotWritableError(TouchlineError):
-    """Nothing can be written there, for this `reason`."""
+    """A path cannot be written, for this `reason`."""
 
     def __init__(self, path: Path, reason: str, remedy: str = "give a path that can be written") -> None:
         super().__init__(f"{path}: {reason}; {remedy}")
@@ -27,17 +27,17 @@ class NotWritableError(TouchlineError):
 
 
 class PartialFile:
-    """A file of one's own that is being written."""
+    """A file that is being written, and locked."""
 
     def __init__(self, path: Path) -> None:
-        """`path` is the name that it will have. What is left of a writer that died becomes `*.part.old`.
+        """`path` is the name of the finished file. A file left by a killed writer is renamed to `*.part.old`.
 
         Raises:
-            NotWritableError: another writes it, and nothing of that was touched; or the disk refuses.
+            NotWritableError: another writer has locked the file, which is left unchanged; or it cannot be written.
         """
         self._path = path
         self.path = path.with_name(path.name + ".part")
-        """Its name until it is finished."""
+        """Name of the file until it is finished."""
         if path.is_dir():
             raise NotWritableError(path, "is a folder")
         try:
@@ -50,27 +50,27 @@ class PartialFile:
         self.file = file
 
     def finish(self) -> None:
-        """Give it its name, and let go of it. What was written has to be flushed.
+        """Rename the file to its final name and unlock it. The caller has to flush it before.
 
         Raises:
-            OSError: it cannot be renamed; it stays as it is, and held.
+            OSError: the file cannot be renamed; it remains as it is, and locked.
         """
-        self.path.replace(self._path)  # while it is held: nobody takes it for what a dead writer left
+        self.path.replace(self._path)  # while locked, so that no other writer sets it aside
         self.file.close()
 
     def close(self) -> None:
-        """Let go of it as it is; does nothing where that was done.
+        """Close and unlock the file as it is; has no effect on a closed file.
 
         Raises:
-            OSError: what was not yet flushed cannot be written.
+            OSError: buffered data cannot be written.
         """
         self.file.close()
 
     def discard(self) -> None:
-        """Leave no file; does nothing where it was let go of.
+        """Remove the file; has no effect on a closed file.
 
         Raises:
-            OSError: it cannot be removed.
+            OSError: the file cannot be removed.
         """
         if not self.file.closed:
             self.path.unlink(missing_ok=True)
@@ -79,11 +79,11 @@ class PartialFile:
 
 @contextmanager
 def locked(path: Path) -> Iterator[None]:
-    """Hold a file that is there, whatever it is called, so that nobody writes it meanwhile.
+    """Lock an existing file of any name against recorders.
 
     Raises:
-        TouchlineError: somebody writes it now.
-        OSError: it cannot be opened.
+        TouchlineError: a recorder is writing the file.
+        OSError: the file cannot be opened.
     """
     with path.open("rb") as file:
         if not _lock(file):
@@ -92,9 +92,9 @@ def locked(path: Path) -> Iterator[None]:
 
 
 def _acquire(part: Path) -> BinaryIO | None:
-    """The empty file of this name, held; nothing where another holds it."""
+    """Open and lock an empty file of this name; None if another process has locked it."""
     while True:
-        file = part.open("ab")  # cuts off nothing before it is known whose it is
+        file = part.open("ab")  # must not truncate a file that may be another writer's
         try:
             if not _lock(file):
                 file.close()
@@ -108,11 +108,11 @@ def _acquire(part: Path) -> BinaryIO | None:
         except BaseException:
             file.close()
             raise
-        file.close()  # it was set aside, or another has finished it just now: the name is free for a new one
+        file.close()  # it was set aside, or finished by another writer: the name is free
 
 
 def _is_at(path: Path, ours: os.stat_result) -> bool:
-    """Whether this file, and no other, has the name."""
+    """Whether the file at this path is the same as `ours`."""
     try:
         return os.path.samestat(ours, path.stat())
     except FileNotFoundError:
@@ -120,7 +120,7 @@ def _is_at(path: Path, ours: os.stat_result) -> bool:
 
 
 def _lock(file: BinaryIO) -> bool:
-    """Whether nobody else holds it."""
+    """Lock a file; returns whether that was possible."""
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -1,4 +1,4 @@
-"""The records of an MCAP file as they lie in it: found by their headers, checked by their checksums, none decoded."""
+"""The records of an MCAP file: located by their headers and checked by their checksums, but not decoded."""
 
 import mmap
 import struct
@@ -18,35 +18,35 @@ from recordings.container.chunks import BROKEN, MESSAGE, RECORD_HEADER, records_
 from recordings.container.mcap_file import bytes_of, stream_of
 
 PRIVATE = 0x80
-"""Readers pass over records whose opcode is this or higher."""
+"""Readers ignore records with this opcode or a higher one."""
 DAMAGED = 0x100
-"""Stands for an opcode that no record has: the header of this one is damaged."""
+"""Stands for the opcode of a record whose header is damaged; no record has it."""
 _CHUNK = struct.Struct("<QQQII")
-"""First and last log time, size and checksum of what is in it uncompressed, length of the compression's name."""
+"""First and last log time, size and checksum of the uncompressed content, length of the compression's name."""
 _INDEX = struct.Struct("<HI")
-"""Channel, bytes of its entries."""
+"""Channel, and size of its entries in bytes."""
 _LAST_OPCODE = max(Opcode)
 _IN_DATA = frozenset({Opcode.CHUNK, Opcode.MESSAGE_INDEX, Opcode.ATTACHMENT, Opcode.METADATA})
-"""What stands between header and end of the data section; all else is in chunks, or behind it."""
+"""Records between header and end of the data section; all others are in chunks, or after the data section."""
 _DATA_END_BYTES = 4
 
 
 class RawRecord(NamedTuple):
-    """One record."""
+    """One record by its offsets."""
 
     opcode: int
     at: int
-    """Where its header begins."""
+    """Offset of its header."""
     end: int
 
     @property
     def content(self) -> int:
-        """Where its content begins."""
+        """Offset of its content."""
         return self.at + RECORD_HEADER.size
 
 
 class ChunkHeader(NamedTuple):
-    """What stands before the packed content of a chunk."""
+    """The fields before the compressed content of a chunk."""
 
     first_ns: int
     last_ns: int
@@ -54,29 +54,30 @@ class ChunkHeader(NamedTuple):
     checksum: int
     compression: str
     packed: int
-    """Where the packed content begins."""
+    """Offset of the compressed content."""
 
 
 @dataclass(slots=True)
 class RawChunk:
-    """A chunk, and the indexes behind it."""
+    """A chunk and the indexes that follow it."""
 
     raw: RawRecord
     indexes: list[RawRecord] = field(default_factory=list)
     broken: bool = False
-    """The header of one of the indexes is damaged."""
+    """Whether the header of one of the indexes is damaged."""
 
     @property
     def end(self) -> int:
-        """Behind its last index."""
+        """Offset of the end of its last index."""
         return self.indexes[-1].end if self.indexes else self.raw.end
 
 
 def raw_records_of(content: mmap.mmap, known: list[int]) -> Iterator[RawRecord]:
-    """The records of the data section, up to its end or to the first that is not whole.
+    """Yield the records of the data section, up to its end or to the first incomplete record.
 
-    `known` are places where a record begins, in order: where the header of one is damaged, the next place is gone to,
-    and what lies between is one damaged record. So is one that has no business here: a bit of its opcode has changed.
+    `known` are offsets at which records begin, in order. After a record with a damaged header, reading continues at the
+    next of them, and the bytes between are one damaged record. A record that is not allowed in the data section counts
+    as damaged, too: a bit of its opcode has changed.
     """
     at, size = len(MCAP0_MAGIC), len(content)
     places = iter(known)
@@ -100,7 +101,7 @@ def raw_records_of(content: mmap.mmap, known: list[int]) -> Iterator[RawRecord]:
 
 
 def _is_allowed(opcode: int, at: int, end: int) -> bool:
-    """Whether a record of this opcode may stand here."""
+    """Whether a record with this opcode is allowed at this offset."""
     if opcode == Opcode.HEADER:
         return at == len(MCAP0_MAGIC)
     if opcode == Opcode.DATA_END:
@@ -109,9 +110,10 @@ def _is_allowed(opcode: int, at: int, end: int) -> bool:
 
 
 def raw_chunks_of(raw_records: list[RawRecord], known: list[int]) -> dict[int, RawChunk]:
-    """Chunks with the indexes behind them, by where they begin.
+    """Chunks with the indexes that follow them, by offset.
 
-    What is damaged there is an index, too, unless something else is `known` to begin there, or nothing is known.
+    A damaged record after a chunk counts as an index, unless another record is `known` to begin there or `known` is
+    empty.
     """
     places = frozenset(known)
     chunks: dict[int, RawChunk] = {}
@@ -130,7 +132,7 @@ def raw_chunks_of(raw_records: list[RawRecord], known: list[int]) -> dict[int, R
 
 
 def damaged_chunks(content: mmap.mmap, chunks: dict[int, RawChunk]) -> set[int]:
-    """Where those chunks begin whose checksum does not fit; looked for on all cores."""
+    """Offsets of the chunks with a wrong checksum, computed on all cores."""
     with ThreadPoolExecutor() as pool:
         whole = pool.map(lambda chunk: _is_whole(content, chunk.raw), chunks.values())
         return {at for at, fits in zip(chunks, whole, strict=True) if not fits}
@@ -147,7 +149,7 @@ def chunk_header(content: mmap.mmap, raw: RawRecord) -> ChunkHeader:
     """The header of a chunk.
 
     Raises:
-        ValueError: the lengths in it do not fit each other.
+        ValueError: the lengths in the header contradict each other.
     """
     first, last, size, checksum, name = _CHUNK.unpack_from(content, raw.content)
     at = raw.content + _CHUNK.size + name
@@ -157,15 +159,17 @@ def chunk_header(content: mmap.mmap, raw: RawRecord) -> ChunkHeader:
 
 
 def unpacked(content: mmap.mmap, raw: RawRecord) -> bytes:
-    """The records in a chunk.
+    """The uncompressed records of a chunk.
 
     Raises:
-        ValueError, zstandard.ZstdError: it is damaged, or packed in a way that is not read here.
+        ValueError, zstandard.ZstdError: the chunk is damaged, or its compression is not supported.
     """
     header = chunk_header(content, raw)
     packed = content[header.packed : raw.end]
     if header.compression == "zstd":
-        data = zstandard.ZstdDecompressor().decompress(packed)  # the packed bytes say how long it is, not the header
+        data = zstandard.ZstdDecompressor().decompress(
+            packed
+        )  # takes the length from the compressed bytes, not from the header
     elif header.compression == "":
         data = packed
     else:
@@ -176,19 +180,19 @@ def unpacked(content: mmap.mmap, raw: RawRecord) -> bytes:
 
 
 class ChunkContent(NamedTuple):
-    """What is in a chunk."""
+    """Schemas, channels and message indexes of a chunk."""
 
     schemas: dict[int, Schema]
     channels: dict[int, Channel]
     indexes: dict[int, MessageIndex]
-    """Channel → times and places of its messages, as the indexes behind a chunk have them."""
+    """Channel → times and offsets of its messages, as in the indexes that follow a chunk."""
 
 
 def content_of(data: bytes) -> ChunkContent:
-    """Schemas, channels and the places of all messages in the unpacked records of a chunk.
+    """Schemas, channels and the offsets of all messages in the uncompressed records of a chunk.
 
     Raises:
-        BROKEN: a record in it is damaged.
+        BROKEN: a record is damaged.
     """
     found = ChunkContent({}, {}, {})
     for opcode, begin, end in records_in(data):
@@ -206,7 +210,7 @@ def content_of(data: bytes) -> ChunkContent:
 
 
 def index_counts(content: mmap.mmap, chunk: RawChunk) -> dict[int, tuple[int, int]]:
-    """Channel → how many messages the indexes behind a chunk have of it, and where its index lies."""
+    """Channel → number of its messages and offset of its index, from the indexes that follow a chunk."""
     found = {}
     for raw in chunk.indexes:
         channel, length = _INDEX.unpack_from(content, raw.content)
@@ -215,7 +219,7 @@ def index_counts(content: mmap.mmap, chunk: RawChunk) -> dict[int, tuple[int, in
 
 
 def index_bytes(indexes: dict[int, MessageIndex], at: int) -> tuple[bytes, dict[int, int]]:
-    """The indexes of a chunk as they are written at this place, and channel → where its index lies."""
+    """The indexes of a chunk as bytes to be written at offset `at`, and channel → offset of its index."""
     builder, places = RecordBuilder(), {}
     for channel, index in indexes.items():
         places[channel] = at + builder.count

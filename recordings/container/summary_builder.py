@@ -1,4 +1,4 @@
-"""The end of an MCAP file, made from what was found in it: summary, where its groups begin, and footer."""
+"""Builds the end of an MCAP file from the records found in it: summary, summary offsets and footer."""
 
 import zlib
 from collections.abc import Iterable, Mapping
@@ -22,16 +22,16 @@ from mcap.records import (
 from mcap.writer import MCAP0_MAGIC
 
 from recordings.container.environment import library
-from recordings.container.manifest import sealed
 from recordings.container.mcap_file import bytes_of, is_derived
 from recordings.container.raw_records import ChunkHeader, RawRecord
+from recordings.container.sealed_metadata import sealed
 
 RECOVERED = "recovered"
-"""Name of the metadata record that a repair leaves."""
+"""Name of the metadata record that a repair adds."""
 
 
 class SummaryBuilder:
-    """Collects what a summary says."""
+    """Collects the content of a summary."""
 
     def __init__(self) -> None:
         self._schemas: dict[int, Schema] = {}
@@ -43,18 +43,23 @@ class SummaryBuilder:
 
     @property
     def empty(self) -> bool:
-        """Nothing is in the file that a reader could want."""
+        """Whether the file has neither chunks nor metadata nor attachments."""
         return not (self._chunks or self._metadata or self._attachments)
 
     @property
     def messages(self) -> int:
-        """Messages in the chunks so far, without those that are there for viewers alone."""
+        """Messages in the chunks so far, without those for viewers."""
         return message_count(self._channels, self._counts)
 
     def add_channels(self, schemas: dict[int, Schema], channels: dict[int, Channel]) -> None:
-        """What messages are of."""
+        """Add channels and their schemas.
+
+        A channel whose schema is lost is left out: readers that use the index fail on it. Schema 0 means that a channel
+        has none.
+        """
         self._schemas.update(schemas)
-        self._channels.update(channels)
+        known = {0, *self._schemas}
+        self._channels |= {number: channel for number, channel in channels.items() if channel.schema_id in known}
 
     def knows(self, channels: Iterable[int]) -> bool:
         """Whether all these channels are known."""
@@ -63,7 +68,7 @@ class SummaryBuilder:
     def add_chunk(
         self, header: ChunkHeader, raw: RawRecord, counted: dict[int, tuple[int, int]], index_length: int
     ) -> None:
-        """A chunk with its messages: channel → how many, and where their index lies, 0 where there is none."""
+        """Add a chunk; `counted`: channel → number of its messages and offset of its index, 0 if it has none."""
         for channel, (count, _) in counted.items():
             self._counts[channel] = self._counts.get(channel, 0) + count
         self._chunks.append(
@@ -81,7 +86,7 @@ class SummaryBuilder:
         )
 
     def add_attachment_or_metadata(self, record: Attachment | Metadata, raw: RawRecord) -> None:
-        """An attachment, or metadata."""
+        """Add an attachment or a metadata record."""
         length = raw.end - raw.at
         if isinstance(record, Metadata):
             self._metadata.append(MetadataIndex(raw.at, length, record.name))
@@ -99,9 +104,9 @@ class SummaryBuilder:
         )
 
     def tail(self, at: int, checksum: int, note: dict[str, str]) -> bytes:
-        """Everything from `at`, where the messages end, to the end of the file.
+        """Build everything from offset `at`, where the messages end, to the end of the file.
 
-        `checksum` is that of the file up to there; `note` says what the repair did.
+        `checksum` is the checksum of the file up to there; `note` describes what the repair did.
         """
         builder = RecordBuilder()
         Metadata(RECOVERED, sealed({**note, "library": library()})).write(builder)
@@ -147,12 +152,12 @@ class SummaryBuilder:
 
 
 def message_count(channels: Mapping[int, Channel], counts: Mapping[int, int]) -> int:
-    """Messages of all channels but those that are there for viewers alone."""
+    """Messages of all channels, without those for viewers."""
     return sum(count for number, count in counts.items() if not is_derived(channels[number].metadata))
 
 
 def _closed(builder: RecordBuilder, start: int, offset_start: int) -> bytes:
-    """The summary with its footer, whose checksum is over all before it."""
+    """The summary with its footer, whose checksum covers the summary and the footer before it."""
     summary = bytes_of(builder)
     Footer(start, offset_start, 0).write(builder)
     footer = bytes_of(builder)

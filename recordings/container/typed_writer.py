@@ -1,4 +1,4 @@
-"""Writes an MCAP file of other messages than the bus's own: its schemas and encodings are the caller's."""
+"""Writes an MCAP file with schemas and encodings chosen by the caller."""
 
 from pathlib import Path
 from types import TracebackType
@@ -8,7 +8,7 @@ from recordings.container.mcap_writer import mcap_writer
 
 
 class TypedWriter:
-    """One file; use it as a context. Whoever writes sees to it that `OSError` becomes a sentence."""
+    """One file, used as a context manager. Methods may raise `OSError`."""
 
     def __init__(self, path: Path, library: str) -> None:
         self._file = path.open("wb")
@@ -23,7 +23,7 @@ class TypedWriter:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Finish the file; after an error it is closed as it is."""
+        """Finish the file; after an error, close it as it is."""
         if kind is None:
             self._mcap.finish()  # type: ignore[no-untyped-call]
         self._file.close()
@@ -33,15 +33,15 @@ class TypedWriter:
         self._mcap.add_metadata(name, fields)
 
     def attach(self, name: str, content: bytes) -> None:
-        """Attach a text."""
+        """Attach a text file."""
         self._mcap.add_attachment(0, 0, name, "text/plain", content)
 
     def schema(self, name: str, full_name: str, encoding: str, content: bytes) -> None:
-        """Make a schema known, to be named by `channel`."""
+        """Register a schema for `channel`."""
         self._schemas[name] = self._mcap.register_schema(full_name, encoding, content)
 
     def channel(self, key: str, schema: str, encoding: str, metadata: dict[str, str]) -> None:
-        """Make a key known, to be named by `message`."""
+        """Register a key for `message`."""
         self._channels[key] = self._mcap.register_channel(key, encoding, self._schemas[schema], metadata)
 
     def message(self, key: str, payload: bytes, log_ns: int, sent_ns: int, sequence: int) -> None:

@@ -1,1 +1,1 @@
-"""Recordings made of recordings or of messages, and the repair of damaged ones."""
+"""Creates recordings from other recordings or from messages, and repairs damaged ones."""

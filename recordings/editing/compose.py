@@ -1,4 +1,4 @@
-"""Writes a recording of messages that came over no bus: from a log, or from a match in one process."""
+"""Writes a recording from messages that were not sent on a bus: from a log, or from a match in one process."""
 
 from collections.abc import Iterable
 from datetime import datetime
@@ -18,11 +18,11 @@ from schemas.topic import Topic
 from schemas.topics import EVENT, STATE
 
 _BATCH = 500
-"""Messages handed to the writer at a time."""
+"""Messages that are passed to the writer at a time."""
 
 
 class TimedMessage(NamedTuple):
-    """One message, and when it was said, in ns of simulated time."""
+    """One message and its simulated time in ns."""
 
     sim_ns: int
     topic: Topic
@@ -31,7 +31,7 @@ class TimedMessage(NamedTuple):
 
 
 def compose(path: Path, manifest: Manifest, attachments: dict[str, bytes], messages: Iterable[TimedMessage]) -> Result:
-    """Write the messages, in the order of their times, as a finished recording; they were sent as simulated time went.
+    """Write the messages, ordered by time, as a finished recording; times of sending follow from simulated time.
 
     Raises:
         TouchlineError: the file cannot be written.

@@ -1,4 +1,4 @@
-"""Writes a recording that is made of messages of others, each as it was."""
+"""Writes a recording from the unchanged messages of other recordings."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -6,21 +6,24 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+from recordings.container.attachments import MEDIA_TYPES
 from recordings.container.environment import library
-from recordings.container.header import MEDIA_TYPES
-from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
+from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
 from recordings.container.mcap_file import ChannelRecord
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.partial_file import PartialFile
+from recordings.container.sealed_metadata import digest, to_metadata
+from recordings.editing.message_copies import MessageCopy
 from recordings.recorder.sequence_tracker import SequenceTracker
 from recordings.viz.viz_channels import VizChannels
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
+from schemas.older_versions import converted
 from schemas.topics import TOPICS
 
 
 class CopyWriter:
-    """One file that is made of messages of others; leaves nothing when it is left before it is finished."""
+    """One file. Leaving the context before `finish` removes it."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -33,9 +36,9 @@ class CopyWriter:
         self._viz_channels: VizChannels | None = None
 
     def begin(self, manifest: Manifest, attachments: dict[str, bytes], latched: int, *, viz: bool) -> None:
-        """Write what stands before the first message; the first `latched` messages are such that stood then.
+        """Write manifest and attachments; the first `latched` messages repeat the state at the beginning of the copy.
 
-        With `viz`, what viewers draw is written, too.
+        With `viz`, the channels for viewers are written, too.
         """
         if viz and manifest.setup is not None:
             self._viz_channels = VizChannels(self._mcap, manifest.setup)
@@ -49,31 +52,22 @@ class CopyWriter:
                     0, 0, name, MEDIA_TYPES.get(Path(name).suffix, "application/octet-stream"), data
                 )
 
-    def add(
-        self,
-        channel: ChannelRecord,
-        log_ns: int,
-        payload: bytes,
-        sent_ns: int,
-        sequence: int,
-        *,
-        counted: bool = True,
-    ) -> None:
-        """Write a message as it was; one that is not `counted` is in the counts of another file."""
+    def add(self, copy: MessageCopy, *, counted: bool = True) -> None:
+        """Write a message; one that is not `counted` is in the counts of another file."""
+        channel, stamp = copy.channel, Stamp(copy.sequence, copy.sent_ns, copy.log_ns)
         with self._disk_errors_explained():
             number = self._channels.get(channel.key) or self._open_channel(channel)
-            self._mcap.add_message(number, log_ns, payload, sent_ns, sequence)
+            self._mcap.add_message(number, copy.log_ns, copy.payload, copy.sent_ns, copy.sequence)
             topic = TOPICS.get(channel.metadata.get("topic", ""))
             if self._viz_channels is not None and topic is not None:
-                received = ReceivedMessage(topic, channel.key, payload, Stamp(sequence, sent_ns, log_ns))
-                self._viz_channels.draw(received, log_ns)
+                current = converted(copy.payload, channel.version)
+                self._viz_channels.draw(ReceivedMessage(topic, channel.key, current, stamp), copy.log_ns)
         self._messages += 1
         if counted:
-            tracker = self._trackers.setdefault(channel.key, SequenceTracker())
-            tracker.add(Stamp(sequence, sent_ns, log_ns), len(payload))
+            self._trackers.setdefault(channel.key, SequenceTracker()).add(stamp, len(copy.payload))
 
     def finish(self, result: Result | None) -> int:
-        """Write the result with the counts of this file, give the file its name; returns how many messages it has."""
+        """Write the result with the counts of this file, and rename the file; returns its number of messages."""
         with self._disk_errors_explained():
             self._mcap.flush()  # type: ignore[no-untyped-call]
             if result is not None:
@@ -95,7 +89,7 @@ class CopyWriter:
 
     @contextmanager
     def _disk_errors_explained(self) -> Iterator[None]:
-        """What the disk refuses is said in one line."""
+        """Turn errors of the file system into one line with a remedy."""
         try:
             yield
         except OSError as error:

@@ -1,7 +1,7 @@
-"""Repairs a recording in place: it gets the index that it lacks, and loses what is damaged.
+"""Repairs a recording in place: adds a missing index, and leaves out damaged records.
 
-Whole chunks stay where they are, so that a hundred megabytes take less than a second. Nothing is made up: a chunk
-counts when its checksum does.
+Undamaged chunks are not moved, so that a repair of a hundred megabytes takes less than a second. No data is made up: a
+chunk is kept only if its checksum is right.
 """
 
 import mmap
@@ -15,7 +15,7 @@ from mcap.records import Attachment, Metadata
 from mcap.writer import MCAP0_MAGIC
 
 from recordings.container.chunks import BROKEN, RECORD_HEADER
-from recordings.container.manifest import MANIFEST, RESULT, is_sealed
+from recordings.container.manifest import MANIFEST, RESULT
 from recordings.container.mcap_file import stream_of, summary_is_whole, summary_of
 from recordings.container.mcap_writer import CHUNK_BYTES
 from recordings.container.partial_file import locked
@@ -33,33 +33,34 @@ from recordings.container.raw_records import (
     raw_records_of,
     unpacked,
 )
+from recordings.container.sealed_metadata import is_sealed
 from recordings.container.summary_builder import SummaryBuilder, message_count
 from schemas.errors import TouchlineError
 
 
 @dataclass(frozen=True, slots=True)
 class RecoverySummary:
-    """What a repair did."""
+    """The result of a repair."""
 
     path: Path
-    """The file, by the name it has now."""
+    """Current name of the file."""
     repaired: bool
-    """False where nothing was to be done."""
+    """False if the file was undamaged."""
     messages: int
-    """In the file now, without those that are there for viewers alone."""
+    """Messages in the repaired file, without those for viewers."""
     cut: int
-    """Bytes at its end that were no whole record."""
+    """Bytes cut off at the end."""
     rest: Path | None
-    """Where they were put, where they may be more than the chunk that was being written."""
+    """File with these bytes, if they are more than an unfinished chunk."""
     damaged: int
-    """Records that were left out because their checksum did not fit."""
+    """Damaged records that were left out."""
 
 
 def recover(path: Path) -> RecoverySummary:
-    """Repair a file in place; a `*.mcap.part` gets the name of a finished one, where no other has it.
+    """Repair a file in place. A `*.mcap.part` is renamed to `*.mcap`, unless that file exists.
 
     Raises:
-        TouchlineError: it cannot be read or written, is being written, is not MCAP, or holds nothing that is whole.
+        TouchlineError: the file cannot be read or written, is being recorded, is not MCAP, or has no intact record.
     """
     try:
         with locked(path):
@@ -81,7 +82,7 @@ def recover(path: Path) -> RecoverySummary:
 
 @dataclass(slots=True)
 class _Plan:
-    """What has to be written where; the file ends behind the tail."""
+    """Bytes to write, by offset; the file ends with the tail."""
 
     patches: list[tuple[int, bytes]]
     end: int
@@ -91,21 +92,23 @@ class _Plan:
 
 @dataclass(slots=True)
 class _Findings:
-    """What is in the file."""
+    """What an examination of the file has found."""
 
     was_intact: bool
     end: int = 0
-    """Of what stays."""
+    """Offset at which the part that is kept ends."""
     messages: int = 0
     cut: int = 0
+    cut_chunks: bool = False
+    """Whether intact chunks are cut off, because their channels or schemas are lost."""
     damaged: int = 0
     indexes: bytes = b""
-    """Of the last chunk, to be written anew."""
+    """Rewritten indexes of the last chunk."""
     patches: list[tuple[int, bytes]] = field(default_factory=list)
 
 
 def _examine(path: Path) -> tuple[_Findings, _Plan | None]:
-    """What is in a file, and what has to be written so that it is whole; nothing where it is."""
+    """Examine a file and plan its repair; the plan is None if the file is intact."""
     with path.open("r+b") as file:
         if file.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
             raise TouchlineError(f"{path}: not a recording; give an *.mcap or *.mcap.part file")
@@ -128,21 +131,21 @@ def _execute(path: Path, plan: _Plan) -> None:
 
 
 def _finished_name(path: Path) -> Path:
-    """The file, by the name of a finished one where that is free."""
+    """Rename a `*.part` to its final name if that is free; returns the name of the file."""
     if path.suffix != ".part" or path.with_suffix("").exists():
         return path
     return path.rename(path.with_suffix(""))
 
 
 class _Repair:
-    """Looks through one file, and plans what is to be written."""
+    """Examines one file and plans its repair."""
 
     def __init__(self, path: Path, content: mmap.mmap) -> None:
         self._path, self._content, self._size = path, content, len(content)
         self._summary = SummaryBuilder()
 
     def examine(self) -> _Findings:
-        """Find out what is whole."""
+        """Find the intact and the damaged records."""
         summary = summary_of(self._content, self._size) if summary_is_whole(self._content, self._size) else None
         known: list[int] = []
         if summary is not None:
@@ -165,11 +168,11 @@ class _Repair:
         return found
 
     def plan(self, found: _Findings) -> _Plan:
-        """What to write so that the file is whole again."""
+        """The bytes to write so that the file is valid."""
         if self._summary.empty:
-            raise TouchlineError(f"{self._path}: cut off before its first whole record; nothing in it can be recovered")
+            raise TouchlineError(f"{self._path}: truncated within its first record; nothing in it can be recovered")
         rest = None
-        if found.cut > CHUNK_BYTES:
+        if found.cut > CHUNK_BYTES or found.cut_chunks:
             rest = self._path.with_name(self._path.name + ".rest"), self._content[self._size - found.cut :]
         note = {"cut_bytes": str(found.cut), "damaged_records": str(found.damaged)}
         checksum = self._checksum(found)
@@ -177,7 +180,7 @@ class _Repair:
         return _Plan(found.patches, found.end, tail, rest)
 
     def _is_intact(self, raw_records: list[RawRecord]) -> bool:
-        """Whether the data section has the checksum that its end says; one that says none is looked through."""
+        """Whether the checksum at the end of the data section is right; False if there is none."""
         if not raw_records or raw_records[-1].opcode != Opcode.DATA_END:
             return False
         (expected,) = struct.unpack_from("<I", self._content, raw_records[-1].content)
@@ -187,7 +190,7 @@ class _Repair:
     def _examine_records(
         self, raw_records: list[RawRecord], known: list[int], found: _Findings, *, finished: bool
     ) -> None:
-        """Take in what is whole, chunk by chunk, and note what has to be written over what is not."""
+        """Keep the intact records, and note what has to be written over the damaged ones."""
         if finished:
             found.end = raw_records.pop().at
         else:
@@ -203,27 +206,30 @@ class _Repair:
                 try:
                     if raw.at not in damaged:
                         is_known = self._keep_chunk(chunk, found, trusted=not finished, is_last=raw.at == last)
-                except BROKEN:  # a chunk without a checksum
+                except BROKEN:  # a damaged chunk without a checksum
                     damaged.add(raw.at)
                 if raw.at in damaged:
                     self._leave_out(found, raw, *chunk.indexes)
                 elif not is_known:
-                    found.cut, found.end = self._size - raw.at, raw.at
+                    found.cut, found.end, found.cut_chunks = self._size - raw.at, raw.at, True
                     return
             elif raw.opcode in (Opcode.ATTACHMENT, Opcode.METADATA):
                 self._keep_attachment_or_metadata(raw, found)
             elif raw.opcode == DAMAGED and raw.at not in in_chunks:
                 self._leave_out(found, raw)
         if last is not None and last not in damaged:
-            found.end = chunks[last].raw.end  # its indexes are written anew, as one of them may be missing
+            found.end = chunks[last].raw.end  # its indexes are rewritten, as one of them may be missing
 
     def _leave_out(self, found: _Findings, *raw_records: RawRecord) -> None:
-        """Have readers pass over records."""
+        """Make readers ignore records."""
         found.damaged += 1
         found.patches += [(raw.at, RECORD_HEADER.pack(PRIVATE, raw.end - raw.content)) for raw in raw_records]
 
     def _keep_chunk(self, chunk: RawChunk, found: _Findings, *, trusted: bool, is_last: bool) -> bool:
-        """Whether the channels of all its messages are known; where its indexes are not `trusted` it is read."""
+        """Keep a chunk if the channels and schemas of all its messages are known; returns whether they are.
+
+        If its indexes are not `trusted`, they are compared with its content.
+        """
         counted = index_counts(self._content, chunk)
         if trusted and not is_last and not chunk.broken and self._summary.knows(counted):
             self._add(chunk.raw, counted, chunk.end - chunk.raw.end)
@@ -236,7 +242,7 @@ class _Repair:
         if is_last:
             found.indexes = written
         elif len(written) != chunk.end - chunk.raw.end:
-            written, places = b"", {}  # no room for them: readers find what they look for by reading the chunk
+            written, places = b"", {}  # no room for them: readers have to read the chunk
             found.patches += [
                 (index.at, RECORD_HEADER.pack(PRIVATE, index.end - index.content)) for index in chunk.indexes
             ]
@@ -250,7 +256,7 @@ class _Repair:
         self._summary.add_chunk(chunk_header(self._content, raw), raw, counted, index_length)
 
     def _keep_attachment_or_metadata(self, raw: RawRecord, found: _Findings) -> None:
-        """Take in an attachment or metadata; a result that counts messages which are gone is left out."""
+        """Keep an attachment or metadata, but not a result if messages that it counts were left out."""
         record: Attachment | Metadata
         try:
             body = self._content[raw.content : raw.end]
@@ -272,7 +278,7 @@ class _Repair:
             self._summary.add_attachment_or_metadata(record, raw)
 
     def _checksum(self, found: _Findings) -> int:
-        """Of the data section as it will be, up to what is written anew."""
+        """Checksum of the repaired data section, including the rewritten indexes."""
         checksum, at = 0, 0
         with memoryview(self._content) as view:
             for place, patch in sorted(found.patches):

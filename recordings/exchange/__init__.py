@@ -1,1 +1,1 @@
-"""A match in other people's formats: recordings exported, foreign logs imported; one file or folder for each format."""
+"""Exports recordings to other formats and imports logs; one module or package for each format."""

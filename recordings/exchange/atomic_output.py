@@ -1,4 +1,4 @@
-"""Where an export goes: it appears under its name when it is whole, and not at all when it fails."""
+"""Output of an export: it appears under its name when it is complete, and not at all if the export fails."""
 
 import shutil
 from collections.abc import Iterator
@@ -11,27 +11,27 @@ from schemas.errors import TouchlineError
 
 @dataclass(frozen=True, slots=True)
 class ExportSummary:
-    """What an export has written."""
+    """The result of an export."""
 
     out: Path
     written: dict[str, int]
-    """Rows or messages, by file or topic."""
+    """File or topic → rows or messages."""
     unreadable: dict[str, int] = field(default_factory=dict)
-    """Payloads of the recording that are no valid message, by key; they were passed over."""
+    """Key → payloads of the recording that were skipped because they are not valid messages."""
 
 
 @contextmanager
 def atomic_output(out: Path) -> Iterator[Path]:
-    """A path to write to, of the same name as `out`; what was written there is moved to `out` at the end.
+    """Return a temporary path with the name of `out`; what is written there is moved to `out` at the end.
 
     Raises:
-        TouchlineError: `out` is there already, or cannot be written.
+        TouchlineError: `out` already exists, or cannot be written.
     """
     if out.exists():
-        raise TouchlineError(f"--out {out}: is there already; remove it, or give another name")
+        raise TouchlineError(f"--out {out}: already exists; remove it, or give another name")
     part = out.with_name(out.name + ".part")
     try:
-        shutil.rmtree(part, ignore_errors=True)  # of an export that was killed
+        shutil.rmtree(part, ignore_errors=True)  # left by an export that was killed
         part.mkdir(parents=True)
         yield part / out.name
         (part / out.name).replace(out)

@@ -1,7 +1,7 @@
-"""Recording → CSV: a folder with one tidy file for each kind of thing, one row for each observation.
+"""Recording → CSV: a folder with one file for each kind of data, one row for each observation.
 
-Units stand in the header, `x [m]`; everything is in the field frame, times are simulated. Numbers are written with
-every digit they have, what is unknown is empty.
+Units are in the header, `x [m]`. Positions are in the field frame, times are simulated time. Numbers are written with
+all their digits; unknown values are empty.
 """
 
 import csv
@@ -25,7 +25,7 @@ Sides = dict[str, Side]
 
 
 class Table(NamedTuple):
-    """One file: where its rows come from, what they are called, how a message becomes rows."""
+    """One file: the key of its messages, its header, and the function that turns a message into rows."""
 
     key: str
     header: tuple[str, ...]
@@ -33,10 +33,10 @@ class Table(NamedTuple):
 
 
 def export(recording: Recording, out: Path) -> ExportSummary:
-    """Write every file of `TABLES` into a folder.
+    """Write all files of `TABLES` into a folder.
 
     Raises:
-        TouchlineError: the folder is there already or cannot be written, or the recording is damaged inside.
+        TouchlineError: the folder already exists or cannot be written, or the recording is damaged inside.
     """
     sides = sides_of(recording)
     written = dict.fromkeys(TABLES, 0)
@@ -76,7 +76,7 @@ def _ball(_: RecordedMessage, world: World, __: Sides) -> Iterable[Row]:
 def _events(_: RecordedMessage, event: GameEvent, __: Sides) -> Iterable[Row]:
     place = (event.place.x, event.place.y) if event.place is not None else (None, None)
     score = (event.score.cyan, event.score.magenta) if event.score is not None else (None, None)
-    who = (event.side, event.robot, " ".join(event.robots))
+    involved = (event.side, event.robot, " ".join(event.robots))
     measured = (event.measured, event.limit, event.unit)
     yield (
         event.tick,
@@ -84,7 +84,7 @@ def _events(_: RecordedMessage, event: GameEvent, __: Sides) -> Iterable[Row]:
         event.clock,
         event.kind,
         event.rule,
-        *who,
+        *involved,
         *place,
         *score,
         *measured,
@@ -150,4 +150,4 @@ TABLES: dict[str, Table] = {
         _commands,
     ),
 }
-"""File → what is in it. A command's velocities are those it asks for, in the robot's body frame."""
+"""File → its table. Velocities of a command are in the robot's body frame."""

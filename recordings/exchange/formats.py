@@ -1,4 +1,4 @@
-"""The tables of exporters and importers: a new format is a file and a row."""
+"""The tables of exporters and importers: a new format is a module and a row."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -13,11 +13,11 @@ from recordings.reading.recording import Recording
 
 
 class Exporter(NamedTuple):
-    """One format that a recording can be written in."""
+    """One format that recordings can be exported to."""
 
     export: Callable[[Recording, Path], ExportSummary]
     suffix: str
-    """In place of `.mcap` in the name of what is written."""
+    """Replaces `.mcap` in the default name of the output."""
     description: str
 
 
@@ -30,4 +30,4 @@ EXPORTERS: dict[str, Exporter] = {
 """Format → its exporter."""
 
 IMPORTERS: dict[str, Callable[[list[Path], Path, str, str | None], ImportSummary]] = {"msl-log": import_log}
-"""Format → its importer: files of the log, the recording to write, the profile of the pitch, what team A is called."""
+"""Format → its importer, called with files of the log, the recording to write, profile of the pitch, name of team A."""

@@ -1,8 +1,8 @@
 """Recording → ROS 2 bag: MCAP with CDR messages and QoS metadata, to be played with `ros2 bag play`.
 
-A folder as rosbag2 has it: the bag and its `metadata.yaml`. Frames are those of REP 103 and 105: `map` is the field
-frame, `<robot>/base_link` the body frame. Bag time and stamps are simulated time, which `/clock` tells. Needs rosbags,
-which is imported only here, and only when something is exported.
+The output is a rosbag2 folder: the bag and its `metadata.yaml`. Frames follow REP 103 and REP 105: `map` is the field
+frame, `<robot>/base_link` the body frame. Bag time and stamps are simulated time, which is published on `/clock`. The
+export requires rosbags, which is imported only here, and only for an export.
 """
 
 import math
@@ -23,11 +23,11 @@ from schemas.topics import COMMAND, WORLD
 MAP = "map"
 BALL = "ball"
 _EXACT = np.zeros(36)
-"""Covariance of what is known exactly."""
+"""Covariance of exactly known values."""
 
 
 class TopicType(NamedTuple):
-    """How one kind of topic travels."""
+    """Message type and quality of service of a topic."""
 
     message: str
     reliable: bool
@@ -38,21 +38,23 @@ CLOCK = TopicType("rosgraph_msgs/msg/Clock", False, 1)
 TF = TopicType("tf2_msgs/msg/TFMessage", True, 100)
 ODOMETRY = TopicType("nav_msgs/msg/Odometry", True, 10)
 TWIST = TopicType("geometry_msgs/msg/Twist", True, 10)
-"""As the nodes that usually write these topics offer them: clock best effort and newest only, the rest reliable."""
+"""As offered by the usual publishers of these topics: the clock best effort with depth 1, the others reliable."""
 
 
 def export(recording: Recording, out: Path) -> ExportSummary:
     """Write `/clock`, `/tf`, `/<robot>/odom` and `/<robot>/cmd_vel` of every robot, and `/ball/odom`.
 
-    `cmd_vel` is what the robot's program asked for, in its body frame, whatever became of it.
+    `cmd_vel` is the velocity that the robot's program commanded, in its body frame.
 
     Raises:
-        TouchlineError: rosbags is missing, `out` is there already or cannot be written, or the recording is damaged.
+        TouchlineError: rosbags is missing, `out` already exists or cannot be written, or the recording is damaged.
     """
     try:
         from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
     except ModuleNotFoundError:
-        raise TouchlineError("--to ros2 needs rosbags, which is not installed; pip install 'touchline[ros2]'") from None
+        raise TouchlineError(
+            "--to ros2 requires rosbags, which is not installed; pip install 'touchline[ros2]'"
+        ) from None
 
     with atomic_output(out) as folder:
         writer = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)
@@ -68,7 +70,7 @@ def export(recording: Recording, out: Path) -> ExportSummary:
 
 
 class _Bag:
-    """The bag that is being written."""
+    """Writes the messages of a recording to a bag."""
 
     def __init__(self, writer: Any) -> None:
         from rosbags.typesys import Stores, get_typestore
@@ -80,7 +82,7 @@ class _Bag:
         """Topic → messages."""
 
     def world(self, log_ns: int, world: World) -> None:
-        """Clock, transforms and odometry of one tick."""
+        """Write clock, transforms and odometry of one tick."""
         stamp = self._make("builtin_interfaces/msg/Time", *divmod(log_ns, 1_000_000_000))
         self._write("/clock", CLOCK, log_ns, self._make(CLOCK.message, stamp))
         transforms = list(self._transforms(stamp, world))
@@ -90,7 +92,7 @@ class _Bag:
         self._write(f"/{BALL}/odom", ODOMETRY, log_ns, self._ball(stamp, world.ball))
 
     def command(self, log_ns: int, robot: str, command: Command) -> None:
-        """What a robot asked for."""
+        """Write the velocities of a command."""
         drive = command.drive
         self._write(f"/{robot}/cmd_vel", TWIST, log_ns, self._twist(drive.vx, drive.vy, 0.0, drive.omega))
 
@@ -107,7 +109,7 @@ class _Bag:
         return self._make("geometry_msgs/msg/TransformStamped", self._header(stamp), child, transform)
 
     def _odometry(self, stamp: Any, name: str, robot: RobotTruth) -> Any:
-        """Pose in `map`, twist in the body frame, as the message's definition asks."""
+        """Pose in `map`, twist in the body frame, as the definition of the message requires."""
         vx, vy = to_body(robot.vx, robot.vy, robot.heading)
         pose = self._make(
             "geometry_msgs/msg/Pose", self._point(robot.x, robot.y, robot.z), self._quaternion(robot.heading)
@@ -161,7 +163,7 @@ def _base(robot: str) -> str:
 
 
 def _qos(topic_type: TopicType) -> Any:
-    """Quality of service, as rosbag2 keeps it beside a topic; without deadlines and leases."""
+    """Quality of service as stored by rosbag2 for a topic, without deadlines and leases."""
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
     never = QosTime(2147483647, 4294967295)

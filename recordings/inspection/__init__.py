@@ -1,1 +1,1 @@
-"""What is in a recording, and where two of them differ."""
+"""Facts of a recording, and the first difference of two recordings."""

@@ -1,4 +1,4 @@
-"""Where two recordings differ first: key by key, message by message, down to the fields."""
+"""Finds the first difference of two recordings: by key, message and field."""
 
 import math
 from collections import Counter, deque
@@ -14,15 +14,15 @@ from recordings.reading.recording import RecordedMessage, Recording
 from schemas.topics import COMMAND, HEALTH, INVALID
 
 WALL_TIME_TOPICS = (HEALTH, INVALID)
-"""Rows whose messages depend on how fast the machine was; left out unless asked for."""
+"""Topics whose messages depend on the speed of the machine; left out by default."""
 _MAX_FIELDS = 12
-"""So many fields of a difference are told."""
+"""Maximum number of fields in a difference."""
 _BEYOND_NS = 1_000_000_000
-"""Simulated time that is read on after a difference: messages of one tick stand apart in the file by less."""
+"""Simulated time, in ns, that is read after a difference; messages of one tick are closer together in a file."""
 
 
 class FieldDifference(NamedTuple):
-    """One field: its path, and what it is in both; missing is `…`."""
+    """One field: its path, and its value in both recordings; `…` if it is missing."""
 
     path: str
     first: Any
@@ -30,7 +30,7 @@ class FieldDifference(NamedTuple):
 
     @property
     def by(self) -> float | None:
-        """By how much numbers differ."""
+        """The absolute difference of two numbers; None for other values."""
         if any(isinstance(value, bool) or not isinstance(value, int | float) for value in (self.first, self.second)):
             return None
         return float(abs(self.second - self.first))
@@ -41,21 +41,21 @@ class Difference(NamedTuple):
 
     key: str
     number: int
-    """Of the message on its key, from 0."""
+    """Number of the message on its key, from 0."""
     time: float
-    """Simulated s."""
+    """Simulated time in s."""
     fields: list[FieldDifference]
-    """Which fields; none where a message is missing in one of the two."""
+    """The fields that differ; empty if the message is missing in one recording."""
     missing_in: str = ""
-    """`first` or `second`, where one of the two has no such message."""
+    """`first` or `second`, if that recording does not have the message."""
 
 
 @dataclass(slots=True)
 class Comparison:
-    """What came of comparing two recordings."""
+    """The result of a comparison of two recordings."""
 
     messages: int = 0
-    """Found equal in both."""
+    """Messages that are equal in both."""
     keys: int = 0
     left_out: list[str] = field(default_factory=list)
     """Keys that were not compared."""
@@ -63,17 +63,18 @@ class Comparison:
 
     @property
     def identical(self) -> bool:
-        """No message differs."""
+        """Whether no message differs."""
         return self.first is None
 
 
 def compare(
     one: Recording, other: Recording, selection: KeySelection = EVERYTHING, *, everything: bool = False
 ) -> Comparison:
-    """Compare two recordings, key by key in the order of each key.
+    """Compare two recordings, key by key, in the order of the messages on each key.
 
-    What depends on wall time is left out, unless `everything` is compared: how the host is doing, and answers that a
-    robot gave twice because its sight came twice. Log times are compared, times of sending are not.
+    Unless `everything` is compared, messages that depend on wall time are left out: the health of the host, its log of
+    invalid messages, and commands repeated because a sight arrived twice. Log times are compared, times of sending are
+    not.
 
     Raises:
         TouchlineError: a file is damaged inside.
@@ -112,11 +113,11 @@ def compare(
 
 
 _MAX_WAITING = 200_000
-"""Messages of both that found no partner: the recordings have nothing to do with each other."""
+"""Messages without a partner, in each recording, after which the recordings count as unrelated."""
 
 
 class _EarliestDifference:
-    """The earliest difference so far; a key that has one is compared no further."""
+    """The earliest difference so far. Each key is compared up to its first difference."""
 
     def __init__(self) -> None:
         self.first: Difference | None = None
@@ -124,11 +125,11 @@ class _EarliestDifference:
         self._differing_keys: set[str] = set()
 
     def is_settled(self, log_ns: int) -> bool:
-        """Whether nothing that is read from here on can be earlier."""
+        """Whether no message from this time on can be an earlier difference."""
         return self.first is not None and log_ns > round(self.first.time * 1e9) + _BEYOND_NS
 
     def compare(self, one: RecordedMessage, other: RecordedMessage) -> bool:
-        """Whether both are equal, or their key has differed before."""
+        """Compare two messages; returns whether they are equal and no earlier message on their key differs."""
         key = one.key
         number = self._numbers[key]
         self._numbers[key] += 1
@@ -143,7 +144,7 @@ class _EarliestDifference:
         return False
 
     def add_missing(self, recorded: RecordedMessage, missing_in: str) -> None:
-        """A message that only one of the two has."""
+        """Note a message that only one of the recordings has."""
         if recorded.key not in self._differing_keys:
             self._note(Difference(recorded.key, self._numbers[recorded.key], recorded.time, [], missing_in))
 
@@ -158,7 +159,7 @@ def _is_of_wall_time(key: str) -> bool:
 
 
 def _messages(recording: Recording, keys: set[str], everything: bool) -> Iterator[RecordedMessage]:
-    """The messages of these keys, without those that stand at the beginning, and without answers given twice."""
+    """Yield the messages on these keys, without the latched ones at the beginning and repeated commands."""
     last: dict[str, bytes] = {}
     for number, recorded in enumerate(recording.messages()):
         if recorded.key not in keys or number < recording.manifest.standing:
@@ -181,7 +182,7 @@ _MISSING = "…"
 
 
 def _fields(path: str, one: Any, other: Any) -> Iterator[FieldDifference]:
-    """The fields that differ, in the order of the first."""
+    """Yield the fields that differ, in the order of the first value."""
     if isinstance(one, dict) and isinstance(other, dict):
         for name in {**one, **other}:
             below = f"{path}.{name}" if path else str(name)

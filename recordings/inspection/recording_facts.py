@@ -1,4 +1,4 @@
-"""The facts of a recording: what was played, how it ended, what was recorded and what was lost."""
+"""Facts of a recording: the match, how it ended, the recorded messages and the losses."""
 
 import dataclasses
 from collections.abc import Iterator
@@ -13,12 +13,12 @@ from schemas.game import Phase, Score
 from schemas.topics import EVENT
 
 CUT_OFF = "cut_off"
-"""How a recording ended whose recorder did not finish it."""
+"""Stands for the end reason of a recording that its recorder did not finish."""
 
 
 @dataclass(frozen=True, slots=True)
 class KeyFacts:
-    """One key."""
+    """Facts of one key."""
 
     key: str
     message: str
@@ -33,11 +33,11 @@ class KeyFacts:
 
 @dataclass(frozen=True, slots=True)
 class RecordingFacts:
-    """A recording in figures."""
+    """Facts of a recording."""
 
     path: str
     complete: bool
-    """Not cut off."""
+    """Whether its recorder finished the file."""
     match: str
     pace: str | None
     profile: str | None
@@ -48,7 +48,7 @@ class RecordingFacts:
     started: str
     """Wall time, ISO 8601, UTC."""
     duration: float
-    """Simulated s."""
+    """Simulated time in s."""
     tick: int
     """The last tick whose inputs were recorded."""
     phase: str | None
@@ -59,32 +59,32 @@ class RecordingFacts:
     lost: int
     missed_before_start: int
     left_out: int
-    """Messages that came while the recorder was paused."""
+    """Messages received while the recorder was paused."""
     part: int
-    """Which file of a recording that was split, from 1."""
+    """Number of this file in a split recording, from 1."""
     standing: int
-    """So many messages at the beginning of the file repeat what stood when it began."""
+    """Number of latched messages repeated at the beginning of the file."""
     made: str
-    """`recorded`, or how it was made of other recordings."""
+    """`recorded`, or how it was made from other recordings."""
     include: list[str]
-    """Key expressions that were recorded; all where there is none."""
+    """Key expressions of the recorded keys; empty if all keys were recorded."""
     exclude: list[str]
-    """Key expressions that were not."""
+    """Key expressions of the keys that were left out."""
     damaged: list[str]
-    """Attachments that are missing, or whose bytes have changed."""
+    """Attachments that are missing or have changed."""
     drawn: dict[str, int]
-    """Topic → messages that are there for viewers alone; none of them is in the counts."""
+    """Topic → messages for viewers, which are not in the other counts."""
     size: int
     """Bytes of the file."""
     keys: list[KeyFacts]
 
     def to_json(self) -> dict[str, Any]:
-        """The facts as plain lists, numbers and texts."""
+        """The facts as plain lists, numbers and strings."""
         return dataclasses.asdict(self)
 
 
 def facts_of(recording: Recording) -> RecordingFacts:
-    """The facts of a recording; those of a file that was cut off are gathered from its messages."""
+    """The facts of a recording; those of a truncated file are collected from its messages."""
     manifest, setup, config = recording.manifest, recording.manifest.setup, recording.manifest.config
     ending = _ending(recording)
     described = setup or config
@@ -141,7 +141,7 @@ def _ending(recording: Recording) -> _Ending:
         received = recorded.received()
         progress.update([received])
         if number >= recording.manifest.standing:
-            trackers.setdefault(recorded.key, SequenceTracker()).add(received.stamp, len(received.payload))
+            trackers.setdefault(recorded.key, SequenceTracker()).add(recorded.stamp, len(recorded.payload))
     progress.catch_up()
     state, applied = progress.state, progress.applied
     return _Ending(
@@ -166,44 +166,3 @@ def _key_facts(recording: Recording, counts: dict[str, KeyCount]) -> Iterator[Ke
             lost=count.lost,
             missed_before_start=count.missed_before_start,
         )
-
-
-HEADINGS = ("key", "message", "messages", "per s", "bytes", "lost")
-"""Of the table that `key_rows` gives."""
-
-
-def key_rows(facts: RecordingFacts) -> list[tuple[str, ...]]:
-    """The table of keys as texts, below `HEADINGS`."""
-    return [
-        (key.key, key.message, str(key.messages), f"{key.rate:.1f}", str(key.bytes), str(key.lost))
-        for key in facts.keys
-    ]
-
-
-def summary_lines(facts: RecordingFacts) -> list[tuple[str, str]]:
-    """The facts themselves as texts: name and value, what is unknown left out."""
-    score = f"{facts.score['cyan']} : {facts.score['magenta']}" if facts.score is not None else None
-    values: dict[str, str | None] = {
-        "match": facts.match,
-        "teams": " – ".join(facts.teams.values()) or None,
-        "score": score,
-        "phase": facts.phase,
-        "ended": facts.ended,
-        "pace": facts.pace,
-        "profile": facts.profile,
-        "rules": facts.rules,
-        "seed": str(facts.seed) if facts.seed is not None else None,
-        "started": facts.started,
-        "duration": f"{facts.duration:.2f} s simulated, {facts.tick + 1} ticks",
-        "messages": f"{facts.messages}, {facts.lost} lost, {facts.missed_before_start} sent before it began",
-        "paused": f"{facts.left_out} messages left out meanwhile" if facts.left_out else None,
-        "lost on": ", ".join(f"{key.key} {key.lost}" for key in facts.keys if key.lost) or None,
-        "keys": " ".join([*facts.include, *(f"not {key}" for key in facts.exclude)]) or None,
-        "made": facts.made if facts.made != "recorded" else None,
-        "part": f"{facts.part}, begins with {facts.standing} messages that stood" if facts.standing else None,
-        "for viewers": " ".join(facts.drawn) or None,
-        "damaged": ", ".join(facts.damaged) or None,
-        "events": str(facts.events),
-        "size": f"{facts.size} bytes" + ("" if facts.complete else ", cut off"),
-    }
-    return [(name, value) for name, value in values.items() if value is not None]

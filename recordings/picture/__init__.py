@@ -1,6 +1,6 @@
-"""Pictures of a match from its recording: moments with the way that led there, and the ball's way over the match.
+"""Pictures of a match from its recording: single moments with trails, and a heat map of the ball.
 
-Needs matplotlib, which is imported only when something is drawn.
+They require matplotlib, which is imported only when a picture is drawn.
 """
 
 from pathlib import Path
@@ -9,10 +9,10 @@ from schemas.errors import TouchlineError
 
 
 def draw(path: Path, out: Path, times: list[float] | None = None) -> None:
-    """Draw a match at these simulated times in s, one panel each, by default at its last moment of play; PNG or SVG.
+    """Draw a match at these simulated times in s, one panel each, by default at the end of play; as PNG or SVG.
 
     Raises:
-        TouchlineError: matplotlib is missing, nothing was recorded at a time, or `out` is no picture's name.
+        TouchlineError: matplotlib is missing, a time was not recorded, or `out` does not end in `.png` or `.svg`.
     """
     _need_matplotlib()
     from recordings.picture.bodies import draw_bodies
@@ -31,10 +31,10 @@ def draw(path: Path, out: Path, times: list[float] | None = None) -> None:
 
 
 def trace(path: Path, out: Path) -> None:
-    """Draw where the ball was while it was in play: the longer at a place, the brighter; goals as rings.
+    """Draw a heat map of the ball while it was in play, and a ring for each goal.
 
     Raises:
-        TouchlineError: as `draw`.
+        TouchlineError: as for `draw`.
     """
     _need_matplotlib()
     from recordings.picture.heat_map import draw_goals, draw_heat
@@ -49,7 +49,7 @@ def trace(path: Path, out: Path) -> None:
     draw_pitch(panel, data.setup.pitch)
     draw_heat(panel, data.setup.pitch, worlds)
     draw_goals(panel, data.goals)
-    sheet.title([f"way of the ball in {len(worlds) * data.setup.time.tick:.0f} s of play"], data.score_at(data.end))
+    sheet.title([f"path of the ball in {len(worlds) * data.setup.time.tick:.0f} s of play"], data.score_at(data.end))
     sheet.save(out)
 
 
@@ -57,4 +57,4 @@ def _need_matplotlib() -> None:
     try:
         import matplotlib  # noqa: F401
     except ModuleNotFoundError:
-        raise TouchlineError("pictures need matplotlib; run: pip install touchline[viz]") from None
+        raise TouchlineError("pictures require matplotlib; run: pip install 'touchline[viz]'") from None

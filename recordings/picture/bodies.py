@@ -1,4 +1,4 @@
-"""Robots, ball and obstacles on the pitch, and the trails behind those that move."""
+"""Draws robots, ball and obstacles on the pitch, and the trails of moving bodies."""
 
 import math
 import re
@@ -21,17 +21,17 @@ COLOURS = {Side.CYAN: "#22c3dd", Side.MAGENTA: "#e0389a"}
 _EDGES = {Side.CYAN: "#073b45", Side.MAGENTA: "#4a0730"}
 _BALL = "#ffb000"
 _OBSTACLE = "#5d6470"
-_LARGER = 1.9
-"""Robots are drawn so much larger than they are: a number on one of true size is unreadable."""
-_BALL_LARGER = 1.6
+_ROBOT_SCALE = 1.9
+"""Scale at which robots are drawn: in true size, their numbers would be unreadable."""
+_BALL_SCALE = 1.6
 _JUMP_M = 1.0
-"""A body that is farther away after one tick was set down by hand: no trail leads there."""
+"""A body that moves farther in one tick was placed by hand: its trail is interrupted."""
 
 Place = tuple[float, float]
 
 
 def draw_bodies(axes: Axes, setup: Setup, worlds: Sequence[World], scale: float) -> None:
-    """Draw the last of `worlds`, with trails through those before; `scale` is inches on paper per metre."""
+    """Draw the last of `worlds`, with trails through the others; `scale` is inches on paper per metre."""
     now = worlds[-1]
     for obstacle in now.obstacles.values():
         _obstacle(axes, obstacle, scale)
@@ -49,12 +49,12 @@ def draw_bodies(axes: Axes, setup: Setup, worlds: Sequence[World], scale: float)
 
 
 def jumps(before: Place, after: Place) -> bool:
-    """Whether a body cannot have moved so far in one tick by itself."""
+    """Whether a body was placed by hand, because it cannot have moved that far in one tick."""
     return math.dist(before, after) > _JUMP_M
 
 
 def _trail(axes: Axes, way: Sequence[Place], colour: str, width: float) -> None:
-    """A line that fades toward the past."""
+    """Draw a line that fades toward the past."""
     steps = list(pairwise(way))
     kept = [(number, step) for number, step in enumerate(steps, 1) if not jumps(*step)]
     if not kept:
@@ -72,7 +72,7 @@ def _trail(axes: Axes, way: Sequence[Place], colour: str, width: float) -> None:
 
 
 def _obstacle(axes: Axes, obstacle: ObstacleTruth, scale: float) -> None:
-    """What stands on the pitch, at its true size."""
+    """Draw an obstacle in true size."""
     x, y = obstacle.x, obstacle.y
     look = {"facecolor": _OBSTACLE, "edgecolor": "#23272e", "lw": 2.0 * scale, "zorder": 2.8}
     if obstacle.shape is Shape.CYLINDER:
@@ -84,10 +84,10 @@ def _obstacle(axes: Axes, obstacle: ObstacleTruth, scale: float) -> None:
 
 
 def _robot(axes: Axes, place: Place, heading: float, body: RobotBody, side: Side, number: str, scale: float) -> None:
-    """A disc with its number, a nose in the kicking direction, and the frame if it has one."""
-    (x, y), radius = place, _LARGER * body.radius
+    """Draw a disc with its number, a nose in the kicking direction, and a frame if the body has one."""
+    (x, y), radius = place, _ROBOT_SCALE * body.radius
     if body.frame_width:
-        depth, width = _LARGER * body.frame_depth, _LARGER * body.frame_width
+        depth, width = _ROBOT_SCALE * body.frame_depth, _ROBOT_SCALE * body.frame_width
         frame = Rectangle((radius - depth, -width / 2), depth, width, facecolor=_EDGES[side], lw=0, zorder=3.05)
         frame.set_transform(Affine2D().rotate(heading).translate(x, y) + axes.transData)
         axes.add_patch(frame)
@@ -103,16 +103,16 @@ def _robot(axes: Axes, place: Place, heading: float, body: RobotBody, side: Side
 
 
 def _ball(axes: Axes, world: World, true_radius: float, scale: float) -> None:
-    """The ball, above its shadow: a lobbed ball is drawn larger, and flies away from it."""
+    """Draw the ball above its shadow: the higher it is, the larger and the farther from the shadow."""
     x, y, lift = world.ball.x, world.ball.y, max(0.0, world.ball.z - true_radius)
-    radius = _BALL_LARGER * true_radius
+    radius = _BALL_SCALE * true_radius
     axes.add_patch(Circle((x + 0.05, y - 0.07), radius, color="#00000055", lw=0, zorder=4))
     shown = radius * (1 + 0.3 * lift)
     axes.add_patch(Circle((x, y + 0.6 * lift), shown, facecolor=_BALL, edgecolor="#5a3c00", lw=2.2 * scale, zorder=4.1))
 
 
 def _number(name: str, setup: Setup) -> str:
-    """The number at the end of a robot's name, or else its place in the team."""
+    """The number at the end of a robot's name, or else its position in the team, from 1."""
     found = re.search(r"\d+$", name)
     if found:
         return found[0]

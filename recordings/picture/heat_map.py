@@ -1,4 +1,4 @@
-"""Where the ball was: a map of how long, its way as a thin line, and rings where goals fell."""
+"""Draws a heat map of the ball, its path as a thin line, and rings for goals."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -15,12 +15,12 @@ from schemas.messages.world import World
 
 _CELL_M = 0.1
 _SPREAD_M = 0.4
-"""Standard deviation of the spot that one look at the ball leaves on the map."""
+"""Standard deviation of the spot that one position of the ball leaves on the map."""
 _GLOW = ("#ffd34d00", "#ffc93c77", "#ff9d2ebb", "#ff5a36e6", "#fff3d6f5")
 
 
 def draw_heat(axes: Axes, pitch: Pitch, worlds: Sequence[World]) -> None:
-    """Draw the map over the grass, and the way over the map; a ball that was set down by hand left no way."""
+    """Draw the map over the grass, and the path over the map, without steps of a ball placed by hand."""
     half_x, half_y = pitch.goal_line + pitch.border, pitch.touch_line + pitch.border
     way = [(world.ball.x, world.ball.y) for world in worlds]
     cells = [round(2 * half_x / _CELL_M), round(2 * half_y / _CELL_M)]
@@ -43,7 +43,7 @@ def draw_heat(axes: Axes, pitch: Pitch, worlds: Sequence[World]) -> None:
 
 
 def draw_goals(axes: Axes, goals: Sequence[Goal]) -> None:
-    """Draw a ring in the scorer's colour where the ball was."""
+    """Draw a ring in the scoring side's colour at the position of the ball."""
     for goal in goals:
         colour = COLOURS[goal.side] if goal.side is not None else "white"
         for order, (edge, width) in enumerate((("white", 4.5), (colour, 2.5))):

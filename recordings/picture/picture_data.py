@@ -1,4 +1,4 @@
-"""What a picture tells, read from a recording: moments, goals, the time in play."""
+"""The data of pictures, read from a recording: moments, goals, and time in play."""
 
 from bisect import bisect_right
 from collections.abc import Iterator
@@ -15,12 +15,12 @@ from schemas.side import Side
 from schemas.topics import EVENT, STATE, WORLD
 
 TRAIL_S = 3.0
-"""Simulated time that the trails reach back, in s."""
+"""Simulated time that trails reach back, in s."""
 _HYPHENATED = {Phase.KICK_OFF: "kick-off", Phase.THROW_IN: "throw-in"}
 
 
 class Goal(NamedTuple):
-    """A goal: simulated time in s, whose it is, and where the ball was, in m of the field frame."""
+    """A goal: simulated time in s, the scoring side, and the position of the ball, in m in the field frame."""
 
     time: float
     side: Side | None
@@ -30,20 +30,20 @@ class Goal(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class PanelData:
-    """The field at one time, and how it came to that."""
+    """The world at one time, and the worlds before it."""
 
     worlds: list[World]
-    """From the beginning of the trails to the moment itself."""
+    """From the beginning of the trails to that time."""
     state: GameState | None
 
     @property
     def now(self) -> World:
-        """The field at that time."""
+        """The world at that time."""
         return self.worlds[-1]
 
     @property
     def score(self) -> Score | None:
-        """The score at that time, if the referee told it."""
+        """The score at that time; None if no game state was recorded."""
         return self.state.score if self.state is not None else None
 
     @property
@@ -61,15 +61,15 @@ class PictureData:
     """A recording, as pictures need it."""
 
     def __init__(self, path: Path) -> None:
-        """Read what the referee said.
+        """Read the game states and goals.
 
         Raises:
-            TouchlineError: not a recording, or one without the host's setup or without any picture of the field.
+            TouchlineError: not a recording, or a recording without the host's setup or without a world.
         """
         self._recording = recording = open_recording(path)
         extent = next((channel for channel in recording.channels if channel.key == WORLD.key), None)
         if recording.manifest.setup is None or extent is None:
-            raise TouchlineError(f"{path}: holds no picture of the field; record a match that is played")
+            raise TouchlineError(f"{path}: has no setup or no world; record a match that is played")
         self.setup: Setup = recording.manifest.setup
         self.start, self.end = extent.start, extent.end
         messages = [message for _, message in recording.decoded(STATE.key, EVENT.key)]
@@ -79,15 +79,15 @@ class PictureData:
         self.goals = [goal for event in events for goal in self._goal(event)]
 
     def panel_data(self, time: float) -> PanelData:
-        """The field at a simulated time in s.
+        """The data of a panel at a simulated time in s.
 
         Raises:
-            TouchlineError: nothing was recorded there.
+            TouchlineError: no world was recorded at that time.
         """
         worlds = [world for _, world in self._worlds(time - TRAIL_S, time)]
         if not worlds or time < self.start:
             raise TouchlineError(
-                f"{self._recording.path}: nothing at {time:g} s; it holds {self.start:g} to {self.end:g} s"
+                f"{self._recording.path}: no world at {time:g} s; it has {self.start:g} to {self.end:g} s"
             )
         return PanelData(worlds, self._state_at(time))
 
@@ -97,11 +97,11 @@ class PictureData:
         return state.score if state is not None else None
 
     def last_play(self) -> float:
-        """The last simulated time at which the ball was known to be in play, or the last of all."""
+        """The last simulated time, in s, at which the ball was in play; the end of the recording if there is none."""
         return max((state.time for state in self._states if state.phase is Phase.PLAY), default=self.end)
 
     def in_play(self) -> list[World]:
-        """The field at each tick at which the ball was in play; at every tick where the referee said nothing."""
+        """The worlds in which the ball was in play; all worlds if no game state says so."""
         worlds = [world for _, world in self._worlds(self.start, self.end)]
         playing = [world for world in worlds if (state := self._state_at(world.time)) and state.phase is Phase.PLAY]
         return playing or worlds
@@ -114,6 +114,6 @@ class PictureData:
         return self._states[before - 1] if before else None
 
     def _goal(self, event: GameEvent) -> list[Goal]:
-        """The goal with the place of the ball, unless that tick was not recorded."""
+        """The goal with the position of the ball; empty if that tick was not recorded."""
         balls = [world.ball for _, world in self._worlds(event.time, event.time)]
         return [Goal(event.time, event.side, balls[0].x, balls[0].y)] if balls else []

@@ -1,4 +1,4 @@
-"""The pitch: grass, lines, areas and goals, in m of the field frame."""
+"""Draws the pitch: grass, lines, areas and goals, in m in the field frame."""
 
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Rectangle
@@ -14,7 +14,7 @@ _STRIPES = 11
 
 
 def draw_pitch(axes: Axes, pitch: Pitch) -> None:
-    """Lay the pitch out below everything else, x to the right, y up, and frame the axes around it."""
+    """Draw the pitch below everything else, x to the right and y up, and set the limits of the axes to it."""
     half_x, half_y = pitch.goal_line, pitch.touch_line
     _ground(axes, pitch)
     _box(axes, -half_x, -half_y, pitch.length, pitch.width)
@@ -49,7 +49,7 @@ def _ground(axes: Axes, pitch: Pitch) -> None:
 
 
 def _end(axes: Axes, pitch: Pitch, sign: int) -> None:
-    """One end of the pitch: areas, corner arcs, goal."""
+    """Draw one end of the pitch: areas, corner arcs, goal."""
     line = sign * pitch.goal_line
     for depth, width in (
         (pitch.penalty_area_depth, pitch.penalty_area_width),

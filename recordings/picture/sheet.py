@@ -1,4 +1,4 @@
-"""The sheet that a picture is drawn on: panels, title with teams and score, and the line of time with its goals."""
+"""The sheet of a picture: panels, a title with teams and score, and a time line with the goals."""
 
 import math
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ _FAINT = "#5d6b63"
 _PAPER = "#f7f8f4"
 _LINE = "#d5dad3"
 _WIDTH = 10.0
-"""All lengths on the sheet in inches."""
+"""Width of the sheet; all lengths on it are in inches."""
 _DOTS_PER_INCH = 160
 _HEAD = 0.86
 _CAPTION = 0.3
@@ -26,7 +26,7 @@ _GAP = 0.08
 
 
 class Sheet:
-    """One sheet: a panel for each time, two in a row when there are several."""
+    """One sheet: a panel for each time, in two columns if there are several."""
 
     def __init__(self, data: PictureData, times: Sequence[float]) -> None:
         self._data = data
@@ -46,7 +46,7 @@ class Sheet:
             self.panels.append(self._add_axes(left, bottom, width, width * high / wide))
 
     def title(self, caption: Sequence[str], score: Score | None) -> None:
-        """Write teams and score above all, and words above each panel."""
+        """Write teams and score at the top, and a caption above each panel."""
         goals = f"{score.cyan} : {score.magenta}" if score is not None else "–"
         self._text(0.5, 0.28, goals, 19, _INK, "center", bold=True)
         for side, away in ((Side.CYAN, -1), (Side.MAGENTA, 1)):
@@ -61,13 +61,13 @@ class Sheet:
         self._time_line()
 
     def save(self, out: Path) -> None:
-        """Write the sheet as PNG or SVG, by the name of the file.
+        """Write the sheet as PNG or SVG, depending on the suffix of the file.
 
         Raises:
-            TouchlineError: another kind of file, or one that cannot be written.
+            TouchlineError: another suffix, or a file that cannot be written.
         """
         if out.suffix not in (".png", ".svg"):
-            raise TouchlineError(f"{out}: a picture is written as .png or .svg; name it so")
+            raise TouchlineError(f"{out}: pictures are written as .png or .svg; give a name with one of these")
         try:
             out.parent.mkdir(parents=True, exist_ok=True)
             self._figure.savefig(out, facecolor=_PAPER)
@@ -75,7 +75,7 @@ class Sheet:
             raise TouchlineError(f"{out}: {error.strerror}; give a path that can be written") from None
 
     def _time_line(self) -> None:
-        """The whole match as a line, filled up to the last time shown, with a dot for each time and each goal."""
+        """Draw the match as a line, filled up to the last time shown, with a dot for each time and each goal."""
         line = self._add_axes(0.25 * _WIDTH, self._height - _HEAD + 0.04, 0.5 * _WIDTH, 0.16)
         start, end = self._data.start, max(self._data.end, self._data.start + 1e-9)
         line.set_xlim(start - 0.01 * (end - start), end + 0.01 * (end - start))
@@ -93,7 +93,7 @@ class Sheet:
         return self._figure.add_axes((left / _WIDTH, bottom / whole, width / _WIDTH, height / whole))
 
     def _text(self, x: float, down: float, text: str, size: float, colour: str, align: str, bold: bool = False) -> None:
-        """Text at a share of the width, so many inches below the upper edge."""
+        """Write text at a fraction `x` of the width, `down` inches below the upper edge."""
         weight = "bold" if bold else "normal"
         place = (x, 1 - down / self._height)
         self._figure.text(*place, text, fontsize=size, fontweight=weight, color=colour, ha=align, va="center")

@@ -1,1 +1,1 @@
-"""Reads recordings: whole, by a cursor while they grow, or tick by tick."""
+"""Reads recordings: finished files, files that are still growing, and the ticks of a match."""

@@ -1,4 +1,4 @@
-"""Whether the inputs that a host says it applied are the commands that are recorded of the robots' programs."""
+"""Checks that the inputs a host reports in `host/applied` are the recorded commands of the robots' programs."""
 
 from collections.abc import Container, Iterable
 from typing import Any, NamedTuple
@@ -11,32 +11,32 @@ from schemas.messages.command import Command
 from schemas.messages.host import Applied, AppliedInput
 
 _KEPT = 1000
-"""Commands of one robot that are kept: longer than any of them counts."""
+"""Ticks whose commands are kept for each robot: longer than any command stays in force."""
 
 
 class CommandMismatch(NamedTuple):
-    """An input, and the command that it is said to be."""
+    """A difference between an applied input and the command that it claims to be."""
 
     tick: int
-    """At which it was applied."""
+    """Tick at which the input was applied."""
     robot: str
     field: str
-    """`drive.vx`; `command` where none was recorded."""
+    """Field that differs, `drive.vx`; `command` if no such command was recorded."""
     applied: object
     sent: object
 
 
 class _SentCommand(NamedTuple):
-    payload: bytes
+    recorded: RecordedMessage
     fields: dict[str, Any]
-    """As they stand in it, not validated."""
+    """Fields of the payload, not validated."""
 
 
 class CommandCheck:
-    """Follows commands and inputs of a segment of a match."""
+    """Collects commands and applied inputs of a segment of a match."""
 
     def __init__(self, checked: Container[str], complete: Container[str], first_tick: int) -> None:
-        """`checked`: robots that are moved by recorded commands; `complete`: those of them of whose none is missing.
+        """`checked`: robots moved by recorded commands only; `complete`: those of them without lost commands.
 
         The answers to sights of `first_tick` and later must have been recorded.
         """
@@ -48,20 +48,20 @@ class CommandCheck:
         self._mismatches: list[CommandMismatch] = []
 
     def add_command(self, recorded: RecordedMessage) -> None:
-        """A program sent a command."""
+        """Add a recorded command."""
         robot = recorded.key.split("/")[1]
         try:
             fields = from_json(recorded.payload)
             answers = fields["answers_tick"]
         except (ValueError, KeyError, TypeError):
-            return  # the host took no notice of it either
+            return  # the host ignored it, too
         kept = self._sent.setdefault(robot, {})
-        kept.setdefault(answers, []).append(_SentCommand(recorded.payload, fields))
+        kept.setdefault(answers, []).append(_SentCommand(recorded, fields))
         if len(kept) > _KEPT:
             del kept[next(iter(kept))]
 
     def add_applied(self, applied: Applied) -> None:
-        """A host applied these inputs."""
+        """Add the inputs that the host applied in a tick."""
         for robot, input_ in applied.inputs.items():
             if input_.answers_tick is None or robot not in self._checked:
                 continue
@@ -72,7 +72,7 @@ class CommandCheck:
                 self._pending[robot, input_.answers_tick] = applied.tick, input_
 
     def mismatches(self) -> list[CommandMismatch]:
-        """All that were found, in the order of their ticks, when nothing more comes."""
+        """All mismatches by tick, after the last command and the last applied inputs were added."""
         for (robot, answers), (tick, input_) in self._pending.items():
             sent = self._sent.get(robot, {}).get(answers)
             if sent is None:
@@ -88,14 +88,14 @@ def _tick_of(candidate: CommandMismatch) -> int:
 
 
 def _compare(tick: int, robot: str, input_: AppliedInput, sent: Iterable[_SentCommand]) -> list[CommandMismatch]:
-    """Where an input is none of the commands that answer the same sight; nothing where it is one of them."""
+    """Differences of an input from the commands that answer the same sight; none if it equals one of them."""
     if any(_is_verbatim(input_, candidate.fields) for candidate in sent):
         return []
     mismatches: list[CommandMismatch] = []
     applied = _fields(input_)
     for candidate in sent:
         try:
-            claimed = _fields(Command.decode(candidate.payload))
+            claimed = _fields(candidate.recorded.message())
         except BadMessageError:
             continue
         if claimed == applied:
@@ -109,7 +109,7 @@ def _compare(tick: int, robot: str, input_: AppliedInput, sent: Iterable[_SentCo
 
 
 def _is_verbatim(input_: AppliedInput, fields: dict[str, Any]) -> bool:
-    """Whether a command says just that in the words of this library; one that leaves out what is nothing may, too."""
+    """Whether a command, encoded as by this library, equals the input; a fast check for the most frequent case."""
     drive, command_drive = input_.drive, fields.get("drive")
     return (
         input_.kick is None

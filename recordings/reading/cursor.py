@@ -1,7 +1,7 @@
-"""A cursor over the messages of a recording: seeks to any time at once, and reads on while the file is still written.
+"""A cursor over the messages of a recording: seeks to any time at once, and follows a file that is still growing.
 
-The file is looked through for the places of its chunks alone. What was written since is found by looking again: a part
-that a recorder still writes, and that is renamed when it is finished, is one recording to its end.
+Only the offsets of the chunks are read when the file is opened. `grow` reads those that were written since. A file that
+is renamed when its recorder finishes it can be read to its end.
 """
 
 import struct
@@ -18,14 +18,14 @@ from mcap.records import Channel
 from mcap.writer import MCAP0_MAGIC
 
 from recordings.container.chunks import BROKEN, MESSAGE, RECORD_HEADER, read_chunk, records_in
-from recordings.container.mcap_file import DAMAGED
+from recordings.container.mcap_file import DAMAGED, channel_version
 from recordings.reading.recording import RecordedMessage
 from schemas.errors import TouchlineError
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 
 _CHUNK = struct.Struct("<QQ")
-"""Times of a chunk's first and last message."""
+"""Times of a chunk's first and last message, in ns."""
 _ID = struct.Struct("<H")
 _OPCODES = frozenset(int(opcode) for opcode in Opcode)
 
@@ -40,13 +40,13 @@ class _IndexedChunk(NamedTuple):
 
 
 class Cursor:
-    """A recording that stands at one message; `keep` says which keys are on it."""
+    """A position in one file of a recording; messages on keys that `keep` rejects are left out."""
 
     def __init__(self, path: Path, keep: Callable[[str], bool] = lambda _: True) -> None:
-        """Look through the file.
+        """Open the file.
 
         Raises:
-            TouchlineError: it cannot be read, or is not MCAP.
+            TouchlineError: the file cannot be read, or is not MCAP.
         """
         self._path = path
         self._keep = keep
@@ -61,20 +61,21 @@ class Cursor:
         self._scanned_to = len(MCAP0_MAGIC)
         self._chunks: list[_IndexedChunk] = []
         self._ends: list[int] = []
-        self._channels: dict[int, tuple[str, Topic] | None] = {}
+        self._channels: dict[int, tuple[str, Topic, str] | None] = {}
+        """Number → key, topic and version of the protocol; None for one that is left out."""
         self._indexed: set[int] = set()
         self._introducing: list[int] = []
         self._chunk = 0
         self._messages: list[RecordedMessage] = []
         self._next = 0
         self.finished = False
-        """The recorder has finished the file: nothing will be added."""
+        """Whether the recorder has finished the file."""
         self.grow()
         self._load_chunk(0)
 
     @property
     def start_ns(self) -> int:
-        """Simulated time of the first message, in ns; 0 when there is none."""
+        """Simulated time of the first message, in ns; 0 if there is none."""
         return self._chunks[0].start_ns if self._chunks else 0
 
     @property
@@ -83,7 +84,7 @@ class Cursor:
         return self._ends[-1] if self._ends else 0
 
     def grow(self) -> bool:
-        """Look for what was written since; whether anything was.
+        """Read what was written since; returns whether a chunk was added.
 
         Raises:
             TouchlineError: the file is damaged there.
@@ -103,12 +104,12 @@ class Cursor:
                 raise self._damaged(error) from None
             self._scanned_to += RECORD_HEADER.size + length
         for number in self._introducing:
-            self._read(number)  # what is known of a channel stands in the first chunk that has messages of it
+            self._read(number)  # a channel is defined in the first chunk with messages of it
         self._introducing.clear()
         return len(self._chunks) > before
 
     def peek(self) -> RecordedMessage | None:
-        """The message that the cursor stands at; nothing at its end.
+        """The next message; None at the end.
 
         Raises:
             TouchlineError: the file is damaged there.
@@ -120,11 +121,11 @@ class Cursor:
         return self._messages[self._next]
 
     def skip(self) -> None:
-        """Go on behind the message that it stands at."""
+        """Move past the next message."""
         self._next += 1
 
     def rewind(self) -> None:
-        """Stand before the first message.
+        """Move to the first message.
 
         Raises:
             TouchlineError: the file is damaged there.
@@ -132,7 +133,7 @@ class Cursor:
         self._load_chunk(0)
 
     def seek(self, ns: int) -> None:
-        """Stand before the first message at `ns` or later.
+        """Move to the first message at `ns` or later.
 
         Raises:
             TouchlineError: the file is damaged there.
@@ -145,7 +146,7 @@ class Cursor:
             self.skip()
 
     def latched(self, ns: int, is_latched: Callable[[Topic], bool]) -> list[RecordedMessage]:
-        """The newest message before `ns` of every key of these topics, in the order of the file.
+        """The newest message before `ns` on each key of the latched topics, in the order of the file.
 
         Raises:
             TouchlineError: the file is damaged there.
@@ -174,7 +175,7 @@ class Cursor:
         return self._file.tell()
 
     def _index_record(self, opcode: int, length: int) -> None:
-        """A record that is whole; the file stands at its content."""
+        """Take in a complete record, at whose content the file is positioned."""
         if opcode == Opcode.CHUNK and length >= _CHUNK.size:
             start_ns, end_ns = _CHUNK.unpack(self._file.read(_CHUNK.size))
             self._chunks.append(_IndexedChunk(self._scanned_to, start_ns, end_ns, set()))
@@ -196,7 +197,7 @@ class Cursor:
         self._messages = [message for _, message in self._read(number)] if is_there else []
 
     def _read(self, number: int) -> list[tuple[int, RecordedMessage]]:
-        """The kept messages of a chunk, each with the number of its channel."""
+        """The messages of a chunk that are not left out, each with the number of its channel."""
         chunk_index = self._chunks[number]
         try:
             messages = self._messages_in(read_chunk(self._file, chunk_index.offset))
@@ -216,8 +217,10 @@ class Cursor:
                 channel, sequence, log_ns, sent_ns = MESSAGE.unpack_from(data, begin)
                 known = channels[channel]
                 if known is not None:
+                    key, topic, version = known
                     payload = data[begin + MESSAGE.size : end]
-                    messages.append((channel, RecordedMessage(known[0], known[1], payload, log_ns, sent_ns, sequence)))
+                    recorded = RecordedMessage(key, topic, payload, log_ns, sent_ns, sequence, version)
+                    messages.append((channel, recorded))
             elif opcode == Opcode.CHANNEL:
                 self._add_channel(Channel.read(ReadDataStream(BytesIO(data[begin:end]))))
         return messages
@@ -225,4 +228,5 @@ class Cursor:
     def _add_channel(self, channel: Channel) -> None:
         topic = TOPICS.get(channel.metadata.get("topic", ""))
         is_kept = topic is not None and topic.message is not None and self._keep(channel.topic)
-        self._channels[channel.id] = (channel.topic, topic) if topic is not None and is_kept else None
+        version = channel_version(channel.metadata)
+        self._channels[channel.id] = (channel.topic, topic, version) if topic is not None and is_kept else None

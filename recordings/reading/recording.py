@@ -1,4 +1,4 @@
-"""Reads a recording: its manifest and result, its channels, its messages as they came or as the schemas have them."""
+"""Reads a recording: manifest, result, channels, and its messages, as payloads or decoded."""
 
 from collections import Counter
 from collections.abc import Iterator
@@ -6,19 +6,13 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from recordings.container.manifest import (
-    MANIFEST,
-    RESULT,
-    Manifest,
-    Result,
-    digest,
-    from_metadata,
-    is_sealed,
-)
+from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
 from recordings.container.mcap_file import ChannelRecord, McapFile, is_derived, open_mcap_file
+from recordings.container.sealed_metadata import digest, from_metadata, is_sealed
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
 from schemas.message import VERSION, BadMessageError
+from schemas.older_versions import READABLE, converted, is_readable
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 
@@ -28,7 +22,7 @@ class ChannelFacts(NamedTuple):
 
     key: str
     topic: str
-    """Name of its row in the topic table."""
+    """Name of its topic in the topic table."""
     message: str
     messages: int
     start: float
@@ -41,7 +35,7 @@ class ChannelFacts(NamedTuple):
 
 
 class RecordedMessage(NamedTuple):
-    """A message of a recording, read only when somebody asks for it."""
+    """A message of a recording, decoded on demand."""
 
     key: str
     topic: Topic
@@ -51,16 +45,27 @@ class RecordedMessage(NamedTuple):
     sent_ns: int
     """Wall time at which it was sent, ns since 1970."""
     sequence: int
-    """Its sender's number on this key, modulo 2³²."""
+    """Sequence number of the sender on this key, modulo 2³²."""
+    version: str = VERSION
+    """Version of the protocol in which its channel was recorded."""
+
+    @property
+    def stamp(self) -> Stamp:
+        """Sequence number and times of the message."""
+        return Stamp(self.sequence, self.sent_ns, self.log_ns)
 
     @property
     def time(self) -> float:
         """Simulated time in s."""
         return self.log_ns / 1e9
 
+    def current_payload(self) -> bytes:
+        """The payload as a message of this version of the protocol; the recorded bytes where that is theirs."""
+        return converted(self.payload, self.version)
+
     def received(self) -> ReceivedMessage:
-        """The message as it came over the bus."""
-        return ReceivedMessage(self.topic, self.key, self.payload, Stamp(self.sequence, self.sent_ns, self.log_ns))
+        """The message as a sender of the current version publishes it on the bus."""
+        return ReceivedMessage(self.topic, self.key, self.current_payload(), self.stamp)
 
     def message(self) -> Any:
         """The validated message.
@@ -69,33 +74,34 @@ class RecordedMessage(NamedTuple):
             BadMessageError: the payload is not a message of its topic.
         """
         assert self.topic.message is not None
-        return self.topic.message.decode(self.payload)
+        return self.topic.message.decode(self.current_payload())
 
 
 class Recording:
-    """A recording that was opened; holds no file open between two calls."""
+    """An opened recording. No file stays open between calls."""
 
     def __init__(self, mcap_file: McapFile, manifest: Manifest, result: Result | None) -> None:
         self.mcap_file = mcap_file
         self.path = mcap_file.path
         self.complete = mcap_file.complete
-        """Not cut off."""
+        """Whether the recorder finished the file."""
         self.library = mcap_file.library
-        """Who wrote the file."""
+        """Name and version of the program that wrote the file."""
         self.manifest = manifest
         self.result = result
-        """How the match ended; nothing in a file that was cut off."""
+        """How match and recording ended; None in a truncated file."""
         self.attachments = {
             name: content
             for name, content in mcap_file.attachments.items()
             if digest(content) == manifest.attached.get(name, digest(content))
         }
-        """What is attached to the file and whole."""
+        """Attachments whose content is unchanged, by name."""
         self.damaged = sorted(({*manifest.attached, *mcap_file.attachments}) - {*self.attachments})
-        """Attachments that are missing, or whose bytes have changed."""
+        """Attachments that are missing or have changed."""
         self.unreadable: Counter[str] = Counter()
-        """Payloads that `decoded` passed over because they are no valid message, by key."""
+        """Key → payloads that `decoded` skipped because they are not valid messages."""
         self._topics = {channel.key: _topic(channel) for channel in mcap_file.channels.values()}
+        self._versions = {channel.key: channel.version for channel in mcap_file.channels.values()}
 
     @property
     def channels(self) -> list[ChannelFacts]:
@@ -116,15 +122,15 @@ class Recording:
 
     @property
     def drawn(self) -> dict[str, int]:
-        """Topic → messages, of the channels that are there for viewers alone."""
+        """Topic → messages, of the channels for viewers."""
         channels = sorted(self.mcap_file.channels.values(), key=lambda channel: channel.key)
         return {channel.key: channel.messages for channel in channels if is_derived(channel.metadata)}
 
     def messages(self, *keys: str, start: float | None = None, end: float | None = None) -> Iterator[RecordedMessage]:
-        """Messages in the order they were recorded in, from `start` up to and without `end`, s of simulated time.
+        """Yield messages in recorded order, from `start` up to but not including `end`, in s of simulated time.
 
-        `keys` are keys or patterns as `Topic.fill()` gives them, `robot/*/command`; by default every key whose topic
-        this version knows.
+        `keys` are keys or patterns as returned by `Topic.fill()`, such as `robot/*/command`; by default all keys whose
+        topic this version knows.
 
         Raises:
             TouchlineError: the file is damaged inside.
@@ -134,13 +140,19 @@ class Recording:
             topic = self._topics[key]
             if topic is not None:
                 yield RecordedMessage(
-                    key, topic, message.data, message.log_time, message.publish_time, message.sequence
+                    key,
+                    topic,
+                    message.data,
+                    message.log_time,
+                    message.publish_time,
+                    message.sequence,
+                    self._versions[key],
                 )
 
     def decoded(
         self, *keys: str, start: float | None = None, end: float | None = None
     ) -> Iterator[tuple[RecordedMessage, Any]]:
-        """As `messages`, each with its validated message; what does not validate is counted and passed over."""
+        """Like `messages`, with each message decoded; invalid payloads are counted in `unreadable` and skipped."""
         for recorded in self.messages(*keys, start=start, end=end):
             try:
                 yield recorded, recorded.message()
@@ -149,23 +161,23 @@ class Recording:
 
 
 def open_recording(path: Path, *, whole: bool = False) -> Recording:
-    """Open a recording; one that was cut off can be read up to the cut, unless it has to be `whole`.
+    """Open a recording. A truncated file is read up to its end, unless it has to be `whole`.
 
     Raises:
-        TouchlineError: no such file, not a recording, cut off before its manifest, or of another major version.
+        TouchlineError: no such file, not a recording, truncated before its manifest, or of another major version.
     """
     mcap_file = open_mcap_file(path)
     if whole and not mcap_file.complete:
         raise TouchlineError(f"{path}: truncated file, its recorder did not finish it; recover it first")
     if MANIFEST not in mcap_file.metadata:
         if not mcap_file.complete:
-            raise TouchlineError(f"{path}: truncated file, cut off before its manifest; nothing in it can be read")
+            raise TouchlineError(f"{path}: truncated file, it ends before its manifest; nothing in it can be read")
         raise TouchlineError(f"{path}: an MCAP file without a manifest, not a recording of a match; record one")
     if not mcap_file.complete and not is_sealed(mcap_file.metadata.get(RESULT, {})):
-        mcap_file.metadata.pop(RESULT, None)  # it was being written when the file was cut off
+        mcap_file.metadata.pop(RESULT, None)  # the file ends within it
     for name in (MANIFEST, RESULT):
         if name in mcap_file.metadata and not is_sealed(mcap_file.metadata[name]):
-            raise TouchlineError(f"{path}: its {name} is damaged, bytes of it have changed; take another copy of it")
+            raise TouchlineError(f"{path}: its {name} is damaged, bytes of it have changed; use another copy of it")
     try:
         manifest = from_metadata(Manifest, mcap_file.metadata[MANIFEST])
         result = from_metadata(Result, mcap_file.metadata[RESULT]) if RESULT in mcap_file.metadata else None
@@ -177,9 +189,10 @@ def open_recording(path: Path, *, whole: bool = False) -> Recording:
 
 
 def _check_version(path: Path, theirs: str) -> None:
-    if theirs.split(".")[0] != VERSION.split(".")[0]:
+    if not is_readable(theirs):
+        readable = " and ".join(f"{major}.x" for major in READABLE)
         raise TouchlineError(
-            f"{path}: recorded with messages of version {theirs}, this program speaks {VERSION}; "
+            f"{path}: recorded with messages of version {theirs}, this program reads {readable}; "
             "open it with the program that recorded it"
         )
 

@@ -1,6 +1,6 @@
-"""A recording that was split into files, with one cursor: from the first of them, or from any, to the last.
+"""One cursor over the files of a split recording, from the first or any other of them to the last.
 
-What a file repeats at its beginning, to be read by itself, is passed over where the file before it was played.
+The latched messages that a file repeats at its beginning are skipped if the file before it was played.
 """
 
 import re
@@ -18,16 +18,16 @@ _NUMBERED = re.compile(r"(.+)\.(\d{4,})(\.[^.]+)")
 
 
 class SplitCursor:
-    """The files of one recording, in order; it grows with the newest, and by those that a recorder begins after it."""
+    """A position in a recording of one or several files, which may still be growing."""
 
     def __init__(self, path: Path, keep: Callable[[str], bool] = lambda _: True, *, follow: bool = False) -> None:
-        """`path` is a file; or the name that was given to the recorder, whose files are numbered beside it.
+        """`path` is a file, or the name that was given to the recorder, with numbered files beside it.
 
-        Without `follow` a file that is named itself is all of it; with it, what comes after it belongs to it, and it
-        may still be called `*.part`.
+        Without `follow`, a path to an existing file means this file alone. With `follow`, it includes the files after
+        it, and the file may still be named `*.part`.
 
         Raises:
-            TouchlineError: it cannot be read, or is not a recording.
+            TouchlineError: a file cannot be read, or is not a recording.
         """
         self._keep, self._follow = keep, follow
         self._recordings: list[Recording] = []
@@ -51,7 +51,7 @@ class SplitCursor:
         """All files, as far as they have been written.
 
         Raises:
-            TouchlineError: the newest is damaged.
+            TouchlineError: the newest file is damaged.
         """
         if not self._recordings[-1].complete:
             self._recordings[-1] = _reopen(self._recordings[-1].path)
@@ -59,7 +59,7 @@ class SplitCursor:
 
     @property
     def start_ns(self) -> int:
-        """Simulated time of the first message, in ns; 0 when there is none."""
+        """Simulated time of the first message, in ns; 0 if there is none."""
         return self._cursors[0].start_ns
 
     @property
@@ -69,11 +69,11 @@ class SplitCursor:
 
     @property
     def finished(self) -> bool:
-        """Nothing will be added: the last file is finished, and does not say that there is another."""
+        """Whether the recording is complete: its last file is finished and not followed by another."""
         return self._cursors[-1].finished and not (self._follows_parts and self._goes_on_in_another())
 
     def grow(self) -> bool:
-        """Look for what was written since; whether anything was.
+        """Read what was written since; returns whether anything was.
 
         Raises:
             TouchlineError: the newest file is damaged.
@@ -84,7 +84,7 @@ class SplitCursor:
         return grown
 
     def peek(self) -> RecordedMessage | None:
-        """The message that it stands at; nothing at its end.
+        """The next message; None at the end.
 
         Raises:
             TouchlineError: a file is damaged there.
@@ -101,23 +101,23 @@ class SplitCursor:
                 self._cursors[self._at].skip()
 
     def skip(self) -> None:
-        """Go on behind the message that it stands at."""
+        """Move past the next message."""
         self._cursors[self._at].skip()
 
     def seek(self, ns: int) -> None:
-        """Stand before the first message at `ns` or later.
+        """Move to the first message at `ns` or later.
 
         Raises:
             TouchlineError: a file is damaged there.
         """
         at = next((at for at, cursor in enumerate(self._cursors) if cursor.end_ns >= ns), len(self._cursors) - 1)
         self._at = at
-        self._cursors[at].seek(ns)  # later than all that a file repeats, which is as old as the file before it
+        self._cursors[at].seek(ns)  # repeated messages are older: they are from the file before
 
     def latched(self, ns: int, is_latched: Callable[[Topic], bool]) -> list[RecordedMessage]:
-        """The newest message before `ns` of every key of these topics, in order.
+        """The newest message before `ns` on each key of the latched topics, by time.
 
-        Looked for in the file of that time and in the one before it.
+        Only the file of that time and the one before it are searched.
 
         Raises:
             TouchlineError: a file is damaged there.
@@ -129,7 +129,7 @@ class SplitCursor:
         return sorted(newest.values(), key=lambda message: message.log_ns)
 
     def _enter(self, at: int) -> None:
-        """Stand at the first message of a file that is not in the one before it."""
+        """Move to the first message of a file that the file before it does not have."""
         self._at = at
         cursor = self._cursors[at]
         cursor.rewind()
@@ -141,7 +141,7 @@ class SplitCursor:
         recording = open_recording(path)
         cursor = Cursor(path, self._keep if not self._follows_parts else lambda _: True)
         if recording.complete and not cursor.finished:
-            raise TouchlineError(f"{path}: damaged inside (its records cannot be followed); take another copy of it")
+            raise TouchlineError(f"{path}: damaged inside (its records cannot be followed); use another copy of it")
         return recording, cursor
 
     def _append(self, recording: Recording, cursor: Cursor) -> None:
@@ -150,7 +150,7 @@ class SplitCursor:
         self._ended = None
 
     def _append_next(self) -> bool:
-        """Take in the next file, where there is one that has begun."""
+        """Open the next file if its recorder has begun it; returns whether it did."""
         if not self._follows_parts or not self._cursors[-1].finished or not self._goes_on_in_another():
             return False
         path = _next_file(self._recordings[-1].path)
@@ -161,22 +161,22 @@ class SplitCursor:
             recording, cursor = self._open_file(path)
         except TouchlineError:
             if path.suffix == ".part":
-                return False  # its header is not written yet
+                return False  # its manifest is not written yet
             raise
         if cursor.peek() is None and not cursor.finished:
-            return False  # what it repeats has to be there, to be passed over
+            return False  # the messages it repeats must be there to be skipped
         self._append(recording, cursor)
         return True
 
     def _check_end(self) -> None:
-        """A file that was cut off hides those after it, unless its recorder is still at it."""
+        """Make sure that no file follows a truncated one, which would never be reached."""
         path = self._recordings[-1].path
         after = _next_file(path)
         if self._follows_parts and not self._cursors[-1].finished and after is not None and after.exists():
             raise TouchlineError(f"{path}: truncated file, and {after.name} comes after it; recover it first")
 
     def _goes_on_in_another(self) -> bool:
-        """Whether the last file, which is finished, says that it goes on in another."""
+        """Whether the result of the last file, which is finished, says that another follows."""
         if self._ended is None:
             self._recordings[-1] = _reopen(self._recordings[-1].path)
             result = self._recordings[-1].result
@@ -185,18 +185,18 @@ class SplitCursor:
 
 
 def _partial(path: Path) -> Path:
-    """What a file is called while its recorder writes it."""
+    """Name of a file while its recorder writes it."""
     return path.with_name(path.name + ".part")
 
 
 def _current_name(path: Path) -> Path:
-    """A file by the name that it has now: it loses `.part` when it is finished."""
+    """Current name of a file: it loses `.part` when it is finished."""
     finished = path.with_suffix("") if path.suffix == ".part" else path
     return finished if finished.exists() or not _partial(finished).exists() else _partial(finished)
 
 
 def _reopen(path: Path) -> Recording:
-    """A file as it is now; it may be given its name between a look for it and opening it."""
+    """Open a file again; it may be renamed between the search for it and opening it."""
     try:
         return open_recording(_current_name(path))
     except TouchlineError:
@@ -204,7 +204,7 @@ def _reopen(path: Path) -> Recording:
 
 
 def _first(path: Path, *, follow: bool) -> Path:
-    """The first file of what this path names."""
+    """The first file of the recording at this path."""
     if path.exists():
         return path
     files = numbered_files(path)
@@ -214,6 +214,6 @@ def _first(path: Path, *, follow: bool) -> Path:
 
 
 def _next_file(path: Path) -> Path | None:
-    """The file that follows this one; nothing when this one has no number."""
+    """The file after this one; None if this one has no number."""
     found = _NUMBERED.fullmatch(path.name.removesuffix(".part"))
     return path.with_name(f"{found[1]}.{int(found[2]) + 1:04d}{found[3]}") if found is not None else None

@@ -1,4 +1,4 @@
-"""The index of a match's ticks as recorded: what was noted of each tick, where one can begin, what is missing."""
+"""Index of the recorded ticks of a match: those a simulation can start with, and those that are missing."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -8,43 +8,36 @@ from typing import Any, NamedTuple
 
 from pydantic_core import from_json
 
-from recordings.container.manifest import KeyCount
-from recordings.reading.command_check import CommandCheck
 from recordings.reading.recording import RecordedMessage, Recording
-from schemas.game import EventKind, GameEvent, GameState, Phase
+from schemas.game import GameState, Phase
 from schemas.message import BadMessageError
 from schemas.messages.host import Applied
-from schemas.topics import APPLIED, COMMAND, EVENT, STATE, WORLD
+from schemas.topics import APPLIED, STATE, WORLD
 
 _CHANGES = ("parameters", "robots", "obstacles")
-_BEFORE_S = 0.5
-_AFTER_S = 2.0
-"""Simulated time around a segment in which messages are looked for that belong to it: some are recorded late."""
 _SETTLING_TICKS = 50
-"""Ticks after which a recorder that sets in has every command."""
-_SETTLED_NS = 200_000_000
-"""Simulated time after which the world of a tick has been recorded, if it was at all."""
+"""Ticks after its start from which a recorder has every command."""
 
 
 class StartTick(NamedTuple):
-    """A tick that a simulation can begin with: tick 0, or one before which the world was rebuilt."""
+    """A tick that a simulation can start with: tick 0, or one before which the world was rebuilt."""
 
     tick: int
     kick_off: int | None
-    """Counted from 1; nothing where it is no kick-off."""
+    """Number of the kick-off, from 1; None if the tick is not a kick-off."""
     changes: tuple[Applied, ...]
-    """What was noted before of changes to numbers, robots and obstacles."""
+    """Earlier changes of parameters, robots and obstacles."""
 
 
 class SkipReason(StrEnum):
     """Why ticks cannot be simulated again."""
 
     BEFORE = "before"
-    """They are older than the recording."""
+    """They were played before the recording began."""
     MISSING = "missing"
-    """They are not in the recording, and others before them are."""
+    """They are missing within the recording."""
     NO_START = "no_start"
-    """They stand before the first tick that a simulation can begin with."""
+    """They precede the first tick that a simulation can start with."""
 
 
 class SkippedTicks(NamedTuple):
@@ -56,30 +49,30 @@ class SkippedTicks(NamedTuple):
 
 
 class Segment(NamedTuple):
-    """Ticks that are simulated again in one go."""
+    """Consecutive ticks that are simulated again from one start."""
 
     ticks: range
     start: StartTick
     seconds: tuple[float, float]
-    """Simulated time of the first and the last of them."""
+    """Simulated time of the first and the last of them, in s."""
     answers_from: int
     """The answers to the sights of this tick and later ones must have been recorded."""
 
 
 @dataclass(slots=True)
 class TickIndex:
-    """A recording seen from its ticks."""
+    """The ticks of a recording."""
 
     starts: list[StartTick] = field(default_factory=list)
     runs: list[range] = field(default_factory=list)
-    """Ticks that were noted one after the other; between two runs some are missing."""
+    """Ranges of consecutive ticks; between two of them ticks are missing."""
     times: dict[int, float] = field(default_factory=dict)
     """Tick → simulated time in s."""
     unreadable: int = 0
-    """Notes that are no valid message."""
+    """Payloads of `host/applied` that are not valid messages."""
 
     def segments(self, since: int, worth: float) -> Iterator[Segment]:
-        """Everything from a tick on that can be simulated again, in segments of at least `worth` ticks."""
+        """Yield all that can be simulated again from tick `since` on, in segments of at least `worth` ticks."""
         for run in self.runs:
             starts = [start for start in self.starts if start.tick in run and start.tick >= since]
             while starts:
@@ -87,12 +80,12 @@ class TickIndex:
                 while starts and starts[0].tick - first.tick < worth:
                     starts.pop(0)
                 ticks = range(first.tick, starts[0].tick if starts else run.stop)
-                # where a recording sets in, commands may set in a little later
+                # at the start of a recording, commands may start a little later
                 answers_from = max(ticks.start - 1, run.start + _SETTLING_TICKS if run.start else 0)
                 yield Segment(ticks, first, (self.times[ticks.start], self.times[ticks[-1]]), answers_from)
 
     def skipped(self, since: int) -> Iterator[SkippedTicks]:
-        """Ticks from one on that are in no segment."""
+        """Yield the ticks from `since` on that are in no segment."""
         after = since
         for number, run in enumerate(self.runs):
             if run.stop <= since:
@@ -111,19 +104,8 @@ class TickIndex:
         return [start for start in self.starts if start.kick_off is not None]
 
 
-class TickRecord(NamedTuple):
-    """Everything that was recorded of one tick."""
-
-    tick: int
-    recorded: RecordedMessage
-    applied: Applied | None
-    """What was recorded of it; nothing where that is no valid message."""
-    world: dict[str, Any] | None
-    """The fields of the `schemas.messages.world.World`; nothing where it is missing."""
-
-
 def tick_index_of(recording: Recording) -> TickIndex:
-    """The tick index of a recording, from one pass over what was noted of each tick."""
+    """The tick index of a recording, from one pass over `host/applied`."""
     index = TickIndex()
     changes: list[Applied] = []
     began, kick_offs = _kick_offs(recording), 0
@@ -141,7 +123,7 @@ def tick_index_of(recording: Recording) -> TickIndex:
             if is_next and index.runs and index.runs[-1].stop == tick:
                 index.runs[-1] = range(index.runs[-1].start, tick + 1)
             else:
-                index.runs.append(range(tick - is_next, tick + 1))  # what stood at the last tick counts with it
+                index.runs.append(range(tick - is_next, tick + 1))  # the run includes a latched tick before it
         if tick == 0 or (summary.checkpoint and is_next and before is not None and before.log_ns in worlds):
             is_kick_off = tick - 1 in began
             kick_offs += is_kick_off
@@ -154,7 +136,7 @@ def tick_index_of(recording: Recording) -> TickIndex:
 
 
 def _latched_ticks(recording: Recording) -> set[int]:
-    """Ticks whose notes were repeated when the file was begun, because they stood then."""
+    """Ticks whose `host/applied` is among the latched messages at the beginning of the file."""
     repeated = islice(recording.messages(), recording.manifest.standing)
     summaries = [_summary_of(recorded) for recorded in repeated if recorded.topic is APPLIED]
     return {summary.tick for summary in summaries if summary is not None}
@@ -169,7 +151,7 @@ class _AppliedSummary(NamedTuple):
 
 
 def _summary_of(recorded: RecordedMessage) -> _AppliedSummary | None:
-    """What a note says beside the inputs; nothing when it is no valid message."""
+    """The fields of `host/applied` besides the inputs; None if the payload is not a valid message."""
     try:
         fields: dict[str, Any] = from_json(recorded.payload)
         tick, time = fields["tick"], fields["time"]
@@ -182,7 +164,7 @@ def _summary_of(recorded: RecordedMessage) -> _AppliedSummary | None:
 
 
 def _kick_offs(recording: Recording) -> set[int]:
-    """The ticks at which a kick-off was started: the state of the game says that it is running now."""
+    """The ticks at which a kick-off was started, from the game state."""
     ticks, was_running = set(), False
     state: GameState
     for _, state in recording.decoded(STATE.key):
@@ -191,71 +173,3 @@ def _kick_offs(recording: Recording) -> set[int]:
             ticks.add(state.tick)
         was_running = runs
     return ticks
-
-
-def command_check_of(recording: Recording, segment: Segment) -> CommandCheck:
-    """Ready to compare what robots were told in a segment with what their programs said.
-
-    A robot that was ever driven by hand is left out: a hand's words are not recorded.
-    """
-    keys = [channel.key for channel in recording.channels if channel.topic == "command"]
-    driven_manually = {event.robot for _, event in recording.decoded(EVENT.key) if _is_manual_control(event)}
-    checked = {key.split("/")[1]: key for key in keys if key.split("/")[1] not in driven_manually}
-    counts = recording.result.keys if recording.result is not None else {}
-    complete = [robot for robot, key in checked.items() if _none_missing(counts.get(key))]
-    return CommandCheck(checked, complete, segment.answers_from)
-
-
-def _is_manual_control(event: GameEvent) -> bool:
-    return event.kind is EventKind.AGENT and event.rule == "hand"
-
-
-def _none_missing(count: KeyCount | None) -> bool:
-    return count is not None and count.lost == count.missed_before_start == count.restarts == 0
-
-
-def tick_records(recording: Recording, segment: Segment, check: CommandCheck) -> Iterator[TickRecord]:
-    """What was recorded of the tick before a segment and of those in it, in order.
-
-    `check` gets to know the commands of their time.
-    """
-    held: list[TickRecord] = []
-    worlds: dict[int, dict[str, Any]] = {}
-    keys = (APPLIED.key, WORLD.key, COMMAND.fill(robot="*"))
-    ticks = range(segment.ticks.start - 1, segment.ticks.stop)
-    start, end = segment.seconds[0] - _BEFORE_S, segment.seconds[1] + _AFTER_S
-    for recorded in recording.messages(*keys, start=max(0.0, start), end=end):
-        if recorded.topic is COMMAND:
-            check.add_command(recorded)
-        elif recorded.topic is WORLD:
-            fields = _fields(recorded.payload)
-            tick = fields.get("tick")
-            if isinstance(tick, int) and tick in ticks:
-                worlds[tick] = fields
-        else:
-            record = _tick_record(recorded)
-            if record.tick in ticks:
-                held.append(record)
-        while held and recorded.log_ns - held[0].recorded.log_ns > _SETTLED_NS:
-            record = held.pop(0)
-            yield record._replace(world=worlds.pop(record.tick, None))
-    for record in held:
-        yield record._replace(world=worlds.pop(record.tick, None))
-
-
-def _tick_record(recorded: RecordedMessage) -> TickRecord:
-    try:
-        applied: Applied = recorded.message()
-    except BadMessageError:
-        tick = _fields(recorded.payload).get("tick")
-        return TickRecord(tick if isinstance(tick, int) else -1, recorded, None, None)
-    return TickRecord(applied.tick, recorded, applied, None)
-
-
-def _fields(payload: bytes) -> dict[str, Any]:
-    """The fields of a message; none when it is not JSON."""
-    try:
-        fields = from_json(payload)
-    except ValueError:
-        return {}
-    return fields if isinstance(fields, dict) else {}

@@ -1,4 +1,4 @@
-"""The recorder's ear for its operator: pause, resume, split, snapshot, status."""
+"""The control service of a recorder: pause, resume, split, snapshot, status."""
 
 from collections import deque
 from collections.abc import Callable
@@ -12,7 +12,7 @@ from schemas.topics import RECORDER_CONTROL
 
 
 class ControlService:
-    """Answers between two looks at the bus."""
+    """Replies to control queries between two polls of the bus."""
 
     def __init__(self, bus: Bus, name: str, sink: Sink) -> None:
         self._server = bus.serve(RECORDER_CONTROL, name=name)
@@ -28,12 +28,12 @@ class ControlService:
         }
 
     def has_requests(self) -> bool:
-        """Whether a question waits."""
+        """Whether a query is waiting."""
         self._requests.extend(iter(self._server.receive, None))
         return bool(self._requests)
 
     def answer_requests(self, messages: int, loss_counts: LossCounts, tick: int) -> None:
-        """Do what was asked for, and answer with how the recorder is doing."""
+        """Carry out waiting requests, and reply with the status of the recorder."""
         while self.has_requests():
             query = self._requests.popleft()
             try:
@@ -59,7 +59,7 @@ class ControlService:
 
     def _pause(self) -> str:
         if self.paused:
-            return "it is paused already"
+            return "it is already paused"
         self.paused = True
         return ""
 

@@ -1,6 +1,6 @@
-"""What stands at a moment of a match: the newest of what is said on change alone, and where the world is.
+"""The latched messages at a time of a match: the newest world, and the newest of each topic sent on change only.
 
-A file that begins in the middle of a match begins with it, so that it can be read without the files before it.
+A file that begins in the middle of a match begins with them, so that it can be read without the files before it.
 """
 
 from collections.abc import Iterable
@@ -13,7 +13,7 @@ LoggedMessage = tuple[int, ReceivedMessage]
 """Log time in ns, and message."""
 
 _LATCHED_KEYS = frozenset({WORLD.key, STATE.key, ORDER.key, ACTIVE_ORDER.key, APPLIED.key})
-"""Rows whose newest message stands until the next one on its key."""
+"""Topics whose newest message is valid until the next one on its key."""
 
 
 class LatchedMessages:
@@ -22,10 +22,10 @@ class LatchedMessages:
     def __init__(self) -> None:
         self._newest: dict[str, LoggedMessage] = {}
         self._changes: list[LoggedMessage] = []
-        """Of `host/applied`: what changed for good; all of them stand, one on the other."""
+        """Messages `host/applied` with lasting changes; all of them remain valid."""
 
     def update(self, batch: Iterable[LoggedMessage]) -> None:
-        """Messages have gone by."""
+        """Add messages."""
         newest = self._newest
         for logged in batch:
             received = logged[1]
@@ -39,6 +39,6 @@ class LatchedMessages:
             newest[received.key] = logged
 
     def messages(self, since_ns: int = 0) -> list[LoggedMessage]:
-        """What stands, oldest first, with the log times it had; what is older than `since_ns` is left out."""
+        """The latched messages with their log times, oldest first, without those older than `since_ns`."""
         every = [*self._changes, *self._newest.values()]
         return sorted((logged for logged in every if logged[0] >= since_ns), key=lambda logged: logged[0])

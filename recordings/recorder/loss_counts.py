@@ -1,4 +1,4 @@
-"""The loss counts of a recording: what came on every key, what was lost, and how much of it stands in this file."""
+"""The loss counts of a recording: messages received and lost on each key, in all files and in the current one."""
 
 from collections.abc import Iterable
 
@@ -8,14 +8,14 @@ from recordings.recorder.sequence_tracker import SequenceTracker
 
 
 class LossCounts:
-    """The trackers of all keys, and where they stood when this file began."""
+    """The trackers of all keys, and their counts at the beginning of the current file."""
 
     def __init__(self) -> None:
         self._trackers: dict[str, SequenceTracker] = {}
         self._before: dict[str, KeyCount] = {}
 
     def add(self, batch: Iterable[LoggedMessage], *, left_out: bool = False) -> None:
-        """Messages are written, or, with `left_out`, passed over because the recorder is paused."""
+        """Add messages that are written, or, with `left_out`, skipped because the recorder is paused."""
         trackers = self._trackers
         for _, received in batch:
             tracker = trackers.get(received.key)
@@ -24,7 +24,7 @@ class LossCounts:
             tracker.add(received.stamp, len(received.payload), left_out)
 
     def for_this_file(self) -> dict[str, KeyCount]:
-        """Key → its counts since this file began, sorted."""
+        """Key → its counts since the beginning of the current file, sorted."""
         counts = {}
         for key, tracker in sorted(self._trackers.items()):
             count = tracker.count().since(self._before.get(key, KeyCount()))
@@ -33,10 +33,10 @@ class LossCounts:
         return counts
 
     def start_file(self) -> None:
-        """Another file begins."""
+        """Begin another file."""
         self._before = {key: tracker.count() for key, tracker in self._trackers.items()}
 
     @property
     def losses(self) -> dict[str, int]:
-        """Key → messages lost in all files; the keys without loss are left out."""
+        """Key → messages lost in all files; keys without loss are left out."""
         return {key: tracker.lost for key, tracker in sorted(self._trackers.items()) if tracker.lost}

@@ -9,8 +9,8 @@ from schemas.bus.contract import ReceivedMessage
 from schemas.config.roster import RosterEntry
 from schemas.game import EventKind, GameEvent, GameState, Phase
 from schemas.message import BadMessageError
-from schemas.messages.host import Applied, Health
-from schemas.topics import APPLIED, EVENT, HEALTH, STATE
+from schemas.messages.host import Applied
+from schemas.topics import APPLIED, EVENT, STATE
 
 
 class MatchProgress:
@@ -24,29 +24,11 @@ class MatchProgress:
         """Payloads that could not be read, by key."""
         self._newest_applied: ReceivedMessage | None = None
         self._roster_changed: Callable[[list[RosterEntry]], None] = _ignore_roster
-        self._joined_at_tick = -1
         self._handlers = {
             APPLIED.key: self._on_applied,
             STATE.key: self._on_state,
             EVENT.key: self._on_event,
-            HEALTH.key: self._on_health,
         }
-
-    @property
-    def tick(self) -> int:
-        """The newest tick whose inputs were taken in; −1 before the first.
-
-        A recorder that joins late starts from where the host is: it is not behind by all that was before it came.
-        """
-        return self.applied.tick if self.applied is not None else self._joined_at_tick
-
-    def tick_at(self, sim_ns: int) -> int:
-        """The newest tick whose inputs were taken in and which had begun at this simulated time, in ns."""
-        applied = self.applied
-        if applied is None or applied.tick <= 0 or applied.time <= 0.0:
-            return self.tick
-        behind_s = applied.time - sim_ns * 1e-9
-        return applied.tick - max(0, round(behind_s * applied.tick / applied.time))
 
     @property
     def finished(self) -> bool:
@@ -92,11 +74,6 @@ class MatchProgress:
         event: GameEvent | None = self.read(received)
         if event is not None and event.kind is EventKind.GOAL:
             self.goals += 1
-
-    def _on_health(self, received: ReceivedMessage) -> None:
-        if self.applied is None and self._newest_applied is None and self._joined_at_tick < 0:
-            health: Health | None = self.read(received)
-            self._joined_at_tick = health.tick if health is not None else -1
 
 
 def _ignore_roster(robots: list[RosterEntry]) -> None:

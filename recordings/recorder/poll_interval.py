@@ -3,8 +3,8 @@
 A look brings a recorder's code back into caches that host and robots have used meanwhile.
 """
 
-_MAX_TICKS = 60
-"""Ticks that may come meanwhile; a lockstep host waits for a recorder that is four times as many behind."""
+from schemas.recovery_window import REST_TICKS
+
 _MAX_S = 0.2
 """Wall time of a rest when fewer come: progress is told, and the file written, at least so often."""
 
@@ -19,4 +19,4 @@ class PollInterval:
         """When to look again, wall time in s, after a look at `now` that found the match at this tick."""
         came, since = tick - self._tick, now - self._polled_at
         self._tick, self._polled_at = tick, now
-        return now + (min(_MAX_S, _MAX_TICKS * since / came) if came > 0 else _MAX_S)
+        return now + (min(_MAX_S, REST_TICKS * since / came) if came > 0 else _MAX_S)

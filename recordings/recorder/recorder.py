@@ -1,43 +1,40 @@
-"""The recorder: takes everything in that the topic table has recorded, in order and without loss, and writes it.
+"""The recorder: reads all that the topic table has recorded from the host's batches, in order, and writes it.
 
 Knows a bus and a file, no process: `recordings.recorder.record` gives it both.
 """
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
-from itertools import islice
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
-from recordings.container.header import make_attachments, make_manifest, timestamp
+from recordings.container.attachments import make_attachments
 from recordings.container.key_selection import EVERYTHING, KeySelection
-from recordings.container.manifest import EndReason, Manifest, Result
+from recordings.container.manifest import EndReason, Manifest, Result, make_manifest, timestamp
+from recordings.recorder.batch_reader import BatchReader
 from recordings.recorder.control_service import ControlService
-from recordings.recorder.host_watch import HostWatch
 from recordings.recorder.latched_messages import LoggedMessage
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.match_progress import MatchProgress
 from recordings.recorder.poll_interval import PollInterval
-from recordings.recorder.reorder_buffer import ReorderBuffer
-from recordings.recorder.reorder_window import ReorderWindow
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.sink import Sink
-from recordings.recorder.unbatch import unbatch
-from schemas.bus.contract import Bus, NoReplyError, PendingReply, ReceivedMessage
+from recordings.recorder.unbatch import Unbatcher
+from schemas.bus.contract import Bus, NoReplyError, PendingReply, PresenceKind
+from schemas.bus.host_watch import RECONNECT_S, HostWatch
 from schemas.config.match_config import MatchConfig
 from schemas.message import BadMessageError
 from schemas.messages.host import RecorderProgress, Setup, SetupRequest
+from schemas.messages.record_batch import Batch
 from schemas.process.idle_time import run_in_idle_time
-from schemas.topic import Delivery, Topic
-from schemas.topics import EVENT, RECORD_BATCH, RECORDER_PROGRESS, SETUP, SIGHT
+from schemas.recovery_window import REPORT_TICKS
+from schemas.topics import EVENT, RECORD_BATCH, RECORDER_PROGRESS, SETUP
 
-REPORT_TICKS = 25
-"""Ticks after which a lockstep host is told at once that they were taken in."""
 REPORT_S = 0.05
-"""Wall time after which progress is told in any case."""
+"""Wall time after which progress is reported in any case."""
 _CHECK_S = 0.05
-"""Wall time after which a recorder that rests hears that somebody asks something of it, or that the match is over."""
-_MAX_AT_ONCE = 10_000
-"""Messages of one topic taken in before the next one's turn."""
+"""Wall time after which a recorder that rests looks for questions, and for the end of the match."""
+_RECOVERS_S = 0.01
+"""Wall time between two looks while batches are missing."""
 _ASK_AGAIN_S = (0.1, 1.6)
 """Pause before the host is asked again: the first, and the longest it doubles to."""
 _SETUP_PATIENCE_S = 10.0
@@ -60,17 +57,6 @@ class RecordingSummary:
     """Of the last file, or of all that was seen where snapshots were taken."""
 
 
-def subscribed_topics(sights: bool) -> Iterator[Topic]:
-    """The rows that a recorder listens to: the host's record batches have everything but sights.
-
-    Sights, when asked for, all of them and not the newest alone; they can be fetched again where the match file has
-    them recorded.
-    """
-    yield RECORD_BATCH
-    if sights:
-        yield replace(SIGHT, delivery=Delivery.RECOVERED)
-
-
 class Recorder:
     """Records one match from a seat on its bus. Listens from the moment it is made."""
 
@@ -85,12 +71,15 @@ class Recorder:
         selection: KeySelection = EVERYTHING,
         config: MatchConfig | None = None,
     ) -> None:
-        """`loss_counts` is the one that `sink` keeps; keys that `selection` leaves out are heard and not written."""
+        """`loss_counts` is the one that `sink` keeps; keys that `selection` leaves out are read and not written."""
         self._bus, self._clock, self._sink, self._loss_counts = bus, bus.clock, sink, loss_counts
         self._name, self._sights, self._selection, self._config = name, sights, selection, config
-        self._topics = list(subscribed_topics(sights))
-        self._subscriptions = [bus.subscribe(topic) for topic in self._topics]
-        self._buffer = ReorderBuffer()
+        self._batches = BatchReader(bus)
+        self._unbatcher = Unbatcher(sights=sights)
+        self._waiting: list[LoggedMessage] = []
+        """Messages in order that are not written yet."""
+        self._tick = -1
+        """The newest tick that was read to its end."""
         self._wanted: dict[str, bool] = {}
         self._roster = RosterMetadata()
         self._setup: Setup | None = None
@@ -103,7 +92,6 @@ class Recorder:
         self._ask_pause = _ASK_AGAIN_S[0]
         self._progress = bus.publisher(RECORDER_PROGRESS, name=name)
         self._reported_tick, self._reported_at = -2, self._clock.now()
-        self._window = ReorderWindow(self._clock.now())
         self._poll_interval = PollInterval(self._clock.now())
         self._host = HostWatch(bus)
         self._control_service = ControlService(bus, name, sink)
@@ -114,7 +102,7 @@ class Recorder:
 
         def poll() -> bool:
             nonlocal stopped
-            if self._host.gone(finished=self._is_complete()):
+            if self._host_is_gone():
                 return True
             self.pump()
             stopped = self._sleep(should_stop)
@@ -125,13 +113,14 @@ class Recorder:
         return self.finish(stopped)
 
     def pump(self) -> int:
-        """Take in what has come, hand on what is in order, tell how far it is; returns how many messages came."""
+        """Read what has come, write it, report progress; returns how many messages came."""
         if not self._begun and not self._begin_when_known():
             self._report(idle=True)
             return 0
-        count = self._receive()
-        self._write_reordered(count)
-        self._control_service.answer_requests(self._messages, self._loss_counts, self._match.tick)
+        count = self._read(self._batches.read())
+        self._match.catch_up()
+        self._write()
+        self._control_service.answer_requests(self._messages, self._loss_counts, self._tick)
         self._report(idle=count == 0)
         return count
 
@@ -151,14 +140,15 @@ class Recorder:
                 break
             else:
                 self._clock.sleep_until(self._clock.now() + _CHECK_S)
-        for subscription in self._subscriptions:
-            subscription.skip_missing()
+        self._read(self._batches.skip_missing())
         self.pump()
 
     def _sleep(self, should_stop: Callable[[], bool]) -> bool:
         """Sleep until it is time to look again, or there is a reason to; returns whether the recorder is to stop."""
         now = self._clock.now()
-        until = self._poll_interval.next_poll(now, self._match.tick)
+        until = self._poll_interval.next_poll(now, self._tick)
+        if not self._batches.is_complete:
+            until = min(until, now + _RECOVERS_S)
         while True:
             self._clock.sleep_until(min(until, now + _CHECK_S))
             now = self._clock.now()
@@ -169,14 +159,14 @@ class Recorder:
     def _is_over(self) -> bool:
         """Whether the match is over: a host that ends waits until its recorders have everything."""
         if not self._match.finished:
-            self._receive_topic(self._topics.index(RECORD_BATCH))
+            self._read(self._batches.read())
         return self._match.finished
 
     def finish(self, stopped: bool = False) -> RecordingSummary:
-        """Write what is held, and the result; close the file."""
+        """Write what waits, and the result; close the file."""
         if not self._begun:
             self._begin(None)
-        self._write(self._buffer.release())
+        self._write()
         ended = self._ended(stopped)
         result = self._make_result(ended)
         size = self._sink.finish(ended)
@@ -188,82 +178,69 @@ class Recorder:
             return EndReason.FULL_TIME
         return EndReason.STOPPED if stopped else EndReason.HOST_GONE
 
+    def _host_is_gone(self) -> bool:
+        """Whether the host was there and will not come back; after a finished match its absence is its farewell."""
+        self._host.update()
+        if self._host.is_reachable():
+            return False
+        return self._is_complete() or self._host.unreachable_s() >= RECONNECT_S
+
     def _is_complete(self) -> bool:
-        """Whether the match is over and all that comes in every tick has come of it."""
-        return self._match.finished and self._buffer.complete_ns >= self._buffer.host_ns
+        """Whether the match is over and nothing is known to be missing of it."""
+        return self._match.finished and self._batches.is_complete
 
-    def _write_reordered(self, count: int) -> None:
-        """Give the writer what is in order; a goal is kept safe."""
-        self._window.update(self._clock.now(), linked=self._bus.connected(), received=count > 0)
-        batch = self._buffer.release(self._window.limit(self._buffer.complete_ns))
-        if batch or not self._buffer:
-            self._window.mark_written()
-        self._write(batch)
-        if self._match.goals > self._synced_goals and any(received.key == EVENT.key for _, received in batch):
-            self._synced_goals = self._match.goals
-            self._sink.sync()
+    def _read(self, batches: Iterable[Batch]) -> int:
+        """Take batches apart; returns how many messages wait to be written now, beside those that waited before."""
+        before = self._messages
+        for batch in batches:
+            self._tick = batch.tick
+            try:
+                logged = self._unbatcher.messages_of(batch)
+            except BadMessageError:
+                self._match.unreadable[RECORD_BATCH.key] += 1
+                continue
+            self._match.update(received for _, received in logged)
+            if self._selection:
+                logged = [one for one in logged if self._includes(one[1].key)]
+            self._waiting += logged
+            self._messages += len(logged)
+        return self._messages - before
 
-    def _write(self, batch: list[LoggedMessage]) -> None:
+    def _write(self) -> None:
+        """Give the output what waits; a goal is kept safe."""
+        batch, self._waiting = self._waiting, []
         if batch and self._control_service.paused:
             self._sink.skip(batch)
         elif batch:
             self._sink.write(batch)
+        if self._match.goals > self._synced_goals and any(received.key == EVENT.key for _, received in batch):
+            self._synced_goals = self._match.goals
+            self._sink.sync()
 
-    def _receive(self) -> int:
-        count = sum(map(self._receive_topic, range(len(self._topics))))
-        self._match.catch_up()
-        return count
-
-    def _receive_topic(self, index: int) -> int:
-        """Take in what waits of a topic, or all that record batches hold; returns how many messages that were."""
-        messages = list(islice(iter(self._subscriptions[index].receive, None), _MAX_AT_ONCE))
-        if not messages:
-            return 0
-        if self._topics[index] is RECORD_BATCH:
-            messages = [entry for received in messages for entry in self._unbatch(received)]
-            self._match.update(messages)
-        if self._selection:
-            messages = [received for received in messages if self._includes(received)]
-        self._buffer.add(messages)
-        self._messages += len(messages)
-        return len(messages)
-
-    def _includes(self, received: ReceivedMessage) -> bool:
-        """Whether a message is to be written; one that is not says how far the host is, and no more."""
-        key = received.key
+    def _includes(self, key: str) -> bool:
+        """Whether the messages of a key are to be written."""
         wanted = self._wanted.get(key)
         if wanted is None:
             wanted = self._wanted[key] = self._selection.includes(key)
-        if not wanted:
-            self._buffer.note_host_time(received)
         return wanted
 
-    def _unbatch(self, batch: ReceivedMessage) -> list[ReceivedMessage]:
-        try:
-            entries = unbatch(batch)
-        except BadMessageError:
-            self._match.unreadable[RECORD_BATCH.key] += 1
-            return []
-        self._buffer.advance(batch)
-        return entries
-
     def _report(self, idle: bool) -> None:
-        """Tell progress: after a number of ticks, after a while, and when the host seems to wait for it."""
+        """Report progress: after a number of ticks, after a while, and when the host seems to wait for it."""
         now = self._clock.now()
-        tick = self._match.tick_at(self._buffer.complete_ns)
-        new = tick - self._reported_tick
+        new = self._tick - self._reported_tick
         if new >= REPORT_TICKS or (idle and new > 0) or now - self._reported_at >= REPORT_S:
             self._send_progress()
-            self._reported_tick, self._reported_at = tick, now
+            self._reported_tick, self._reported_at = self._tick, now
 
     def _send_progress(self, *, leaving: bool = False) -> None:
         losses = self._loss_counts.losses
         self._progress.put(
             RecorderProgress(
-                tick=self._match.tick_at(self._buffer.complete_ns),
+                tick=self._tick,
                 messages=self._messages,
                 lost=sum(losses.values()),
                 losses=losses,
+                sights=self._sights,
                 paused=self._control_service.paused,
                 leaving=leaving,
             )
@@ -291,7 +268,9 @@ class Recorder:
         self._begun, self._setup, self._roster = True, setup, RosterMetadata(setup)
         self._match.on_roster_change(self._roster.update)
         self._sink.begin(self._make_header, self._make_result, self._roster)
-        self._bus.declare_alive("recorder", self._name)  # from now on a lockstep host waits for this recorder
+        self._bus.declare_alive(PresenceKind.RECORDER, self._name)  # a lockstep host waits for it from now on
+        if self._sights:
+            self._send_progress()  # from now on the host puts sights into its batches
 
     def _make_header(self) -> tuple[Manifest, dict[str, bytes]]:
         manifest = make_manifest(
@@ -316,6 +295,14 @@ class Recorder:
             clock=state.clock if state is not None else 0.0,
             tick=applied.tick if applied is not None else -1,
             time=applied.time if applied is not None else 0.0,
-            unreadable=dict(self._match.unreadable),
+            unreadable=self._unreadable(),
+            lost_batches=self._batches.lost,
         )
         return result.counted(self._loss_counts.for_this_file())
+
+    def _unreadable(self) -> dict[str, int]:
+        """Payloads that could not be read, by key."""
+        counts = self._match.unreadable.copy()
+        if self._batches.unreadable:
+            counts[RECORD_BATCH.key] += self._batches.unreadable
+        return dict(counts)

@@ -1,6 +1,6 @@
-"""Writes a recording: MCAP in zstd chunks, by a thread of its own, so that compressing and the disk hold nobody up.
+"""Writes a recording as MCAP in zstd chunks, in a thread, so that compression and the disk do not delay the recorder.
 
-The file is `*.mcap.part` until it is finished, and readable up to the last flush at any moment.
+The file is named `*.mcap.part` until it is finished. It can be read up to the last flush at any time.
 """
 
 import os
@@ -13,12 +13,13 @@ from threading import Thread
 
 from pydantic_core import to_json
 
+from recordings.container.attachments import MEDIA_TYPES
 from recordings.container.environment import library
-from recordings.container.header import MEDIA_TYPES
 from recordings.container.json_schema import flat_schema
-from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result, digest, to_metadata
+from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
 from recordings.container.mcap_writer import mcap_writer
 from recordings.container.partial_file import PartialFile
+from recordings.container.sealed_metadata import digest, to_metadata
 from recordings.recorder.latched_messages import LoggedMessage
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.viz.drawing import READS
@@ -31,30 +32,30 @@ from schemas.process.idle_time import run_in_idle_time, start_thread
 from schemas.topics import TOPICS, key_prefix
 
 FLUSH_S = 0.5
-"""Wall time after which what was handed over is in the file."""
+"""Wall time in s after which messages are in the file."""
 _BACKLOG = 64
-"""Batches that may wait for the thread; whoever hands over the next one waits."""
+"""Batches that may wait for the thread; adding another one blocks."""
 _SEQUENCES = 0xFFFF_FFFF
-"""MCAP counts in 32 bits."""
+"""MCAP has sequence numbers of 32 bits."""
 
 Batch = list[LoggedMessage]
 
 
 class RecordingWriter:
-    """One file that is being written. Any method may raise `TouchlineError` when the disk refuses."""
+    """One file that is being written. Any method may raise `TouchlineError` if the disk cannot be written."""
 
     def __init__(
         self, path: Path, clock: Clock, match: str, roster: RosterMetadata | None = None, *, viz: bool = True
     ) -> None:
-        """`roster` knows who the robots are that the keys name; with `viz`, what viewers draw is written, too.
+        """`roster` describes the robots in keys; with `viz`, the channels for viewers are written, too.
 
         Raises:
-            TouchlineError: another writes the file, or it cannot be written.
+            TouchlineError: another recorder writes the file, or it cannot be written.
         """
         self.path = path
         self._roster = roster or RosterMetadata()
         self.size = 0
-        """Bytes in the file so far; what waits for the thread or for its chunk to be full is not among them."""
+        """Bytes in the file so far, without messages that wait for the thread or for a full chunk."""
         self._clock = clock
         self._root = key_prefix(match)
         self._viz = viz
@@ -72,9 +73,9 @@ class RecordingWriter:
         self.begun = False
 
     def begin(self, manifest: Manifest, attachments: dict[str, bytes], latched: Batch | None = None) -> None:
-        """Write what stands before the first message; `attachments` are named with their suffix, `match.json`.
+        """Write manifest, attachments and latched messages; `attachments` have names with a suffix, `match.json`.
 
-        `latched` are messages that stood when this file began, and are in the files before it too.
+        `latched` are the latched messages at the beginning of this file, which are in the files before it, too.
         """
         self.begun = True
         self._flush_at = self._clock.now() + FLUSH_S
@@ -88,15 +89,15 @@ class RecordingWriter:
             self.write(latched)
 
     def write(self, batch: Batch) -> None:
-        """Hand over messages in the order they shall stand in; waits while the thread is far behind."""
+        """Add messages in the order of the file; blocks while the thread is far behind."""
         self._hand_over(partial(self._write_batch, batch))
 
     def sync(self) -> None:
-        """Have what was handed over on the disk soon, so that it survives a loss of power."""
+        """Flush the messages so far to the disk soon, so that they survive a loss of power."""
         self._hand_over(self._sync)
 
     def finish(self, result: Result) -> int:
-        """Write the result, close the file, give it its name, and return its size in bytes."""
+        """Write the result, close and rename the file, and return its size in bytes."""
         self._hand_over(partial(self._write_tail, to_metadata(result)))
         self._end()
         self._raise_error()
@@ -104,22 +105,22 @@ class RecordingWriter:
             self._partial_file.finish()
             return self.path.stat().st_size
         except OSError as error:
-            raise TouchlineError(f"{self.path}: {error.strerror}; {self.partial_path} has everything") from None
+            raise TouchlineError(f"{self.path}: {error.strerror}; {self.partial_path} is complete") from None
 
     def set_roster(self, roster: RosterMetadata) -> None:
-        """Who the robots are, before anything is written."""
+        """Set the roster, before `begin`."""
         self._roster = roster
 
     def discard(self) -> None:
-        """Leave no file; for one that was not begun, and not closed."""
+        """Remove the file; only for a file that was neither begun nor closed."""
         self._partial_file.discard()
 
     def abandon(self) -> None:
-        """Close the file as it is, `*.part`, with all that was handed over. Does nothing after `finish`."""
+        """Close the file as it is, `*.part`, with all messages so far. Has no effect after `finish`."""
         if self._thread.is_alive():
             self._jobs.put(self._sync)
             self._end()
-        with suppress(OSError):  # the disk has refused before, and that was raised
+        with suppress(OSError):  # an earlier error was raised
             self._partial_file.close()
 
     def _hand_over(self, job: Callable[[], None]) -> None:
@@ -137,9 +138,9 @@ class RecordingWriter:
             raise self._error
 
     def _do_job(self) -> bool:
-        """The thread's next job, or a flush when that is due; returns whether that was the last.
+        """Do the thread's next job, or a flush if that is due; returns whether the thread ends.
 
-        After an error jobs are taken and not done.
+        After an error, jobs are discarded.
         """
         try:
             job = self._jobs.get(timeout=max(0.01, self._flush_at - self._clock.now()))
@@ -153,7 +154,7 @@ class RecordingWriter:
             if self._clock.now() >= self._flush_at:
                 self._mcap.flush()  # type: ignore[no-untyped-call]
                 self._flush_at = self._clock.now() + FLUSH_S
-        except Exception as error:  # raised again in the thread that hands over
+        except Exception as error:  # raised again in the caller's thread
             self._error = error
         return False
 
@@ -217,4 +218,4 @@ class RecordingWriter:
 
 
 def _nothing() -> None:
-    """No job came in time."""
+    """Stands for a job when none arrived in time."""

@@ -1,10 +1,10 @@
-"""Losses, made visible: follows the sequence numbers of one key and counts what is missing, doubled or late."""
+"""Follows the sequence numbers of one key, and counts lost, duplicate and late messages."""
 
 from recordings.container.manifest import KeyCount
 from schemas.bus.contract import Stamp
 
 _REMEMBERED = 10_000
-"""Missing numbers of one key that are remembered, so that a late message is known from a doubled one."""
+"""Maximum number of missing sequence numbers kept to distinguish late messages from duplicates."""
 
 
 class SequenceTracker:
@@ -33,7 +33,7 @@ class SequenceTracker:
         self._missing: set[int] = set()
 
     def add(self, stamp: Stamp | None, size: int, left_out: bool = False) -> None:
-        """Count a message of `size` bytes that came with this stamp; `left_out`, it is not in the file."""
+        """Count a message of `size` bytes with this stamp; with `left_out`, it is not in the file."""
         if left_out:
             self.left_out += 1
         else:
@@ -53,7 +53,7 @@ class SequenceTracker:
             self._from_before(stamp)
 
     def count(self) -> KeyCount:
-        """The counts as they stand."""
+        """The current counts."""
         return KeyCount(**{name: getattr(self, name) for name in KeyCount.model_fields})
 
     def _expect_after(self, stamp: Stamp) -> None:
@@ -68,7 +68,7 @@ class SequenceTracker:
         self._expect_after(stamp)
 
     def _from_before(self, stamp: Stamp) -> None:
-        """A number that was passed already: sent anew by a writer that began again, late, or twice."""
+        """Count a number lower than expected: from a restarted sender, late, or a duplicate."""
         if stamp.sent_ns > self._sent_ns:
             self.restarts += 1
             self.missed_before_start += stamp.sequence

@@ -1,9 +1,9 @@
-"""Where a recorder's messages go: what every sink does, and one file or several that follow each other."""
+"""Sinks for a recorder's messages: the protocol, and a sink that writes one file or several in sequence."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, Self
 
 from recordings.container.manifest import EndReason, Manifest, Result
 from recordings.container.numbering import check_free, drop_oldest, numbered
@@ -11,7 +11,7 @@ from recordings.recorder.latched_messages import LatchedMessages, LoggedMessage
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.recording_writer import RecordingWriter
 from recordings.recorder.roster_metadata import RosterMetadata
-from schemas.errors import TouchlineError
+from schemas.config.settings import RecordOptions
 from schemas.process.clock import Clock
 
 MakeHeader = Callable[[], tuple[Manifest, dict[str, bytes]]]
@@ -33,14 +33,11 @@ class FileLimits:
     snapshot: float | None = None
     """Simulated s that are held in memory and written when there is a goal, or on request; nothing else is."""
 
-    def __post_init__(self) -> None:
-        """Check that the limits go together."""
-        if self.keep is not None and not self.is_split:
-            raise TouchlineError(
-                f"--keep {self.keep} is for many files; add --split-size, --split-duration or --snapshot"
-            )
-        if self.snapshot is not None and (self.size is not None or self.duration is not None):
-            raise TouchlineError("--snapshot writes files of its own; leave --split-size and --split-duration out")
+    @classmethod
+    def of(cls, options: RecordOptions) -> Self:
+        """The limits that a recorder was started with, where sizes are in MB."""
+        size = round(options.split_size * 1e6) if options.split_size is not None else None
+        return cls(size, options.split_duration, options.keep, options.snapshot)
 
     @property
     def is_split(self) -> bool:
@@ -52,42 +49,42 @@ ONE_FILE = FileLimits()
 
 
 class Sink(Protocol):
-    """Takes messages in their order. Any method may raise `TouchlineError` when the disk refuses."""
+    """Writes messages in order. Any method may raise `TouchlineError` if the disk cannot be written."""
 
     files: list[Path]
-    """Finished and kept, the oldest first."""
+    """Finished files that are kept, the oldest first."""
 
     @property
     def path(self) -> Path:
-        """Where it writes, or, with snapshots, wrote last."""
+        """The file that is being written, or the newest snapshot."""
 
     def begin(self, make_header: MakeHeader, make_result: MakeResult, roster: RosterMetadata) -> None:
-        """The match is known."""
+        """Begin to write, when the setup of the match is known."""
 
     def write(self, batch: list[LoggedMessage]) -> None:
-        """Messages in the order they shall stand in."""
+        """Write messages in the order of the file."""
 
     def skip(self, batch: list[LoggedMessage]) -> None:
-        """Messages that came while the recorder was paused; what stands after them is written when it goes on."""
+        """Skip messages received during a pause; changed latched messages are written when recording resumes."""
 
     def sync(self) -> None:
-        """Have all of it on the disk soon."""
+        """Flush to the disk soon."""
 
     def split(self) -> str:
-        """Go on in another file; why not, or nothing."""
+        """Continue in another file; returns why that is impossible, or an empty string."""
 
     def snapshot(self, why: str) -> str:
-        """Write what is held in memory; why not, or nothing."""
+        """Write the messages in memory; returns why that is impossible, or an empty string."""
 
     def finish(self, ended: EndReason) -> int:
-        """Finish; returns the bytes in all files that are kept."""
+        """Finish; returns the size of all files that are kept, in bytes."""
 
     def abandon(self) -> None:
-        """Leave a file that is not finished as it is."""
+        """Close an unfinished file as it is."""
 
 
 class FileSink:
-    """One file, or several, each whole in itself."""
+    """Writes one file, or several in sequence, each readable by itself."""
 
     def __init__(
         self,
@@ -99,10 +96,10 @@ class FileSink:
         *,
         viz: bool = True,
     ) -> None:
-        """Opens the first file; with `viz`, what viewers draw is written, too.
+        """Opens the first file; with `viz`, the channels for viewers are written, too.
 
         Raises:
-            TouchlineError: it cannot be written.
+            TouchlineError: the file cannot be written.
         """
         self._viz = viz
         self._base, self._clock, self._match, self._loss_counts, self._limits = path, clock, match, loss_counts, limits
@@ -120,7 +117,7 @@ class FileSink:
 
     @property
     def path(self) -> Path:
-        """The file that is being written, by the name it will have."""
+        """Final name of the file that is being written."""
         return self._writer.path
 
     def begin(self, make_header: MakeHeader, make_result: MakeResult, roster: RosterMetadata) -> None:
@@ -131,7 +128,7 @@ class FileSink:
         self._begin_file([])
 
     def write(self, batch: list[LoggedMessage]) -> None:
-        """Write, in as many files as the limits ask for."""
+        """Write messages, and begin new files at the limits."""
         if self._skipped_since_ns is not None:
             self._writer.write(self._latched.messages(since_ns=self._skipped_since_ns))
             self._skipped_since_ns = None
@@ -148,27 +145,27 @@ class FileSink:
         self._write_batch(batch[begin:])
 
     def skip(self, batch: list[LoggedMessage]) -> None:
-        """Follow what stands."""
+        """Follow the latched messages without writing."""
         if batch and self._skipped_since_ns is None:
             self._skipped_since_ns = batch[0][0]
         self._loss_counts.add(batch, left_out=True)
         self._latched.update(batch)
 
     def sync(self) -> None:
-        """Have all of it on the disk soon."""
+        """Flush to the disk soon."""
         self._writer.sync()
 
     def split(self) -> str:
-        """Go on in another file."""
+        """Continue in another file."""
         if not self._is_split:
             return "it writes one file; start it with --split-size or --split-duration"
         if self._first_ns is None:
-            return "its file is empty still"
+            return "its file is still empty"
         self._next(EndReason.SPLIT)
         return ""
 
     def snapshot(self, why: str) -> str:
-        """Everything is written anyway."""
+        """Not supported: all messages are written in any case."""
         del why
         return "it records all the time; start it with --snapshot SECONDS"
 
@@ -178,7 +175,7 @@ class FileSink:
         return sum(file.stat().st_size for file in self.files)
 
     def abandon(self) -> None:
-        """Leave the last file as it is."""
+        """Close the last file as it is."""
         self._writer.abandon()
 
     def _open(self) -> RecordingWriter:
@@ -197,7 +194,7 @@ class FileSink:
             self._writer.write(batch)
 
     def _is_full(self, log_ns: int) -> bool:
-        """Whether a message of this log time belongs into the next file; those of one tick stay together."""
+        """Whether a message with this log time begins the next file; messages of one tick stay together."""
         if self._first_ns is None or log_ns == self._last_ns:
             return False
         limits = self._limits

@@ -1,4 +1,4 @@
-"""Where a recorder's messages go when only the last seconds count: files of their own, each from a goal or a wish."""
+"""A sink that keeps the last seconds in memory, and writes them to a file at each goal or request."""
 
 from collections import deque
 from pathlib import Path
@@ -17,17 +17,17 @@ from schemas.topics import EVENT
 
 
 class SnapshotSink:
-    """Holds the last seconds in memory, and writes them to a file of their own at a goal, or on request."""
+    """Keeps the last seconds in memory, and writes them to a new file at a goal, or on request."""
 
     def __init__(
         self, path: Path, clock: Clock, match: str, loss_counts: LossCounts, limits: FileLimits, *, viz: bool = True
     ) -> None:
-        """Holds the name of the first snapshot, so that no other recorder takes it.
+        """Locks the name of the first snapshot against other recorders.
 
-        With `viz`, what viewers draw is written, too.
+        With `viz`, the channels for viewers are written, too.
 
         Raises:
-            TouchlineError: another recorder has it, or a file cannot be written there.
+            TouchlineError: another recorder has locked it, or the file cannot be written.
         """
         self._viz = viz
         assert limits.snapshot is not None
@@ -41,7 +41,7 @@ class SnapshotSink:
         self._horizon_ns = round(limits.snapshot * 1e9)
         self._held: deque[LoggedMessage] = deque()
         self._latched_before = LatchedMessages()
-        """What stood when the oldest message that is held came."""
+        """The latched messages before the oldest one in memory."""
         self._number = 0
         self.files: list[Path] = []
         check_free(path)
@@ -50,16 +50,16 @@ class SnapshotSink:
 
     @property
     def path(self) -> Path:
-        """The newest snapshot, or where the first one will be."""
+        """The newest snapshot, or the name of the first one."""
         return self.files[-1] if self.files else numbered(self._base, 1)
 
     def begin(self, make_header: MakeHeader, make_result: MakeResult, roster: RosterMetadata) -> None:
-        """Remember how to make a file."""
+        """Keep the functions that make manifests and results."""
         self._make_header, self._make_result, self._roster = make_header, make_result, roster
         self._next.set_roster(roster)
 
     def write(self, batch: list[LoggedMessage]) -> None:
-        """Hold messages, forget those that are too old, and write all when there was a goal."""
+        """Keep messages, drop those that are too old, and write all of them after a goal."""
         self._loss_counts.add(batch)
         self._held.extend(batch)
         if batch:
@@ -68,22 +68,22 @@ class SnapshotSink:
             self.snapshot("goal")
 
     def skip(self, batch: list[LoggedMessage]) -> None:
-        """Follow what stands: a pause is a hole in what is held, and what was before it is forgotten."""
+        """Follow the latched messages. A pause is a gap, so the messages before it are dropped."""
         self._loss_counts.add(batch, left_out=True)
         self._drop_older(None)
         self._latched_before.update(batch)
 
     def sync(self) -> None:
-        """Snapshots are on the disk when they are written."""
+        """Has no effect: finished snapshots are on the disk."""
 
     def split(self) -> str:
-        """There is no file to go on with."""
-        return "it writes snapshots; ask it for one"
+        """Not supported: there is no file to continue."""
+        return "it writes snapshots; request one instead"
 
     def snapshot(self, why: str) -> str:
-        """Write what is held."""
+        """Write the messages in memory."""
         if not self._held:
-            return "it holds nothing yet"
+            return "it has no messages yet"
         writer = self._next
         self._number += 1
         manifest, attachments = self._make_header()
@@ -100,13 +100,13 @@ class SnapshotSink:
         return ""
 
     def finish(self, ended: EndReason) -> int:
-        """What is held and nobody wanted is forgotten."""
+        """Drop the messages in memory."""
         del ended
         self._next.discard()
         return sum(file.stat().st_size for file in self.files)
 
     def abandon(self) -> None:
-        """Let go of the name of the next snapshot."""
+        """Unlock the name of the next snapshot."""
         if not self._next.begun:
             self._next.discard()
 
@@ -120,7 +120,7 @@ class SnapshotSink:
             self._latched_before.update([self._held.popleft()])
 
     def _result(self) -> Result:
-        """The result of these seconds alone."""
+        """The result with the counts of these seconds alone."""
         loss_counts = LossCounts()
         loss_counts.add(self._held)
         counts = {

@@ -1,14 +1,15 @@
-"""What was said in a match, out of the record batches of its host: each message as it came from its own sender."""
+"""The messages in a host's batches, each as it came from its own sender, with its log time."""
 
 from functools import lru_cache
 
+from recordings.recorder.latched_messages import LoggedMessage
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.message import BadMessageError
-from schemas.messages.record_batch import RawEntry, decode_batch
-from schemas.topic import Topic
-from schemas.topics import TOPICS
+from schemas.messages.record_batch import Batch, Entry
+from schemas.topic import Party, Topic
+from schemas.topics import SIGHT, TOPICS
 
-_RECORDED = tuple(topic for topic in TOPICS.values() if topic.recorded)
+_RECORDED = tuple(topic for topic in TOPICS.values() if topic.recorded or topic is SIGHT)
 
 
 @lru_cache(1024)
@@ -17,24 +18,42 @@ def _topic_of(key: str) -> Topic | None:
     return next((topic for topic in _RECORDED if topic.match(key) is not None), None)
 
 
-def unbatch(batch: ReceivedMessage) -> list[ReceivedMessage]:
-    """The messages that a record batch holds; keys of no recorded topic are passed over.
+class Unbatcher:
+    """Takes batches apart, one after the other.
 
-    Raises:
-        BadMessageError: it is no record batch.
+    The log time of a message is the host's simulated time when it published the message or took it in; it never runs
+    backward.
     """
-    messages = []
-    for entry in decode_batch(batch.payload):
-        key, sequence = entry.key, entry.sequence
-        topic = _topic_of(key)
-        if topic is not None:
+
+    def __init__(self, *, sights: bool = False) -> None:
+        """Without `sights`, those are passed over."""
+        self._sights = sights
+        self._log_ns = 0
+
+    def messages_of(self, batch: Batch) -> list[LoggedMessage]:
+        """The messages that a batch holds, in their order; keys of no recorded topic are passed over.
+
+        Raises:
+            BadMessageError: an entry cannot be read.
+        """
+        found = []
+        log_ns, sights = self._log_ns, self._sights
+        for entry in batch.entries:
+            key, number = entry.key, entry.sequence
+            topic = _topic_of(key)
+            if topic is None or (topic is SIGHT and not sights):
+                continue
+            moment = entry.sim_ns if topic.writer is Party.HOST else entry.arrived_sim_ns
+            if moment > log_ns:
+                log_ns = moment
             payload = bytes(entry.message) if entry.octets is None else _octets(entry)
-            stamp = Stamp(sequence, entry.sent_ns, entry.sim_ns) if sequence is not None else None
-            messages.append(ReceivedMessage(topic, key, payload, stamp, entry.arrived_ns))
-    return messages
+            stamp = Stamp(number, entry.sent_ns, entry.sim_ns) if number is not None else None
+            found.append((log_ns, ReceivedMessage(topic, key, payload, stamp, entry.arrived_ns)))
+        self._log_ns = log_ns
+        return found
 
 
-def _octets(entry: RawEntry) -> bytes:
+def _octets(entry: Entry) -> bytes:
     try:
         return entry.payload
     except ValueError as error:

@@ -1,1 +1,1 @@
-"""Recordings back onto the bus: a cursor that seeks, a player with its controls, and a host that speaks for it."""
+"""Replays recordings on the bus: a player with its controls, and a host that publishes its messages."""

@@ -1,4 +1,4 @@
-"""The host of a replay: says what a recording has, on its keys and in its order, and answers who asks."""
+"""The host of a replay: publishes the messages of a recording on their keys, in order, and answers queries."""
 
 import math
 from collections.abc import Callable
@@ -8,23 +8,22 @@ from recordings.reading.recording import RecordedMessage
 from recordings.replay.listeners import Listeners
 from recordings.replay.player import Player
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Server, Stamp
+from schemas.bus.contract import Bus, PresenceKind, Publisher, ReceivedMessage, Server, Stamp
 from schemas.config.scene import SceneReply
 from schemas.game import ActionReply
-from schemas.message import BadMessageError, Message
+from schemas.message import VERSION, BadMessageError, Message
 from schemas.messages.host import Setup
 from schemas.messages.parameters import ParametersReply
 from schemas.messages.replay import ReplayReply, ReplayRequest
+from schemas.recovery_window import PARTING_S
 from schemas.topic import Party, Topic
 from schemas.topics import ACTION, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
 
 _REPEAT_S = 1.0
-"""Wall time after which a replay that stands still says again how things stand: who has come since must know."""
+"""Wall time in s after which a paused replay publishes the latched messages again, for new listeners."""
 _SLEEP_S = 0.02
-"""Longest wall time between two looks for questions."""
+"""Maximum wall time in s between two checks for queries."""
 _MIN_SLEEP_S = 0.001
-_RECORDER_PATIENCE_S = 5.0
-"""Wall time that recorders are given at the end to take in the last message."""
 _UNCHANGEABLE = "this is a replay: what is recorded cannot be changed"
 
 _REFUSALS: dict[Topic, Callable[[], Message]] = {
@@ -32,17 +31,17 @@ _REFUSALS: dict[Topic, Callable[[], Message]] = {
     PARAMETERS: lambda: ParametersReply(accepted=False, reason=_UNCHANGEABLE),
     SCENE: lambda: SceneReply(accepted=False, reason=_UNCHANGEABLE, episode=1),
 }
-"""What a live host would be asked, and what a replay answers."""
+"""Queries that change a match, and the refusal that a replay replies with."""
 
 
 class ReplayHost:
-    """Stands in for the host of a match that was recorded."""
+    """Takes the place of the host of a recorded match."""
 
     def __init__(self, bus: Bus, setup: Setup | None, make_player: Callable[..., Player]) -> None:
-        """`make_player` is given `publish` and `can_publish`; `setup` is the recorded one, None where there is none."""
+        """`make_player` is called with `publish` and `can_publish`; `setup` is the recorded setup, or None."""
         self._bus = bus
         self._clock = bus.clock
-        self._setup = setup.model_copy(update={"match": bus.match}) if setup is not None else None
+        self._setup = setup.model_copy(update={"match": bus.match, "version": VERSION}) if setup is not None else None
         self._publishers: dict[str, Publisher | None] = {}
         self._setups, self._controls = bus.serve(SETUP), bus.serve(REPLAY_CONTROL)
         self._refused: list[tuple[Server, Callable[[], Message]]] = [
@@ -53,13 +52,13 @@ class ReplayHost:
         self._listeners = Listeners(bus, self._tick_ns)
         self.player = make_player(publish=self._publish, can_publish=self._listeners.can_publish)
         self.unknown_keys = 0
-        """Messages on keys that no topic has; left out."""
+        """Messages left out because their keys match no topic."""
         self._published_at = -math.inf
-        bus.declare_alive("host", "host")
-        bus.declare_alive("replay", "replay")
+        bus.declare_alive(PresenceKind.HOST, "host")
+        bus.declare_alive(PresenceKind.REPLAY, "replay")
 
     def run(self, meanwhile: Callable[[Player], Any] = lambda _: None) -> None:
-        """Replay to the end; `meanwhile` is done again and again, some fifty times in a second of wall time.
+        """Replay to the end. `meanwhile` is called about fifty times per second of wall time.
 
         Raises:
             TouchlineError: the recording is damaged inside.
@@ -73,7 +72,7 @@ class ReplayHost:
         self.wait_for_recorders()
 
     def pump(self) -> int:
-        """Answer who asks, say what is due; returns how many messages were said."""
+        """Answer queries and publish due messages; returns the number of messages published."""
         self._answer()
         has_newcomers = self._listeners.update()
         published = self.player.pump()
@@ -87,14 +86,14 @@ class ReplayHost:
         return published
 
     def _may_repeat(self) -> bool:
-        """A recorder would have it twice; and before the first message is played nothing stands yet."""
+        """Whether latched messages may be published again; a recorder would record them twice."""
         return self.player.paused and self.player.published > 0 and not self._listeners.recorders
 
     def wait_for_recorders(self) -> None:
-        """Give the recorders time to take in the last message."""
+        """Give recorders time to receive the last messages."""
         self._batches.end_tick(self._tick())
         self._batches.send()
-        deadline = self._clock.now() + _RECORDER_PATIENCE_S
+        deadline = self._clock.now() + PARTING_S
         while self._listeners.any_behind() and self._clock.now() < deadline:
             self._clock.sleep_until(self._clock.now() + _SLEEP_S)
             self._answer()
@@ -111,29 +110,32 @@ class ReplayHost:
         if publisher is None:
             self.unknown_keys += 1
         else:
-            stamp = publisher.put_payload(recorded.payload)
+            payload = recorded.current_payload()
+            stamp = publisher.put_payload(payload)
             if recorded.topic.writer is not Party.HOST:
                 stamp = Stamp(stamp.sequence, recorded.sent_ns, recorded.log_ns)
-                self._batches.add_received(ReceivedMessage(recorded.topic, recorded.key, recorded.payload, stamp))
+                self._batches.add_received(ReceivedMessage(recorded.topic, recorded.key, payload, stamp))
             self._listeners.note_published(recorded)
 
     def _tick(self) -> int:
-        """The tick that is said."""
+        """The tick that is being published."""
         return round(max(0, self._clock.sim_ns) / self._tick_ns)
 
     def _open_publisher(self, recorded: RecordedMessage) -> Publisher | None:
         chunks = recorded.topic.match(recorded.key)
         if chunks is None:
             return None
-        seat = self._batches if recorded.topic.writer is Party.HOST else self._bus
-        return seat.publisher(recorded.topic, **chunks)
+        if recorded.topic.writer is Party.HOST:
+            return self._batches.publisher(recorded.topic, recorded=True, **chunks)
+        return self._bus.publisher(recorded.topic, **chunks)
 
     def _answer(self) -> None:
+        self._batches.process()
         while (query := self._setups.receive()) is not None:
             if self._setup is not None:
                 query.reply(self._setup)
             else:
-                query.fail("the recording does not say how its match was set up")
+                query.fail("the recording has no setup")
         while (query := self._controls.receive()) is not None:
             try:
                 request: ReplayRequest = query.message()

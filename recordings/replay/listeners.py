@@ -1,32 +1,32 @@
-"""Who listens to a replay: recorders, which it does not run away from, and others, whom it tells how things stand."""
+"""The listeners of a replay: recorders, which limit its speed, and others, which need the latched messages."""
 
 from recordings.reading.recording import RecordedMessage
-from schemas.bus.contract import Bus
+from schemas.bus.contract import Bus, PresenceKind
 from schemas.message import BadMessageError
+from schemas.recovery_window import RUN_AHEAD_TICKS
 from schemas.topics import APPLIED, RECORDER_PROGRESS
 
-WINDOW = 250
-"""Ticks that a recorder may be behind: well within what a writer keeps for recovery."""
+_HOSTS = (PresenceKind.HOST, PresenceKind.REPLAY)
 _PATIENCE_S = 1.0
-"""Wall time that a recorder is waited for without word of it; then it is left behind."""
+"""Wall time in s without progress of a recorder after which the replay no longer waits for it."""
 
 
 class _Recorder:
-    """One recorder: how far it has come, and what it was told."""
+    """Progress of one recorder."""
 
     def __init__(self, now: float) -> None:
         self.tick = -1
         self.confirmed_at = now
         self.is_given_up = False
         self.unconfirmed: list[int] = []
-        """Ticks that it was told and has not confirmed."""
+        """Published ticks that it has not confirmed."""
 
 
 class Listeners:
-    """Everybody who came to listen, by token."""
+    """Follows the listeners by their liveliness tokens."""
 
     def __init__(self, bus: Bus, tick_ns: float) -> None:
-        """`tick_ns` is the control tick in ns."""
+        """`tick_ns` is the duration of a tick in ns."""
         self._clock = bus.clock
         self._tick_ns = tick_ns
         self._watch = bus.watch_alive()
@@ -34,13 +34,13 @@ class Listeners:
         self.recorders: dict[str, _Recorder] = {}
 
     def update(self) -> bool:
-        """Take in who came and went, and how far recorders are; whether anybody came."""
+        """Receive arrivals, departures and progress of recorders; returns whether a listener arrived."""
         came = False
         while (presence := self._watch.receive()) is not None:
-            came = came or (presence.alive and presence.kind not in ("host", "replay"))
-            if presence.kind == "recorder" and presence.alive:
+            came = came or (presence.alive and presence.kind not in _HOSTS)
+            if presence.kind is PresenceKind.RECORDER and presence.alive:
                 self.recorders[presence.name] = _Recorder(self._clock.now())
-            elif presence.kind == "recorder":
+            elif presence.kind is PresenceKind.RECORDER:
                 self.recorders.pop(presence.name, None)
         while (received := self._progress.receive()) is not None:
             recorder = self.recorders.get(received.chunks["name"])
@@ -48,11 +48,11 @@ class Listeners:
                 try:
                     self._confirm(recorder, received.message().tick)
                 except BadMessageError:
-                    continue  # it counts as silence
+                    continue  # counts as no progress
         return came
 
     def note_published(self, recorded: RecordedMessage) -> None:
-        """A message was said; the inputs of a tick are what recorders confirm."""
+        """Note a published message; recorders confirm ticks by their `host/applied`."""
         if recorded.topic is APPLIED and self.recorders:
             tick = round(recorded.log_ns / self._tick_ns)
             for recorder in [one for one in self.recorders.values() if not one.is_given_up]:
@@ -61,15 +61,17 @@ class Listeners:
                 recorder.unconfirmed.append(tick)
 
     def can_publish(self) -> bool:
-        """Whether another tick may be said, without running away from a recorder that is still heard of."""
-        late = [recorder for recorder in self.recorders.values() if len(recorder.unconfirmed) > WINDOW]
+        """Whether another tick may be published; False while a recorder is too far behind."""
+        late = [recorder for recorder in self.recorders.values() if len(recorder.unconfirmed) > RUN_AHEAD_TICKS]
         if not late:
             return True
         self.update()
-        return not any(len(recorder.unconfirmed) > WINDOW and self._is_waited_for(recorder) for recorder in late)
+        return not any(
+            len(recorder.unconfirmed) > RUN_AHEAD_TICKS and self._is_waited_for(recorder) for recorder in late
+        )
 
     def any_behind(self) -> bool:
-        """Whether a recorder that is still heard of has not confirmed everything."""
+        """Whether a recorder that makes progress has ticks to confirm."""
         return any(recorder.unconfirmed and self._is_waited_for(recorder) for recorder in self.recorders.values())
 
     def _confirm(self, recorder: _Recorder, tick: int) -> None:

@@ -1,6 +1,6 @@
-"""A live view for Foxglove and Lichtblick: what a replay says, and what viewers draw of it, over a WebSocket.
+"""A live view for Foxglove and Lichtblick: the messages of a replay, and their drawing, over a WebSocket.
 
-The only door to foxglove-sdk. Its server has threads of its own; what they hear waits in queues until `update`.
+The only module that uses foxglove-sdk. Its server has threads of its own; their requests are queued until `update`.
 """
 
 import importlib.util
@@ -24,30 +24,30 @@ if TYPE_CHECKING:
     from foxglove.websocket import PlaybackControlRequest, ServerListener
 
 DEFAULT_PORT = 8765
-"""Where Foxglove and Lichtblick look unless they are told otherwise."""
+"""Default port of Foxglove and Lichtblick."""
 _LOOPBACK = "127.0.0.1"
 _MAX_SPEED = 1000.0
-"""The speed that is told for `as fast as possible`, which viewers have no word for."""
+"""Speed that is reported for `as fast as possible`, which viewers do not support."""
 
 
 def need_foxglove() -> None:
-    """Make sure that the server is there.
+    """Make sure that foxglove-sdk is installed.
 
     Raises:
-        TouchlineError: with the line that brings it.
+        TouchlineError: it is not; the error has the command that installs it.
     """
     if importlib.util.find_spec("foxglove") is None:
-        raise TouchlineError("--foxglove needs foxglove-sdk, which is not installed; pip install 'touchline[viz]'")
+        raise TouchlineError("--foxglove requires foxglove-sdk, which is not installed; pip install 'touchline[viz]'")
 
 
 class LiveView:
-    """A server that viewers connect to, on this machine alone. They may play, pause, wind and change the rate."""
+    """A server for viewers on this machine. They may play, pause, seek and change the rate."""
 
     def __init__(self, name: str, setup: Setup | None, extent_ns: tuple[int, int] | None, port: int) -> None:
-        """`extent_ns` is what of simulated time can be wound to; nothing where that grows. Port 0 takes a free one.
+        """`extent_ns` is the range for seeking in simulated time; None if it grows. Port 0 selects a free port.
 
         Raises:
-            TouchlineError: the server is not installed, or the port is taken.
+            TouchlineError: foxglove-sdk is not installed, or the port is in use.
         """
         need_foxglove()
         import foxglove
@@ -80,24 +80,25 @@ class LiveView:
 
     @property
     def address(self) -> str:
-        """What viewers are told to open."""
+        """URL for viewers to open."""
         return f"ws://{_LOOPBACK}:{self._server.port}"
 
     def publish(self, recorded: RecordedMessage) -> None:
-        """The replay says this."""
+        """Send a message that the replay publishes, and its drawing."""
         if recorded.topic is WORLD:
             if recorded.log_ns < self._world_ns:
                 self._restart_session()
             self._world_ns = recorded.log_ns
         if recorded.key not in self._channels:
             self._open(recorded.key, "json", self._schema_of(recorded))
-        self._send(recorded.key, recorded.payload, recorded.log_ns)
+        received = recorded.received()
+        self._send(recorded.key, received.payload, recorded.log_ns)
         if self._drawing is not None:
-            for topic, payload in self._drawing.draw(recorded.received(), recorded.log_ns):
+            for topic, payload in self._drawing.draw(received, recorded.log_ns):
                 self._send(topic, payload, recorded.log_ns)
 
     def update(self, player: Player) -> None:
-        """Do what viewers wish, give newcomers what was said last, and tell everybody the time."""
+        """Apply the requests of viewers, send the newest messages to new ones, and broadcast the time."""
         while not self._new_subscriptions.empty():
             topic = self._new_subscriptions.get()
             self._announced = None
@@ -136,7 +137,7 @@ class LiveView:
             channel.log(payload, log_time=log_ns)
 
     def _restart_session(self) -> None:
-        """It was wound back: viewers forget what they have, and what is drawn is drawn from here."""
+        """After a seek back in time: make viewers discard their data, and start a new drawing."""
         self._newest.clear()
         self._server.clear_session()
         if self._setup is not None:
@@ -156,7 +157,7 @@ class LiveView:
         self._announce(player, request.request_id, did_seek=request.seek_time is not None)
 
     def _announce(self, player: Player, request_id: str | None = None, *, did_seek: bool = False) -> None:
-        """How the replay stands, where that has changed."""
+        """Broadcast the playback state if it has changed."""
         from foxglove.websocket import PlaybackState, PlaybackStatus
 
         speed = _speed(player.status())
@@ -179,19 +180,19 @@ def _speed(status: ReplayReply) -> float:
 def _listener(
     requests: "SimpleQueue[PlaybackControlRequest]", new_subscriptions: "SimpleQueue[str]"
 ) -> "ServerListener":
-    """What the server's threads call."""
+    """The listener that the threads of the server call."""
     from foxglove.websocket import ChannelView, Client, ServerListener
 
     class Listener(ServerListener):
-        """Notes what it hears."""
+        """Queues subscriptions and requests."""
 
         def on_subscribe(self, client: Client, channel: ChannelView) -> None:
-            """A viewer wants to see this."""
+            """A viewer subscribed to a channel."""
             del client
             new_subscriptions.put(channel.topic)
 
         def on_playback_control_request(self, playback_control_request: "PlaybackControlRequest") -> None:
-            """A viewer wants something else; it is told when that is done."""
+            """A viewer requested a change of playback; the reply follows when it is done."""
             requests.put(playback_control_request)
 
     return Listener()

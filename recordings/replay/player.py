@@ -1,7 +1,7 @@
-"""The player: a pure core over messages, clock and controls. It publishes recorded messages when they are due.
+"""The player publishes recorded messages when they are due, and implements the controls of a replay.
 
-At any rate the order is that of the recording. It knows neither bus nor file: its owner gives it a cursor to read
-from and a function that publishes.
+At any rate, messages are published in recorded order. The player uses neither bus nor files: it is given a cursor to
+read from and a function that publishes.
 """
 
 import math
@@ -22,29 +22,29 @@ from schemas.topics import ACTIVE_ORDER, APPLIED, BELIEF, COMMAND, HEALTH, ORDER
 LATCHED_TOPICS = frozenset(
     topic.key for topic in (WORLD, STATE, APPLIED, HEALTH, COMMAND, SIGHT, BELIEF, ORDER, ACTIVE_ORDER)
 )
-"""Topics whose newest message says how things stand; events and complaints have happened, and do not stand."""
+"""Topics whose newest message is the current state; all but events and reports of invalid messages."""
 _MAX_AT_ONCE = 500
-"""Messages after which controls are looked at again."""
+"""Maximum number of messages between two checks of the controls."""
 _CHECK_S = 0.1
-"""Wall time between two looks for what a recorder has added."""
+"""Wall time in s between two checks for data that a recorder has added."""
 
 
 @dataclass(frozen=True, slots=True)
 class PlaybackRange:
-    """What of a recording is played; simulated time in ns."""
+    """The part of a recording that is played; simulated time in ns."""
 
     start_ns: int
     end_ns: int | None = None
-    """Up to and with this; to the end of the recording when not given."""
+    """End of the range, inclusive; None for the end of the recording."""
 
 
 def is_latched(topic: Topic) -> bool:
-    """Whether the newest message of this topic says how things stand."""
+    """Whether the newest message of this topic is the current state."""
     return topic.key in LATCHED_TOPICS
 
 
 class Player:
-    """Plays what a cursor reads."""
+    """Plays the messages that a cursor reads."""
 
     def __init__(
         self,
@@ -62,11 +62,11 @@ class Player:
         events: Callable[[], list[GameEvent]] = list,
         can_publish: Callable[[], bool] = lambda: True,
     ) -> None:
-        """Stand at the beginning of `span`, with nothing said yet.
+        """Start at the beginning of `span`.
 
-        `stay` pauses at the end instead of ending, `follow` waits there for what a recorder adds. `time_of` gives the
-        simulated time in s that words name, `events` all that happens in the recording. Nothing of a new tick is said
-        before there is room for it, as `can_publish` says.
+        `stay` pauses at the end instead of ending; `follow` waits there for data that a recorder adds. `time_of`
+        converts a seek target to simulated time in s, `events` returns all events of the recording. A new tick is
+        published only when `can_publish` allows it.
         """
         self._cursor, self._clock, self._publish = cursor, clock, publish
         self._span = span or PlaybackRange(cursor.start_ns)
@@ -81,12 +81,12 @@ class Player:
         self._published = 0
         self._has_begun = self._is_at_start = False
         self.ended = False
-        """Nothing more will be said."""
+        """Whether the replay has ended."""
         self._seek_to(self._span.start_ns)
 
     @property
     def position_ns(self) -> int:
-        """Where it is, ns of simulated time."""
+        """Current position, in ns of simulated time."""
         if self.paused or math.isinf(self._playback.rate):
             return self._position_ns
         message = self._next()
@@ -95,22 +95,22 @@ class Player:
 
     @property
     def end_ns(self) -> int:
-        """Where it ends, or how far it can be played by now, ns of simulated time."""
+        """End of the range, or of what has been recorded so far, in ns of simulated time."""
         end_ns = self._span.end_ns
         return self._cursor.end_ns if end_ns is None else min(end_ns, self._cursor.end_ns)
 
     @property
     def paused(self) -> bool:
-        """It stands still."""
+        """Whether the replay is paused."""
         return self._playback.paused
 
     @property
     def published(self) -> int:
-        """Messages said so far."""
+        """Messages published so far."""
         return self._published
 
     def pump(self) -> int:
-        """Say what is due; returns how many messages that were.
+        """Publish due messages; returns their number.
 
         Raises:
             TouchlineError: the recording is damaged there.
@@ -134,20 +134,20 @@ class Player:
         return self._published - before
 
     def wait(self) -> float:
-        """Wall time in s until something is due; for ever while it stands still."""
+        """Wall time in s until a message is due; infinite while paused."""
         if self._steps or self.ended:
             return 0.0
         message = self._next()
         return _CHECK_S if message is None else self._playback.wait(message.log_ns, self._clock.now())
 
     def republish_latched(self) -> None:
-        """Say again how things stand, for those who came late."""
+        """Publish the latched messages again, for listeners that arrived later."""
         for message in self._latched.values():
             if is_latched(message.topic):
                 self._emit(message)
 
     def control(self, request: ReplayRequest) -> ReplayReply:
-        """Do what is asked, or say why not."""
+        """Carry out a request, or return the reason for its refusal."""
         try:
             _ACTIONS[request.operation](self, request)
         except TouchlineError as error:
@@ -156,7 +156,7 @@ class Player:
         return self.status().model_copy(update={"events": events})
 
     def status(self, *, accepted: bool = True, reason: str = "") -> ReplayReply:
-        """How it stands."""
+        """The state of the replay, as a reply."""
         rate = self._playback.rate
         return ReplayReply(
             accepted=accepted,
@@ -175,12 +175,12 @@ class Player:
         self._published += 1
 
     def _next(self) -> RecordedMessage | None:
-        """The message that comes next; nothing at the end of what is played."""
+        """The next message; None at the end of the range."""
         message, end_ns = self._cursor.peek(), self._span.end_ns
         return message if message is not None and (end_ns is None or message.log_ns <= end_ns) else None
 
     def _open(self, ns: int) -> bool:
-        """Whether messages of this simulated time may be said now; those of one tick are said together."""
+        """Begin to publish the messages of this simulated time if they are due; returns whether they are."""
         if not self._steps and (self.paused or ns > self._playback.due_ns(self._clock.now())):
             return False
         if not self._can_publish():
@@ -190,7 +190,7 @@ class Player:
         return True
 
     def _at_end(self) -> None:
-        """Wait for more, begin again, stay, or end."""
+        """At the end of the range: wait for more data, start again, pause, or end."""
         self._steps = 0
         now = self._clock.now()
         if self._follow and not self._cursor.finished and self._cursor.peek() is None:
@@ -208,7 +208,7 @@ class Player:
             self.ended = True
 
     def _seek_to(self, ns: int) -> None:
-        """Stand before the first message at this simulated time or later, and know how things stand there."""
+        """Move to the first message at this simulated time or later, and read the latched messages there."""
         self._cursor.seek(ns)
         self._latched = {message.key: message for message in self._cursor.latched(ns + 1, is_latched)}
         self._position_ns, self._open_ns, self._steps = ns, None, 0
@@ -216,7 +216,7 @@ class Player:
         self._is_at_start = ns == self._span.start_ns
 
     def _jump_to(self, ns: int) -> None:
-        """Go on from there; everybody is told how things stand there."""
+        """Continue from this simulated time, and publish the latched messages there."""
         self._seek_to(ns)
         self.republish_latched()
 
@@ -240,7 +240,7 @@ class Player:
 
     def _seek(self, request: ReplayRequest) -> None:
         if (request.to is None) == (request.by is None):
-            raise TouchlineError("seek needs one of to and by: where to, or how far from here")
+            raise TouchlineError("seek requires either to, a target, or by, a distance in seconds")
         if request.to is not None:
             ns = round(self._time_of(request.to) * 1e9)
         else:
@@ -260,7 +260,7 @@ class Player:
         self.ended = True
 
     def _do_nothing(self, request: ReplayRequest) -> None:
-        """Nothing is to be done."""
+        """The reply is the same for all requests."""
 
 
 _ACTIONS: dict[ReplayOperation, Callable[[Player, ReplayRequest], None]] = {
@@ -274,4 +274,4 @@ _ACTIONS: dict[ReplayOperation, Callable[[Player, ReplayRequest], None]] = {
     ReplayOperation.LOOP: Player._switch_loop,
     ReplayOperation.LEAVE: Player._leave,
 }
-"""Deed → what the player does."""
+"""Operation → method of the player."""

@@ -1,4 +1,4 @@
-"""What a replay can seek to, in words: seconds of simulated time, or an event, `goal:2`, `kick_off:1-5`."""
+"""Targets that a replay can seek to: seconds of simulated time, or an event, `goal:2`, `kick_off:1-5`."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -14,16 +14,16 @@ _EVENT = re.compile(r"([a-z][a-z_]*)(?::(-?\d+))?([+-]\d+(?:\.\d+)?)?")
 
 
 class SeekTarget(NamedTuple):
-    """Something that can be gone to."""
+    """An event or a phase to seek to."""
 
     time: float
-    """s of simulated time."""
+    """Simulated time in s."""
     name: str
     """The kind of the event, or the phase that begins."""
 
 
 def seek_targets_of(*recordings: Recording) -> list[SeekTarget]:
-    """Every event, and every phase that begins and is no event itself, in order; of files that follow each other.
+    """All events, and the beginnings of phases that are not events, by time; of the files of one recording.
 
     Raises:
         TouchlineError: the file is damaged inside.
@@ -37,7 +37,7 @@ def _events(recordings: Sequence[Recording]) -> Iterator[SeekTarget]:
 
 
 def _phases(recordings: Sequence[Recording]) -> Iterator[SeekTarget]:
-    """What a file repeats at its beginning is the phase that the file before it ended in."""
+    """Beginnings of phases; the latched state at the beginning of a file is the phase of the file before."""
     phase: Phase | None = None
     kinds = {kind.value for kind in EventKind}
     for recorded, state in chain.from_iterable(recording.decoded(STATE.key) for recording in recordings):
@@ -46,29 +46,29 @@ def _phases(recordings: Sequence[Recording]) -> Iterator[SeekTarget]:
         phase = state.phase
 
 
-def time_of(words: str, targets: list[SeekTarget]) -> float:
-    """The simulated time in s that words name: a number, or `NAME:COUNT±SECONDS`, of which the name is enough.
+def time_of(text: str, targets: list[SeekTarget]) -> float:
+    """The simulated time in s of a target: a number, or `NAME[:COUNT][±SECONDS]`.
 
     `goal:2` is the second goal, `goal:-1` the last, `goal:2-5` five seconds before the second.
 
     Raises:
-        TouchlineError: no number and no event, or an event that did not happen, or not so often.
+        TouchlineError: neither a number nor an event, or an event that did not happen that often.
     """
     try:
-        return float(words)
+        return float(text)
     except ValueError:
-        found = _EVENT.fullmatch(words.strip())
+        found = _EVENT.fullmatch(text.strip())
     names = [*EventKind, *Phase]
     if found is None:
-        raise TouchlineError(f'"{words}" is no moment; give seconds, or an event as in goal:2 or kick_off:1-5')
+        raise TouchlineError(
+            f'"{text}" is no time and no event; give seconds, or an event as in goal:2 or kick_off:1-5'
+        )
     name, number, shift = found[1], int(found[2] or 1), float(found[3] or 0.0)
     if name not in names:
-        raise TouchlineError(f'"{words}" names no event; {did_you_mean(name, names)}')
+        raise TouchlineError(f'"{text}" is not an event; {did_you_mean(name, names)}')
     times = [target.time for target in targets if target.name == name]
     if number == 0 or abs(number) > len(times):
         happened = {target.name: None for target in targets}
         count = f"{name} happened {len(times)} times" if times else f"there is no {name}"
-        raise TouchlineError(
-            f'"{words}" is not in this recording: {count}; it has {", ".join(happened) or "no events"}'
-        )
+        raise TouchlineError(f'"{text}" is not in this recording: {count}; it has {", ".join(happened) or "no events"}')
     return times[number - 1 if number > 0 else number] + shift

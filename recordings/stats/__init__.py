@@ -1,5 +1,5 @@
-"""A match in figures, from what its recording holds: numbers for people and programs, and a page to look at.
+"""Statistics of a match, from its recording: figures for people and programs, and a page for the browser.
 
-Pure: ticks in, figures out. `match_tick` joins the messages of one tick, each figure is a file that is updated tick by
-tick, `match_statistics` updates all of them in one reading. `docs/recordings.md` defines each figure.
+Without side effects: `match_tick` joins the messages of one tick, each figure has a module with a class that is updated
+tick by tick, `match_statistics` updates all of them in one pass. `docs/recordings.md` defines each figure.
 """

@@ -1,4 +1,4 @@
-"""Where a kicked ball is going: into a goal, past it, or elsewhere."""
+"""Classifies the direction of a kicked ball: at the goal, past it, or elsewhere."""
 
 import math
 from enum import Enum, auto
@@ -9,11 +9,11 @@ from schemas.messages.world import BallTruth
 GRAVITY = 9.81
 """m/s²."""
 NEAR_MISS_M = 1.0
-"""m; ours: a ball that would pass a post at no more than this, or fly over the bar, was meant for the goal."""
+"""m beside a post up to which a kick counts as aimed at the goal, as does one over the bar. Chosen here."""
 
 
 class Aim(Enum):
-    """Of one kick."""
+    """Direction of one kick."""
 
     AT_GOAL = auto()
     """Between the posts and below the bar."""
@@ -23,10 +23,10 @@ class Aim(Enum):
 
 
 def aim(ball: BallTruth, attack: int, setup: Setup) -> Aim:
-    """Where the ball meets the goal line that is attacked (`attack` is the sign of its x), if it rolls or flies freely.
+    """Where the ball crosses the attacked goal line (`attack` is the sign of its x) if it rolls or flies freely.
 
-    Straight over the ground, slowed by the ground alone: one that would come to rest before the line is aimed
-    elsewhere. Until it lands a ball follows its parabola, without drag; from there on it is below the bar.
+    The ball moves in a straight line and is slowed by rolling alone: a ball that stops before the line is aimed
+    elsewhere. A flying ball follows a parabola without drag until it lands; after that it is below the bar.
     """
     pitch = setup.pitch
     ahead = pitch.goal_line - attack * ball.x

@@ -7,24 +7,24 @@ from schemas.side import Side
 
 
 class BallControl:
-    """Which side is in control of the ball, and for how long each was.
+    """Follows which side is in control of the ball, and for how long.
 
-    A side is in control since one of its robots held or kicked the ball, or touched it while nobody was; the referee's
-    own definition, so that a ball that bounces off an opponent has not changed sides. A stop ends it.
+    A side is in control from the time one of its robots holds or kicks the ball, or touches it while neither side is in
+    control. STOP ends it. This is the referee's definition: a ball that bounces off an opponent does not change sides.
     """
 
     def __init__(self) -> None:
         self.side: Side | None = None
-        """In control after the newest tick."""
+        """The side in control after the newest tick."""
         self.in_play = 0.0
-        """s for which the ball was in play."""
+        """Time in s for which the ball was in play."""
         self.seconds = dict.fromkeys(Side, 0.0)
-        """s of them in which each side was in control; what is left was nobody's."""
+        """Side → part of that time in which it was in control; in the rest, neither side was."""
         self.with_ball: dict[str, float] = defaultdict(float)
-        """s of them in which each robot held the ball."""
+        """Robot → part of that time in which it held the ball."""
 
     def update(self, match_tick: MatchTick) -> None:
-        """One more tick: it belongs to whoever was in control at its beginning."""
+        """Add a tick; it counts for the side in control at its beginning."""
         if match_tick.in_play:
             self.in_play += match_tick.dt
             if self.side is not None:
@@ -46,7 +46,7 @@ class BallControl:
 
 
 def touching(match_tick: MatchTick) -> list[str]:
-    """Robots that touched the ball in this tick, in order of time; in recordings older than touches, the holder."""
+    """Robots that touched the ball in this tick, in order of time; the holder if touches were not recorded."""
     world = match_tick.world
     if world.possession is not None and world.possession not in world.touches:
         return [*world.touches, world.possession]

@@ -7,20 +7,20 @@ from recordings.stats.ball_control import touching
 from recordings.stats.match_tick import MatchTick
 
 MIN_DRIBBLE_M = 1.0
-"""m; ours: a shorter way with the ball in hand is handling it, not a dribble."""
+"""m; a shorter path with the ball is not a dribble. Chosen here."""
 MAX_INTERRUPTION_S = 0.5
-"""s; ours: a hold that is back within this, and that nobody else touched the ball in, is the same one."""
+"""s for which a hold may be interrupted if no other robot touches the ball meanwhile. Chosen here."""
 
 
 @dataclass(slots=True)
 class DribbleStats:
-    """One robot's."""
+    """Dribbles of one robot."""
 
     count: int = 0
     distance: float = 0.0
-    """m, of all of them."""
+    """Total distance in m."""
     longest: float = 0.0
-    """m."""
+    """Distance of the longest one in m."""
 
 
 @dataclass(slots=True)
@@ -31,14 +31,14 @@ class _Dribble:
 
 
 class DribbleTracker:
-    """Follows who carries the ball. A dribble begins with the hold and ends with the loss, a kick, or a stop."""
+    """Follows the robot with the ball. A dribble begins with the hold and ends with its loss, a kick, or STOP."""
 
     def __init__(self) -> None:
         self.robots: dict[str, DribbleStats] = {}
         self._dribble: _Dribble | None = None
 
     def update(self, match_tick: MatchTick) -> None:
-        """One more tick."""
+        """Add a tick."""
         holder, dribble = match_tick.world.possession, self._dribble
         if dribble is not None and _has_ended(match_tick, dribble):
             self.end()
@@ -52,7 +52,7 @@ class DribbleTracker:
         dribble.held_until = match_tick.world.time
 
     def end(self) -> None:
-        """What was carried so far is all."""
+        """End the current dribble, and count it if it is long enough."""
         dribble, self._dribble = self._dribble, None
         if dribble is not None and dribble.distance >= MIN_DRIBBLE_M:
             dribbles = self.robots.setdefault(dribble.robot, DribbleStats())
@@ -74,7 +74,7 @@ def _has_ended(match_tick: MatchTick, dribble: _Dribble) -> bool:
 
 
 def _distance_driven(match_tick: MatchTick, robot: str) -> float:
-    """m that a robot drove in this tick."""
+    """Distance in m that a robot drove in this tick."""
     before = match_tick.before.robots.get(robot) if match_tick.before is not None else None
     now = match_tick.world.robots.get(robot)
     if before is None or now is None or robot in match_tick.placed:

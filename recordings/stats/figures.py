@@ -1,14 +1,14 @@
-"""The figures of a match as they are told: by side and by robot, with what they rest on."""
+"""The figures of a match, by side and by robot, and the number of messages they are based on."""
 
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from recordings.container.lineup import Lineup
 from recordings.stats.ball_control import BallControl
 from recordings.stats.dribbles import DribbleStats, DribbleTracker
 from recordings.stats.kicks import ON_GOAL, PASSES, SHOTS, KickOutcome, KickRecord
-from recordings.stats.lineup import Lineup
 from recordings.stats.momentum import Momentum
 from recordings.stats.motion import MotionStats, MotionTracker
 from recordings.stats.referee_calls import Goal, RefereeCalls
@@ -19,25 +19,25 @@ from schemas.side import Side
 
 @dataclass(frozen=True, slots=True)
 class Coverage:
-    """How many messages the figures rest on; where one is 0, what follows from it is not known."""
+    """Numbers of messages that the figures are based on; if one is 0, the figures that need them are unknown."""
 
     worlds: int
     touched: int
-    """Worlds in which somebody touched the ball."""
+    """Worlds in which a robot touched the ball."""
     held: int
-    """Worlds in which somebody held it."""
+    """Worlds in which a robot held the ball."""
     kicks: int
     states: int
     events: int
     missing: float
-    """s without a world, where the recorder was paused or cut off; in no figure but the duration."""
+    """Time in s without a world; it counts in no figure but the duration."""
     unreadable: int
-    """Messages that could not be read, and are in no figure."""
+    """Messages that could not be decoded, and are left out."""
 
 
 @dataclass(frozen=True, slots=True)
 class KickCounts:
-    """What became of the kicks of one robot or side."""
+    """Outcomes of the kicks of one robot or side."""
 
     kicks: int
     passes: int
@@ -46,11 +46,11 @@ class KickCounts:
     shots_on_goal: int
     shots_blocked: int
     goals: int
-    """Of shots; balls that were carried or deflected in are in the score alone."""
+    """Goals from shots; balls that were carried or deflected into the goal are only in the score."""
 
     @classmethod
     def of(cls, kicks: Sequence[KickRecord]) -> "KickCounts":
-        """Counted."""
+        """The counts of these kicks."""
         outcomes = [kick_record.outcome for kick_record in kicks]
         return cls(
             kicks=len(outcomes),
@@ -65,12 +65,12 @@ class KickCounts:
 
 @dataclass(frozen=True, slots=True)
 class SideFigures:
-    """One side; m, s and m/s. What the recording cannot tell is nothing."""
+    """Figures of one side, in m, s and m/s. What the recording does not show is None."""
 
     team: str
     goals: int | None
     possession: float | None
-    """Share of the time in which either side was in control of the ball."""
+    """Fraction of the time in which either side was in control of the ball."""
     possession_s: float | None
     with_ball_s: float | None
     kicks: KickCounts | None
@@ -82,15 +82,15 @@ class SideFigures:
     top_speed: float
     mean_speed: float | None
     fouls: dict[str, int]
-    """By rule."""
+    """Rule → fouls."""
     cards: dict[str, int]
     restarts: dict[str, int]
-    """That the side took, by phase."""
+    """Phase → restarts that the side took."""
 
 
 @dataclass(frozen=True, slots=True)
 class RobotFigures:
-    """One robot, likewise."""
+    """Figures of one robot, in m, s and m/s. What the recording does not show is None."""
 
     name: str
     side: str | None
@@ -107,38 +107,38 @@ class RobotFigures:
     dribbled: float | None
     longest_dribble: float | None
     goals: int | None
-    """For which it was the last to touch the ball, its own side's."""
+    """Goals of its own side before which it was the last to touch the ball."""
     fouls: int
     cards: dict[str, int]
 
 
 @dataclass(frozen=True, slots=True)
 class MatchFigures:
-    """A match in figures; times in s of simulated time."""
+    """Figures of a match; times in s of simulated time."""
 
     match: str
     start: float
     duration: float
     in_play_s: float | None
     in_play: float | None
-    """Share of the duration."""
+    """Fraction of the duration."""
     free_s: float | None
-    """For which the ball was in play and nobody was in control."""
+    """Time for which the ball was in play and neither side was in control."""
     drop_balls: int
     sides: dict[Side, SideFigures]
     robots: list[RobotFigures]
     goals: list[Goal]
     kicks: list[KickRecord]
     momentum_width: float
-    """s of one value of `momentum`."""
+    """Width of one value of `momentum`, in s."""
     momentum: list[float]
-    """From −1, all magenta's, to 1, all cyan's."""
+    """Values from −1, all magenta's, to 1, all cyan's."""
     coverage: Coverage
     events: list[GameEvent]
-    """All that the referee and the host told, as recorded."""
+    """All events of referee and host, as recorded."""
 
     def to_json(self) -> dict[str, Any]:
-        """The figures as plain lists, numbers and texts."""
+        """The figures as plain lists, numbers and strings."""
         fields = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
         events = [event.model_dump(mode="json", exclude={"version"}) for event in fields.pop("events")]
         plain: dict[str, Any] = _plain(fields)
@@ -159,7 +159,7 @@ def figures_of(
     calls: RefereeCalls,
     momentum: Momentum,
 ) -> MatchFigures:
-    """Everything that was counted, laid out by side and robot; `first` and `last` are times of worlds, s."""
+    """Arrange all that was counted by side and robot; `first` and `last` are times of worlds, in s."""
     builder = _FigureBuilder(lineup, coverage, control, motions.robots, dribbles.robots, kicks, calls)
     duration, in_play = last - first, control.in_play if coverage.states else None
     controlled = sum(control.seconds.values())
@@ -186,7 +186,7 @@ def figures_of(
 
 @dataclass(frozen=True, slots=True)
 class _FigureBuilder:
-    """What was counted, told for a side or a robot."""
+    """Arranges all that was counted for a side or a robot."""
 
     lineup: Lineup
     coverage: Coverage
@@ -198,16 +198,16 @@ class _FigureBuilder:
 
     @property
     def knows_ball(self) -> bool:
-        """Somebody touched or held the ball while the game's state was known: who has it is recorded."""
+        """Whether possession is known: game states are recorded, and touches or holds of the ball."""
         return bool(self.coverage.states and (self.coverage.touched or self.coverage.held))
 
     @property
     def knows_kicks(self) -> bool:
-        """Touches are recorded, and with them kicks, if there were any."""
+        """Whether outcomes of kicks are known: game states and touches are recorded."""
         return bool(self.coverage.states and self.coverage.touched)
 
     def side(self, side: Side, team: str) -> SideFigures:
-        names = [name for name in self.motions if self.lineup.sides.get(name) is side]
+        names = [name for name in self.motions if self.lineup.side(name) is side]
         motions = [self.motions[name] for name in names]
         dribbles = [self.dribbles[name] for name in names if name in self.dribbles]
         in_play = sum(motion.in_play for motion in motions)
@@ -236,7 +236,7 @@ class _FigureBuilder:
         motion, dribbles, side = (
             self.motions[name],
             self.dribbles.get(name, DribbleStats()),
-            self.lineup.sides.get(name),
+            self.lineup.side(name),
         )
         held = bool(self.coverage.held)
         goals = sum(goal.robot == name and goal.side is side for goal in self.calls.goals)
@@ -269,7 +269,7 @@ class _FigureBuilder:
 
 
 def _plain(value: Any) -> Any:
-    """Dataclasses as dictionaries, keys as texts, numbers to a millionth."""
+    """Dataclasses as dictionaries, keys as strings, numbers rounded to a millionth."""
     if isinstance(value, float):
         return round(value, 6)
     if dataclasses.is_dataclass(value) and not isinstance(value, type):

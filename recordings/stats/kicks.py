@@ -1,7 +1,7 @@
-"""Every kick and what became of it: a pass that was received or not, a shot that went in, was saved, blocked or missed.
+"""Kicks and their outcomes: passes that were received or lost, shots that were goals, saved, blocked or missed.
 
 A kick is one that the host carried out. It is followed until another robot touches the ball, the kicker has it again,
-or play stops; intent is not known, so where the ball was going and who had it next decide what it was.
+or play stops. The intent is not recorded: the direction of the ball and the next robot to touch it decide the outcome.
 """
 
 import math
@@ -18,30 +18,30 @@ from schemas.messages.world import BallTruth
 from schemas.side import Side
 
 MIN_PASS_M = 1.0
-"""m between kick and receiver from which a pass counts; the league's own measure of a pass (reference 10)."""
+"""m between kick and receiver from which a pass counts, as in the rule book, scoring: a pass rolls for 1 m."""
 
 
 class KickOutcome(StrEnum):
-    """What became of a kick."""
+    """Outcome of a kick."""
 
     RECEIVED = "received"
     """A pass: a teammate was the next to touch the ball, at least `MIN_PASS_M` away."""
     LOST = "lost"
-    """A pass that failed: an opponent was next, or it left the pitch, or a teammate had it after less than that."""
+    """A failed pass: an opponent was next, or the ball left the pitch, or a teammate was next but too near."""
     GOAL = "goal"
-    """A shot that went in, off an opponent too."""
+    """A shot that went in, possibly off an opponent."""
     SAVED = "saved"
-    """A shot at the goal that whoever keeps the opponents' goal was the next to touch, and that did not go in."""
+    """A shot on goal that the robot keeping the opponents' goal was next to touch, and that did not go in."""
     BLOCKED = "blocked"
-    """A shot that another opponent was the next to touch, and that did not go in."""
+    """A shot that another opponent was next to touch, and that did not go in."""
     MISSED = "missed"
-    """A shot that went past, over, or did not arrive."""
+    """A shot that went past or over the goal, or did not reach it."""
     KEPT = "kept"
-    """The kicker had the ball again: neither pass nor shot."""
+    """The kicker was the next to touch the ball: neither pass nor shot."""
     OWN_GOAL = "own_goal"
-    """It went into the kicker's own goal: neither pass nor shot."""
+    """The ball went into the kicker's own goal: neither pass nor shot."""
     UNDECIDED = "undecided"
-    """Play was stopped, or the recording ended, before anything came of it: neither pass nor shot."""
+    """Play was stopped, or the recording ended, before the outcome was clear: neither pass nor shot."""
 
 
 PASSES = frozenset({KickOutcome.RECEIVED, KickOutcome.LOST})
@@ -51,29 +51,29 @@ ON_GOAL = frozenset({KickOutcome.GOAL, KickOutcome.SAVED})
 
 @dataclass(frozen=True, slots=True)
 class KickRecord:
-    """One kick from beginning to end; m, m/s and s of simulated time, field frame."""
+    """One kick with its outcome; in m, m/s and s of simulated time, in the field frame."""
 
     time: float
     clock: float
-    """Game clock."""
+    """Game clock in s."""
     robot: str
     side: Side
     mode: KickMode | None
-    """As it was asked for; nothing where the recording does not tell."""
+    """Mode of the commanded kick; None if it was not recorded."""
     x: float
     y: float
     speed: float
-    """Of the ball after the tick of the kick."""
+    """Speed of the ball after the tick of the kick."""
     outcome: KickOutcome
     by: str | None = None
-    """Who had the ball next."""
+    """The next robot to touch the ball."""
     ended: float = 0.0
-    """When it was decided."""
+    """Time at which the outcome was clear."""
 
 
 @dataclass(slots=True)
 class _Flight:
-    """A kick that nothing has come of yet."""
+    """A kick whose outcome is open."""
 
     match_tick: MatchTick
     robot: str
@@ -81,11 +81,11 @@ class _Flight:
     ball: BallTruth
     aim: Aim
     released: bool = False
-    """The kicker has not touched the ball for a tick."""
+    """Whether the ball has left the kicker for a tick."""
     stopped_by: str | None = None
-    """The opponent that touched a shot, which can still go in."""
+    """The opponent that touched a shot that can still go in."""
     stopped_by_keeper: bool = False
-    """It kept its side's goal then."""
+    """Whether that opponent kept its side's goal at that time."""
 
 
 class KickTracker:
@@ -97,7 +97,7 @@ class KickTracker:
         self._flight: _Flight | None = None
 
     def update(self, match_tick: MatchTick) -> None:
-        """One more tick."""
+        """Add a tick."""
         if match_tick.before is None:
             self._end(match_tick, KickOutcome.UNDECIDED)
         kicker = match_tick.world.kicked if match_tick.running else None
@@ -111,14 +111,14 @@ class KickTracker:
         self._on_referee(match_tick)
 
     def end(self, match_tick: MatchTick) -> None:
-        """The recording ends with this tick."""
+        """Decide the open kick: the recording ends with this tick."""
         flight = self._flight
         self._end(
             match_tick, _stopped_outcome(flight) if flight is not None and flight.stopped_by else KickOutcome.UNDECIDED
         )
 
     def _on_kick(self, match_tick: MatchTick, kicker: str, touched_after: Sequence[str]) -> None:
-        """A kick begins, and ends what was before: the kicker was the next to touch it."""
+        """Begin a kick; it decides the one before, as the kicker was the next to touch the ball."""
         self._on_touch(match_tick, [kicker])
         before = self._flight
         if before is not None:
@@ -153,7 +153,7 @@ class KickTracker:
             return
 
     def _on_referee(self, match_tick: MatchTick) -> None:
-        """What the referee says ends a flight."""
+        """Decide the open kick if the referee has called a goal or STOP."""
         flight = self._flight
         if flight is None:
             return
@@ -194,7 +194,7 @@ class KickTracker:
 
 
 def _ball_as_kicked(match_tick: MatchTick, kicker: str) -> BallTruth:
-    """The ball as it left the kicker, along its heading, where somebody else has touched it in the same tick."""
+    """The ball as it left the kicker, along its heading, if another robot touched it in the same tick."""
     ball, robot = match_tick.world.ball, match_tick.world.robots.get(kicker)
     if robot is None:
         return ball
@@ -213,7 +213,7 @@ def _pass_outcome(match_tick: MatchTick, flight: _Flight) -> KickOutcome:
 
 
 def _stopped_outcome(flight: _Flight) -> KickOutcome:
-    """What a shot was that an opponent touched and that did not go in."""
+    """Outcome of a shot that an opponent touched and that did not go in."""
     if not flight.stopped_by_keeper:
         return KickOutcome.BLOCKED
     return KickOutcome.SAVED if flight.aim is Aim.AT_GOAL else KickOutcome.MISSED

@@ -1,4 +1,4 @@
-"""All figures of a recording in one reading."""
+"""Computes all figures of a recording in one pass."""
 
 from collections.abc import Iterator
 from typing import Any, Protocol
@@ -19,41 +19,41 @@ from schemas.topics import WORLD
 
 
 def setup_of(recording: Recording) -> Setup:
-    """How the match was set up.
+    """The setup of the match.
 
     Raises:
-        TouchlineError: the recording does not say.
+        TouchlineError: the recording has none.
     """
     setup = recording.manifest.setup
     if setup is None:
         raise TouchlineError(
             f"{recording.path}: its manifest has no setup, so pitch and teams are unknown; "
-            "record with the host running from the start"
+            "start the recorder while the host is running"
         )
     return setup
 
 
 def extent(recording: Recording) -> tuple[float, float]:
-    """Simulated times of the first and the last world, s.
+    """Simulated times of the first and the last world, in s.
 
     Raises:
-        TouchlineError: there is none.
+        TouchlineError: the recording has no world.
     """
     for channel in recording.channels:
         if channel.key == WORLD.key and channel.messages:
             return channel.start, channel.end
-    raise TouchlineError(f"{recording.path}: no world in it, so there is nothing to measure; record the key world")
+    raise TouchlineError(f"{recording.path}: has no world, so there is nothing to measure; record the key world")
 
 
 MAX_TIME_DIFFERENCE_S = 1.0
-"""s; ours: a world whose own time is farther from that of its record is not what the host wrote."""
+"""s between the time in a world and its log time; with a larger difference the world is invalid. Chosen here."""
 
 
 def match_ticks_of(recording: Recording) -> Iterator[MatchTick]:
-    """The ticks of a recording, in order; worlds of an impossible time are counted as unreadable.
+    """Yield the ticks of a recording, in order; worlds with an impossible time count as unreadable.
 
     Raises:
-        TouchlineError: the file is damaged inside, or does not say how the match was set up.
+        TouchlineError: the file is damaged inside, or has no setup.
     """
     return match_ticks(setup_of(recording), _messages(recording))
 
@@ -67,17 +67,17 @@ def _messages(recording: Recording) -> Iterator[tuple[int, Any]]:
 
 
 class TickObserver(Protocol):
-    """Takes in ticks, one after the other."""
+    """An object that is updated with each tick."""
 
     def update(self, match_tick: MatchTick) -> None:
-        """One more tick."""
+        """Add a tick."""
 
 
 class MatchStatistics:
-    """Takes in tick after tick, and gives the figures of all."""
+    """Accumulates the figures of a match, tick by tick."""
 
     def __init__(self, setup: Setup, start: float, end: float) -> None:
-        """Of a match with this setup, from `start` to `end`, s of simulated time."""
+        """`start` and `end` are in s of simulated time."""
         self._setup = setup
         self._control = BallControl()
         self._motions = MotionTracker()
@@ -98,7 +98,7 @@ class MatchStatistics:
         self._last: MatchTick | None = None
 
     def update(self, match_tick: MatchTick) -> None:
-        """One more tick."""
+        """Add a tick."""
         self._momentum.update(match_tick, self._control.side)
         for figure in self._observers:
             figure.update(match_tick)
@@ -113,10 +113,10 @@ class MatchStatistics:
         self._last = match_tick
 
     def figures(self, unreadable: int = 0) -> MatchFigures:
-        """What it comes to; `unreadable` messages could not be taken in.
+        """Return the figures; `unreadable` is the number of messages that could not be decoded.
 
         Raises:
-            TouchlineError: there was no tick at all.
+            TouchlineError: no tick was added.
         """
         if self._first is None or self._last is None:
             raise TouchlineError("no world could be read, so there is nothing to measure")
@@ -148,10 +148,10 @@ class MatchStatistics:
 
 
 def figures_of_recording(recording: Recording, *observers: TickObserver) -> MatchFigures:
-    """The figures of a recording; whatever `observers` is given takes in the same ticks, in the same reading.
+    """The figures of a recording; `observers` are updated with the same ticks, in the same pass.
 
     Raises:
-        TouchlineError: it is damaged inside, has no setup, or no world.
+        TouchlineError: the recording is damaged inside, or has no setup or no world.
     """
     setup, (start, end) = setup_of(recording), extent(recording)
     statistics, before = MatchStatistics(setup, start, end), recording.unreadable.total()

@@ -1,4 +1,4 @@
-"""One tick of a recording with all that belongs to it: the world, the game's state before and after, inputs, events."""
+"""One tick of a recording: the world, the game state before and after, inputs, events."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from itertools import groupby
 from operator import itemgetter
 from typing import Any
 
-from recordings.stats.lineup import Lineup
+from recordings.container.lineup import Lineup
 from schemas.game import GameEvent, GameState, Phase
 from schemas.messages.command import Kick
 from schemas.messages.host import Applied, Setup
@@ -15,64 +15,64 @@ from schemas.side import Side
 from schemas.topics import APPLIED, EVENT, STATE, WORLD
 
 KEYS = (WORLD.key, APPLIED.key, STATE.key, EVENT.key)
-"""Of the messages that ticks are made of."""
+"""Keys of the messages that make up a tick."""
 
 GAP = 1.0
-"""s; ours: what was played in a longer one, while the recorder was paused or cut off, is not known."""
+"""s without a world after which the ticks are not consecutive: the recorder was paused, or messages lost."""
 
 
 @dataclass(frozen=True, slots=True)
 class MatchTick:
-    """What one tick brought; lengths in m, times in s of simulated time, in the field frame."""
+    """One tick; lengths in m, times in s of simulated time, in the field frame."""
 
     world: World
     before: World | None
-    """The world of the tick before; nothing at the first one, after a `GAP`, and where the world was set up anew."""
+    """The world of the tick before; None at the first tick, after a `GAP`, and in a new episode."""
     state: GameState | None
-    """The game after this tick."""
+    """The game state after this tick."""
     state_before: GameState | None
-    """The game while this tick was played."""
+    """The game state during this tick."""
     lineup: Lineup
     events: tuple[GameEvent, ...] = ()
     placed: frozenset[str] = frozenset()
-    """Bodies that were set down by hand before this tick."""
+    """Bodies that were placed by hand before this tick."""
     kick: Kick | None = None
-    """What the robot whose kick was carried out had asked for."""
+    """The commanded kick of the robot whose kick was carried out."""
 
     @property
     def dt(self) -> float:
-        """s since the tick before; more than one tick where some are missing."""
+        """Time in s since the tick before; more than the duration of a tick if some are missing."""
         return self.world.time - self.before.time if self.before is not None else 0.0
 
     @property
     def running(self) -> bool:
-        """While this tick was played, START had been given and no STOP."""
+        """Whether play was started and not stopped during this tick."""
         return self.state_before is not None and self.state_before.running
 
     @property
     def in_play(self) -> bool:
-        """While this tick was played, the ball was in play: released by whoever took the restart, and no STOP yet."""
+        """Whether the ball was in play during this tick: released after a restart, and not stopped."""
         return self.running and self.state_before is not None and self.state_before.phase is Phase.PLAY
 
     def side(self, robot: str | None) -> Side | None:
-        """Whose robot it is; nothing for one that nobody ever named."""
-        return self.lineup.sides.get(robot) if robot is not None else None
+        """The side of a robot; None for an unknown robot."""
+        return self.lineup.side(robot) if robot is not None else None
 
     def keeps(self, robot: str) -> bool:
-        """Whether a robot keeps its side's goal: its goalkeeper, or who stands in for one off the field."""
-        there = [name for name, truth in self.world.robots.items() if truth.off_field is None]
-        return self.lineup.keeps(robot, there)
+        """Whether a robot keeps its side's goal: the goalkeeper, or its substitute while it is off the field."""
+        on_field = [name for name, truth in self.world.robots.items() if truth.off_field is None]
+        return self.lineup.keeps(robot, on_field)
 
     def attack(self, side: Side) -> int:
-        """Sign of the x direction that a side attacks."""
+        """Sign of the x direction in which a side attacks."""
         return side.attack(self.state_before.cyan_attacks if self.state_before is not None else 1)
 
 
 def match_ticks(setup: Setup, messages: Iterable[tuple[int, Any]]) -> Iterator[MatchTick]:
-    """Log time and message of the keys of `KEYS`, in the order of a recording, as ticks.
+    """Join messages of the keys `KEYS`, given with their log times in recorded order, to ticks.
 
-    A tick whose world is missing, or not newer than the one before, gives no tick; what was said in it belongs to the
-    next that has one.
+    A tick whose world is missing, or not newer than the one before, is left out; its other messages count for the next
+    tick.
     """
     lineup, state, before = Lineup.of(setup), None, None
     events: list[GameEvent] = []

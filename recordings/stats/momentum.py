@@ -1,4 +1,4 @@
-"""Momentum: which side has more of the game, over time."""
+"""Momentum: which side dominates the game, over time."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,33 +7,33 @@ from recordings.stats.match_tick import MatchTick
 from schemas.side import Side
 
 MIN_WIDTH_S = 5.0
-"""s; ours: what is shorter says nothing about who has more of the game."""
+"""s; shorter intervals do not show which side dominates. Chosen here."""
 BINS = 240
-"""Ours: as many points as a curve on a page shows."""
+"""Number of points that a curve on a page shows. Chosen here."""
 
 
 @dataclass(slots=True)
 class _Bin:
     in_play: float = 0.0
     control: float = 0.0
-    """s of cyan's control less those of magenta's."""
+    """Time of cyan's control minus time of magenta's, in s."""
     territory: float = 0.0
-    """s · share of the way from the centre to the goal that cyan attacks; negative in cyan's half."""
+    """Time in s, weighted with the ball's position from −1, cyan's goal line, to 1, magenta's."""
 
 
 class Momentum:
-    """Curve of a match: half of it possession, half of it where the ball is."""
+    """Momentum of a match: half of it possession, half of it the position of the ball."""
 
     def __init__(self, start: float, end: float, half_length: float) -> None:
-        """From `start` to `end`, s of simulated time; `half_length` in m from the centre to a goal line."""
+        """`start` and `end` in s of simulated time; `half_length` in m from the centre to a goal line."""
         self.start = start
         self.width = max(MIN_WIDTH_S, (end - start) / BINS)
-        """s of one value."""
+        """Width of one value in s."""
         self._half_length = half_length
         self._bins: list[_Bin] = []
 
     def update(self, match_tick: MatchTick, control: Side | None) -> None:
-        """One more tick, in which that side was in control."""
+        """Add a tick in which the side `control`, or None, was in control."""
         if not match_tick.in_play:
             return
         number = max(0, int((match_tick.world.time - self.start) / self.width))
@@ -47,12 +47,12 @@ class Momentum:
         now.territory += dt * min(1.0, max(-1.0, share))
 
     def values(self) -> list[float]:
-        """From −1, all magenta's, to 1, all cyan's; smoothed over its neighbours, 0 while the ball is not in play."""
+        """Values from −1, all magenta's, to 1, all cyan's, smoothed; 0 while the ball is not in play."""
         return _smoothed([(one.control + one.territory) / 2 for one in self._bins], [one.in_play for one in self._bins])
 
 
 def _smoothed(sums: Sequence[float], weights: Sequence[float]) -> list[float]:
-    """Weighted means over each value and its neighbours, which count half."""
+    """Weighted means of each value and its neighbours, which count half."""
     values = []
     for number in range(len(sums)):
         near = [(place, 1.0 if place == number else 0.5) for place in (number - 1, number, number + 1)]

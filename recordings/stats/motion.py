@@ -1,4 +1,4 @@
-"""How far and how fast every robot drove."""
+"""Distance and speed of every robot."""
 
 import math
 from dataclasses import dataclass
@@ -7,35 +7,35 @@ from recordings.stats.match_tick import MatchTick
 from schemas.messages.world import RobotTruth
 
 MAX_SPEED = 12.0
-"""m/s; ours: no robot of the league drives half as fast. Whatever takes a longer step was set down there."""
+"""m/s; a robot with a longer step was placed by hand: no robot of the league is half as fast. Chosen here."""
 
 
 @dataclass(slots=True)
 class MotionStats:
-    """One robot; m, s and m/s."""
+    """Motion of one robot, in m, s and m/s."""
 
     distance: float = 0.0
-    """Path of its centre, as long as it takes part."""
+    """Length of the path of its centre while it is on the field."""
     in_play_distance: float = 0.0
-    """The part of it that was driven while the ball was in play."""
+    """The part of it while the ball was in play."""
     in_play: float = 0.0
-    """s for which it took part while the ball was in play."""
+    """Time on the field while the ball was in play."""
     top_speed: float = 0.0
 
     @property
     def mean_speed(self) -> float:
-        """While the ball was in play."""
+        """Mean speed while the ball was in play."""
         return self.in_play_distance / self.in_play if self.in_play > 0 else 0.0
 
 
 class MotionTracker:
-    """All robots, by name, in the order in which they came."""
+    """Follows all robots, by name, in the order of their appearance."""
 
     def __init__(self) -> None:
         self.robots: dict[str, MotionStats] = {}
 
     def update(self, match_tick: MatchTick) -> None:
-        """One more tick."""
+        """Add a tick."""
         before, dt, in_play = match_tick.before, match_tick.dt, match_tick.in_play
         for name, robot in match_tick.world.robots.items():
             motion = self.robots.get(name)

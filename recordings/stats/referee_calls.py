@@ -1,4 +1,4 @@
-"""What the referee called: goals, fouls, cards, restarts, and the score that he keeps."""
+"""Calls of the referee: goals, fouls, cards, restarts, and the score."""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -10,35 +10,35 @@ from schemas.side import Side
 
 @dataclass(frozen=True, slots=True)
 class Goal:
-    """One goal; s."""
+    """One goal; times in s."""
 
     time: float
     clock: float
     side: Side | None
-    """Whose it is."""
+    """The scoring side."""
     robot: str | None
-    """Who touched the ball last."""
+    """The last robot to touch the ball."""
 
 
 class RefereeCalls:
-    """Counts over events and states."""
+    """Counts events and changes of the game state."""
 
     def __init__(self) -> None:
         self.goals: list[Goal] = []
         self.score: Score | None = None
-        """As the referee has it; nothing where he never said."""
+        """The referee's score; None if no game state was recorded."""
         self.fouls: Counter[tuple[Side | None, str]] = Counter()
-        """By side of the offender and rule."""
+        """Offending side and rule → fouls."""
         self.fouls_of: Counter[str] = Counter()
-        """By offender."""
+        """Offending robot → fouls."""
         self.cards: Counter[tuple[Side | None, Card]] = Counter()
         self.cards_of: Counter[tuple[str, Card]] = Counter()
         self.restarts: Counter[tuple[Side | None, Phase]] = Counter()
-        """By the side that takes them; a restart that is signalled again counts again."""
+        """Side that takes the restart and phase → restarts; each signal counts."""
         self.events: list[GameEvent] = []
 
     def update(self, match_tick: MatchTick) -> None:
-        """One more tick."""
+        """Add a tick."""
         for event in match_tick.events:
             self._event(event)
         now, before = match_tick.state, match_tick.state_before
@@ -61,7 +61,7 @@ class RefereeCalls:
 
 
 def _is_signalled(before: GameState | None, now: GameState) -> bool:
-    """A restart is signalled; the state is said once a second, and START changes it too."""
+    """Whether a new game state signals a restart; it may also be the periodic repetition, or START."""
     if now.phase not in RESTARTS or now.running:
         return False
     return before is None or before.running or (before.phase, before.side) != (now.phase, now.side)

@@ -1,4 +1,4 @@
-"""The figures as texts, for a terminal: a headline, a table of sides, a table of robots, what they rest on."""
+"""Formats the figures for a terminal: a headline, tables of sides and robots, and remarks."""
 
 from collections.abc import Callable
 
@@ -6,13 +6,13 @@ from recordings.stats.figures import KickCounts, MatchFigures, RobotFigures, Sid
 from schemas.side import Side
 
 UNKNOWN = "–"
-"""What the recording cannot tell."""
+"""Stands for a figure that the recording does not show."""
 
 Row = tuple[str, ...]
 
 
 def headline(figures: MatchFigures) -> str:
-    """Teams, score, and how long the ball was in play."""
+    """Teams, score, duration, and time in play."""
     cyan, magenta = figures.sides[Side.CYAN], figures.sides[Side.MAGENTA]
     played = f"{figures.duration:.1f} s recorded"
     if figures.in_play_s is not None:
@@ -21,7 +21,7 @@ def headline(figures: MatchFigures) -> str:
 
 
 def side_rows(figures: MatchFigures) -> list[Row]:
-    """What is measured, cyan's, magenta's."""
+    """Rows of name, cyan's value and magenta's value."""
     rows = [(name, *(format_value(figures.sides[side]) for side in Side)) for name, format_value in _SIDE]
     for kind in _COUNTED:
         counts = [getattr(figures.sides[side], kind) for side in Side]
@@ -33,24 +33,24 @@ def side_rows(figures: MatchFigures) -> list[Row]:
 
 
 ROBOT_HEADINGS = ("robot", "m", "top m/s", "mean m/s", "ball s", "passes", "shots", "saves", "dribbles")
-"""Of the table that `robot_rows` gives."""
+"""Column headings for `robot_rows`."""
 
 
 def robot_rows(figures: MatchFigures) -> list[Row]:
-    """One row for each robot, below `ROBOT_HEADINGS`."""
+    """One row for each robot, with the columns `ROBOT_HEADINGS`."""
     return [_robot(robot) for robot in figures.robots]
 
 
 def remarks(figures: MatchFigures) -> list[str]:
-    """What the figures do not rest on, in plain words."""
+    """One line for each kind of evidence that is missing."""
     coverage = figures.coverage
     remarks_ = [
         (not coverage.states, "no game states recorded: ball in play, possession, passes and shots are not known"),
         (not coverage.touched, "no touches recorded: passes, shots and saves are not known"),
-        (not coverage.held, "nobody holds the ball in it: time with the ball and dribbles are not known"),
+        (not coverage.held, "no robot holds the ball: time with the ball and dribbles are not known"),
         (not coverage.events, "no events recorded: goals by robot, fouls and cards are not known"),
         (bool(coverage.missing), f"{coverage.missing:.1f} s were not recorded and are in no figure but the duration"),
-        (bool(coverage.unreadable), f"{coverage.unreadable} messages could not be read and are in no figure"),
+        (bool(coverage.unreadable), f"{coverage.unreadable} messages could not be decoded and are in no figure"),
     ]
     return [text for holds, text in remarks_ if holds]
 
@@ -90,9 +90,9 @@ _SIDE: tuple[tuple[str, Callable[[SideFigures], str]], ...] = (
     ("top speed, m/s", lambda side: _tenths(side.top_speed)),
     ("mean speed in play, m/s", lambda side: _tenths(side.mean_speed)),
 )
-"""What is told of a side, and how."""
+"""Rows of the table of sides: name, and how its value is formatted."""
 _COUNTED = {"fouls": "foul: {}", "cards": "{} cards", "restarts": "restart: {}"}
-"""What is counted by name, and how a name is told."""
+"""Fields that count by name, and the label of a row."""
 
 
 def _robot(robot: RobotFigures) -> Row:

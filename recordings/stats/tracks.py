@@ -1,4 +1,4 @@
-"""Where everybody was, sampled and rounded: what a page needs to show a match again, in as few bytes as will do."""
+"""Positions of all bodies, sampled and rounded, so that a page with them stays small."""
 
 import math
 from array import array
@@ -8,65 +8,65 @@ from schemas.messages.host import Setup
 from schemas.messages.world import World
 
 MAX_RATE = 25.0
-"""Samples per s; ours: more than that the eye does not see between two points that are joined."""
+"""Samples per s; the page interpolates between them, and more would not be visible. Chosen here."""
 MIN_RATE = 0.1
 MAX_BYTES = 3_300_000
-"""Bytes; ours: as text, in base64, it is a third more, and a page of half an hour stays below 6 MB."""
+"""Bytes of all samples. In base64 they take a third more; a page of half an hour stays below 6 MB. Chosen here."""
 ABSENT = -32768
-"""For x of a body that is not there."""
+"""Value of x for a body that is absent."""
 NO_HOLDER = 255
 _CM = 100.0
 _TURN = 256 / math.tau
 _PER_ROBOT, _PER_SAMPLE = 5, 7
-"""Bytes: x and y in two each, heading in one; ball x, y and z in two each, holder in one."""
+"""Bytes. A robot: x and y two each, heading one. The rest of a sample: x, y and z of the ball two each, holder one."""
 
 
 def sample_rate(duration: float, robots: int) -> float:
-    """Samples per s for a recording of so many s and robots."""
+    """Samples per s for a recording of this duration, in s, and number of robots."""
     per_sample = _PER_SAMPLE + _PER_ROBOT * robots
     return max(MIN_RATE, min(MAX_RATE, MAX_BYTES / per_sample / max(duration, 1.0)))
 
 
 class RobotTrack:
-    """One robot: x and y in cm, heading in 256ths of a turn; one value of each for every sample."""
+    """Samples of one robot: x and y in cm, heading in 1/256 of a turn."""
 
     def __init__(self, samples: int) -> None:
-        """Away for so many samples."""
+        """The robot is absent from the first `samples` samples."""
         self.x = array("h", [ABSENT] * samples)
         self.y = array("h", [0] * samples)
         self.heading = array("B", [0] * samples)
 
     def add(self, x: int, y: int, heading: int) -> None:
-        """One more sample."""
+        """Add a sample."""
         self.x.append(x)
         self.y.append(y)
         self.heading.append(heading)
 
 
 class Tracks:
-    """All bodies at equal distances in time: sample i is the world at `start + i / rate`, or the newest before it."""
+    """Samples of all bodies at equal intervals: sample i is the newest world at the time `start + i / rate`."""
 
     def __init__(self, setup: Setup, start: float, end: float) -> None:
-        """From `start` to `end`, s of simulated time."""
+        """`start` and `end` are in s of simulated time."""
         self.start = start
         self.rate = sample_rate(end - start, sum(len(team.robots) for team in setup.teams.values()))
         self.robots: dict[str, RobotTrack] = {}
         self.ball_x, self.ball_y, self.ball_z = array("h"), array("h"), array("h")
         self.holder = array("B")
-        """Place of the robot among `robots`, or `NO_HOLDER`."""
+        """Index in `robots` of the robot that holds the ball, or `NO_HOLDER`."""
         self.sides: dict[str, str] = {}
         self._tick = setup.time.tick
         self._newest: World | None = None
 
     @property
     def samples(self) -> int:
-        """So far."""
+        """Number of samples so far."""
         return len(self.holder)
 
     def update(self, match_tick: MatchTick) -> None:
-        """One more tick."""
-        for name, side in match_tick.lineup.sides.items():
-            self.sides[name] = side.value
+        """Add a tick."""
+        for robot in match_tick.lineup.robots.values():
+            self.sides[robot.name] = robot.side.value
         world = match_tick.world
         while self._time() < world.time - self._tick / 2:
             self._sample(self._newest or world)
@@ -75,7 +75,7 @@ class Tracks:
         self._newest = world
 
     def _time(self) -> float:
-        """Of the next sample, s of simulated time."""
+        """Time of the next sample, in s of simulated time."""
         return self.start + self.samples / self.rate
 
     def _sample(self, world: World) -> None:

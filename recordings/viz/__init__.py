@@ -1,1 +1,1 @@
-"""What viewers draw: a match as messages of `foxglove.*`, derived from what the host says, and from nothing else."""
+"""A match drawn for viewers: messages of `foxglove.*`, derived from the messages of the host alone."""

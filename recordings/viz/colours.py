@@ -1,6 +1,6 @@
-"""Colours that people who see no red, no green or no blue tell apart: by how light they are, not by hue alone.
+"""Colours that people with any colour blindness can distinguish: by lightness, not by hue alone.
 
-Cyan's robots are light, magenta's are dark, and the pitch lies between.
+Cyan's robots are light, magenta's are dark, and the pitch is in between.
 """
 
 from typing import NamedTuple
@@ -17,7 +17,7 @@ class Colour(NamedTuple):
     a: float = 1.0
 
     def faded(self, a: float) -> "Colour":
-        """The same, seen through."""
+        """The same colour with its opacity multiplied by `a`."""
         return self._replace(a=a * self.a)
 
 
@@ -27,12 +27,12 @@ def _of(code: str) -> Colour:
 
 ROBOT = {Side.CYAN: _of("#8fe3f7"), Side.MAGENTA: _of("#8a0f5c")}
 MARK = {Side.CYAN: _of("#0a2f3a"), Side.MAGENTA: _of("#ffd9ef")}
-"""What is drawn on a robot: dark on light, light on dark."""
+"""Marks on a robot: dark on light, light on dark."""
 UNKNOWN_ROBOT, UNKNOWN_ROBOT_MARK = _of("#9a9a9a"), _of("#202020")
-"""A robot that no team has."""
+"""Colours of a robot of no team."""
 BALL = _of("#ffb000")
 PITCH, SURROUND, LINE = _of("#4a9468"), _of("#35704e"), _of("#ffffff")
 GOAL, NET, BOUNDARY, OBSTACLE = _of("#ffffff"), _of("#e6ece8"), _of("#1d3529"), _of("#5d6470")
 INK = _of("#ffffff")
 TEAM_TEXT = {Side.CYAN: ROBOT[Side.CYAN], Side.MAGENTA: _of("#f59bd0")}
-"""A team's name on a dark ground."""
+"""A team's name on a dark background."""

@@ -1,4 +1,4 @@
-"""Draws a match: a pure core, (what the host says) → messages for viewers, written beside those that they come from."""
+"""Draws a match for viewers: turns messages of the host into messages of `foxglove.*`, without side effects."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -7,6 +7,7 @@ from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
 from recordings.container.applied_changes import changes_in
+from recordings.container.lineup import Lineup
 from recordings.viz.drawn_world import DrawnWorld, decode_world
 from recordings.viz.field import field_entities, obstacle_entity
 from recordings.viz.foxglove import FRAME_TRANSFORMS, LOG, SCENE_UPDATE
@@ -15,7 +16,6 @@ from recordings.viz.primitives import encode_scene, scene_update
 from recordings.viz.robots import RobotAppearance, ball_entities, robot_entity
 from recordings.viz.transforms import Transforms
 from schemas.bus.contract import ReceivedMessage
-from schemas.config.profile import STANDARD
 from schemas.game import GameEvent, GameState
 from schemas.message import BadMessageError
 from schemas.messages.host import Applied, Setup
@@ -31,15 +31,15 @@ SCHEMAS = {
     GAME: SCENE_UPDATE,
     EVENTS: LOG,
 }
-"""Topic → its message."""
+"""Topic → name of its message."""
 TF_STEP_NS = 19_000_000
-"""Least simulated time between two transforms: every tick of 20 ms or more, 50 Hz of shorter ones."""
+"""Least simulated time between two transforms, in ns: each tick of 20 ms or more, 50 Hz with shorter ticks."""
 REPEAT_NS = 5_000_000_000
-"""Simulated time after which what stands still is drawn again, for those who begin to look in the middle."""
+"""Simulated time, in ns, after which unchanged scenes are repeated, for viewers that start in the middle."""
 READS = frozenset({WORLD.key, STATE.key, EVENT.key, APPLIED.key})
-"""Keys of the messages that it is made of."""
+"""Keys of the messages that a drawing is derived from."""
 _INVALID_PAYLOAD = (BadMessageError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
-"""What comes of payloads that are no message: nothing is drawn of these."""
+"""Exceptions that invalid payloads cause; they are not drawn."""
 
 
 class VizMessage(NamedTuple):
@@ -50,15 +50,15 @@ class VizMessage(NamedTuple):
 
 
 class _Layer(NamedTuple):
-    """What stands still, as it was drawn."""
+    """A scene as it was last drawn."""
 
     appearance: Any
-    """What decides how it looks."""
+    """The values that determine how the scene looks."""
     update: SceneUpdate
 
 
 class Drawing:
-    """What viewers see of a match so far."""
+    """Follows a match and draws its changes."""
 
     def __init__(self, setup: Setup) -> None:
         self._setup = setup
@@ -66,14 +66,8 @@ class Drawing:
         self._tf_ns: int | None = None
         self._drawn_ns: int | None = None
         self._layers: dict[str, _Layer] = {}
-        """Topic → what was drawn there last."""
-        self._appearances = {
-            robot: RobotAppearance(
-                robot, side, team.types.get(robot, STANDARD), team.goalkeeper and robot == team.robots[0]
-            )
-            for side, team in setup.teams.items()
-            for robot in team.robots
-        }
+        """Topic → the newest scene on it."""
+        self._lineup = Lineup.of(setup)
         self._handlers: dict[str, Callable[[ReceivedMessage, int], list[VizMessage]]] = {
             WORLD.key: self._world,
             STATE.key: self._state,
@@ -82,7 +76,7 @@ class Drawing:
         }
 
     def draw(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
-        """What a message brings for viewers, at its own log time in ns; of most there is nothing."""
+        """The messages for viewers that follow from a message with this log time in ns; mostly none."""
         handler = self._handlers.get(received.key)
         if handler is None:
             return []
@@ -103,9 +97,9 @@ class Drawing:
         return out + self._static_layers(world, log_ns, repeat=repeat)
 
     def _static_layers(self, world: DrawnWorld, log_ns: int, *, repeat: bool) -> list[VizMessage]:
-        """What moves with its frame alone, where it looks otherwise than before, or is to be said again.
+        """The scenes whose entities move only with their frames: those that have changed, or all of them on `repeat`.
 
-        A scene needs none before it: what was there once and is gone is taken away each time.
+        Each scene is complete: it deletes the entities of earlier scenes that no longer exist.
         """
         out = []
         for topic, (appearance_of, entities_of) in _STATIC_LAYERS.items():
@@ -124,13 +118,16 @@ class Drawing:
         return [*field_entities(self._setup.pitch), *entities]
 
     def _robots(self, appearance: list[tuple[str, str | None]]) -> list[SceneEntity]:
-        return [robot_entity(self._appearance(name)._replace(off_field=why), self._setup) for name, why in appearance]
+        return [robot_entity(self._appearance(name, why), self._setup) for name, why in appearance]
 
     def _ball(self, possession: str | None) -> list[SceneEntity]:
         return ball_entities(self._setup, self._appearance(possession) if possession is not None else None)
 
-    def _appearance(self, name: str) -> RobotAppearance:
-        return self._appearances.get(name) or RobotAppearance(name, None)
+    def _appearance(self, name: str, off_field: str | None = None) -> RobotAppearance:
+        robot = self._lineup.robots.get(name)
+        if robot is None:
+            return RobotAppearance(name, None, off_field=off_field)
+        return RobotAppearance(name, robot.side, robot.type, robot.keeper, off_field)
 
     def _state(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
         state: GameState = received.message()
@@ -141,19 +138,18 @@ class Drawing:
         return [VizMessage(EVENTS, log_entry(event, log_ns))]
 
     def _applied(self, received: ReceivedMessage, log_ns: int) -> list[VizMessage]:
-        """Who takes part may have changed; the next world shows it."""
+        """Follow changes of the roster; the next world shows them."""
         del log_ns
         if changes_in(received.payload).robots is not None:
             applied: Applied = received.message()
-            for entry in applied.robots or ():
-                self._appearances[entry.name] = RobotAppearance(entry.name, entry.side, entry.type, entry.keeper)
+            self._lineup = self._lineup.changed(applied.robots or [])
             if ROBOTS in self._layers:
                 self._layers[ROBOTS] = self._layers[ROBOTS]._replace(appearance=None)
         return []
 
 
 def _named(update: SceneUpdate) -> set[str]:
-    """Every entity that an update draws or takes away."""
+    """The entities that an update draws or deletes."""
     return {entity.id for entity in update.entities} | {deletion.id for deletion in update.deletions}
 
 
@@ -165,4 +161,4 @@ _STATIC_LAYERS: dict[str, tuple[Callable[[DrawnWorld], Any], Callable[[Drawing, 
     ),
     BALL: (lambda world: world.possession, Drawing._ball),
 }
-"""Topic → what of a world decides how it looks, and what it then looks like."""
+"""Topic → the values of a world that determine how its scene looks, and the entities drawn from them."""

@@ -1,6 +1,6 @@
-"""What of a world is drawn: the places of its bodies, and what decides how they look.
+"""The fields of a world that are drawn: the positions of its bodies, and what determines their appearance.
 
-Read for each tick that is recorded, so nothing else of the message is taken out of it.
+They are read for each recorded tick, so only these fields are decoded.
 """
 
 from typing import Any
@@ -9,7 +9,7 @@ import msgspec
 
 
 class DrawnRobot(msgspec.Struct, frozen=True, gc=False):
-    """Position in m and heading in rad in the field frame, and why it is off the field."""
+    """Position in m and heading in rad in the field frame, and why the robot is off the field."""
 
     x: float
     y: float
@@ -27,7 +27,7 @@ class DrawnBall(msgspec.Struct, frozen=True, gc=False):
 
 
 class DrawnWorld(msgspec.Struct, frozen=True, gc=False):
-    """As much of a `schemas.messages.world.World`."""
+    """The drawn fields of `schemas.messages.world.World`."""
 
     robots: dict[str, DrawnRobot]
     ball: DrawnBall
@@ -36,4 +36,4 @@ class DrawnWorld(msgspec.Struct, frozen=True, gc=False):
 
 
 decode_world = msgspec.json.Decoder(DrawnWorld).decode
-"""Reads a payload; `ValueError` where it is no world."""
+"""Decodes a payload; raises `ValueError` if it is not a world."""

@@ -17,13 +17,13 @@ from schemas.config.sections import Pitch
 from schemas.messages.world import ObstacleTruth
 
 LINE_Z = 0.012
-"""m above the ground: so far apart, layers do not flicker in each other from 50 m away."""
+"""m above the ground: enough to prevent flickering between layers from 50 m away."""
 _GROUND_Z, _SURROUND_Z = 0.0, -0.02
 _SLAB = 0.02
 _MARK_RADIUS = 0.05
 _ARC_STEP = math.radians(6.0)
 _BOARD_HEIGHT = 0.15
-"""m of the boundary that are shown; a net that hangs above it would hide the pitch."""
+"""Height of the drawn boundary, in m; a net above it would hide the pitch."""
 _THICKNESS = 0.02
 
 
@@ -38,7 +38,7 @@ def field_entities(pitch: Pitch) -> list[SceneEntity]:
 
 
 def obstacle_entity(name: str, obstacle: ObstacleTruth) -> SceneEntity:
-    """A body that nothing moves."""
+    """An obstacle, in the field frame."""
     position, label = (obstacle.x, obstacle.y, obstacle.height / 2), f"obstacle {name}"
     if obstacle.shape is Shape.CYLINDER:
         return entity(label, MAP, cylinders=[cylinder(position, obstacle.radius, obstacle.height, OBSTACLE)])
@@ -53,7 +53,7 @@ def _ground(pitch: Pitch) -> Iterator[CubePrimitive]:
 
 
 def _lines(pitch: Pitch) -> Iterator[LinePrimitive]:
-    """Each line in the middle of its paint: it belongs to the area that it bounds."""
+    """Lines along the middle of their paint; a painted line belongs to the area that it bounds."""
     half = pitch.line_width / 2
     x, y = pitch.goal_line - half, pitch.touch_line - half
     yield _line(pitch, [(-x, -y), (x, -y), (x, y), (-x, y)], closed=True)

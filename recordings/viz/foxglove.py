@@ -1,4 +1,4 @@
-"""The messages of `foxglove.*` that channels for viewers carry. Foxglove, Lichtblick and Rerun know them by name."""
+"""The messages of `foxglove.*` on the channels for viewers. Foxglove, Lichtblick and Rerun identify them by name."""
 
 from functools import cache
 

@@ -1,4 +1,4 @@
-"""The game for viewers: a board beside the pitch with teams, score and clock, and a log of what happened."""
+"""The game for viewers: a board beside the pitch with teams, score and clock, and a log of events."""
 
 from foxglove_schemas_protobuf.Log_pb2 import Log
 
@@ -13,7 +13,7 @@ from schemas.side import Side
 _BOARD_GAP, _BOARD_Z = 0.8, 0.8
 """m from the boundary, and above the ground."""
 _ROWS = 1.3
-"""m from one row to the next, backward and upward: they stand apart from the side and from above."""
+"""m from one row to the next, backward and upward: rows are separate when seen from the side and from above."""
 _LARGE, _SMALL = 1.1, 0.7
 
 _LEVELS = {
@@ -24,11 +24,11 @@ _LEVELS = {
     EventKind.FORFEIT: Log.ERROR,
     EventKind.PROPOSAL: Log.DEBUG,
 }
-"""How grave an event is; the others are `INFO`."""
+"""Log levels of events; all others are `INFO`."""
 
 
 def scoreboard(state: GameState, setup: Setup, log_ns: int) -> bytes:
-    """A `foxglove.SceneUpdate`: each team's name stands at the half that it defends."""
+    """A `foxglove.SceneUpdate` with each team's name beside the half that it defends."""
     y, z = setup.pitch.touch_line + setup.pitch.border + _BOARD_GAP, _BOARD_Z
     texts = [
         text((0.0, y, z), _phase_text(state), _SMALL, INK),
@@ -55,7 +55,7 @@ def log_entry(event: GameEvent, log_ns: int) -> bytes:
 
 
 def _score_text(state: GameState) -> str:
-    """In the order in which the teams' names stand."""
+    """The score, in the order of the teams' names on the board."""
     sides = (Side.CYAN, Side.MAGENTA) if state.cyan_attacks > 0 else (Side.MAGENTA, Side.CYAN)
     return " : ".join(str(state.score.of(side)) for side in sides)
 

@@ -1,4 +1,4 @@
-"""Shapes of a scene as `foxglove.*` has them, in m of the frame of their entity; and the entities they belong to."""
+"""Shapes of `foxglove.*` scenes, in m in the frame of their entity, and entities made of them."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -26,7 +26,7 @@ Triple = tuple[float, float, float]
 
 
 def pose(position: Triple, heading: float = 0.0) -> Pose:
-    """A pose that is turned about z alone."""
+    """A pose that is rotated about z only."""
     turn = Quaternion(z=math.sin(heading / 2), w=math.cos(heading / 2))
     return Pose(position=_vector(position), orientation=turn)
 
@@ -61,7 +61,7 @@ def arrow(position: Triple, length: float, width: float, colour: Colour) -> Arro
 
 
 def line(points: Sequence[Triple], thickness: float, colour: Colour, *, closed: bool = False) -> LinePrimitive:
-    """A line through all points, and back to the first when it is closed."""
+    """A line through all points, and back to the first if it is `closed`."""
     return LinePrimitive(
         type=LinePrimitive.LINE_LOOP if closed else LinePrimitive.LINE_STRIP,
         pose=pose((0.0, 0.0, 0.0)),
@@ -72,7 +72,7 @@ def line(points: Sequence[Triple], thickness: float, colour: Colour, *, closed: 
 
 
 def text(position: Triple, string: str, size: float, colour: Colour) -> TextPrimitive:
-    """Words that face the viewer; `size` is their height."""
+    """Text that faces the viewer; `size` is its height."""
     return TextPrimitive(pose=pose(position), billboard=True, font_size=size, color=_color(colour), text=string)
 
 
@@ -88,7 +88,7 @@ def entity(
     lines: Iterable[LinePrimitive] = (),
     texts: Iterable[TextPrimitive] = (),
 ) -> SceneEntity:
-    """An entity that moves with its frame; viewers show `facts` when it is clicked on."""
+    """An entity that moves with its frame; viewers show `facts` when it is selected."""
     return SceneEntity(
         frame_id=frame,
         id=name,
@@ -104,13 +104,13 @@ def entity(
 
 
 def scene_update(entities: Iterable[SceneEntity], deleted: Iterable[str] = ()) -> SceneUpdate:
-    """An update to these entities, in place of what they were, and without those that are gone."""
+    """An update that replaces entities and deletes others by name."""
     deletions = [SceneEntityDeletion(type=SceneEntityDeletion.MATCHING_ID, id=name) for name in deleted]
     return SceneUpdate(deletions=deletions, entities=entities)
 
 
 def encode_scene(update: SceneUpdate, log_ns: int) -> bytes:
-    """The bytes of an update at a time in ns."""
+    """The bytes of an update with this time in ns."""
     for deletion in update.deletions:
         set_time(deletion.timestamp, log_ns)
     for entity in update.entities:

@@ -1,4 +1,4 @@
-"""Robots and ball as scenes. They are drawn once in their own frames, and move with these."""
+"""Robots and ball as scenes. They are drawn once, in their own frames, and move with these."""
 
 import re
 from typing import NamedTuple
@@ -17,29 +17,29 @@ from schemas.messages.host import Setup
 from schemas.side import Side
 
 _PLATE = 0.02
-"""Thickness of what lies on a robot or on the ground, m."""
+"""Thickness of plates on a robot or on the ground, in m."""
 _LABEL_ABOVE, _LABEL_SIZE = 0.35, 0.4
 _SHADOW_RADIUS = 0.3
 _HOLDER_DISC_SCALE = 1.5
 _OFF_FIELD_OPACITY = 0.25
-"""Opacity of a robot that does not take part."""
+"""Opacity of a robot off the field."""
 _JUST_ABOVE_LINES = 0.03
 
 
 class RobotAppearance(NamedTuple):
-    """One robot, as it is drawn."""
+    """The properties of a robot that determine how it is drawn."""
 
     name: str
     side: Side | None
-    """Nothing for a robot that no team has."""
+    """None for a robot of no team."""
     type: str = STANDARD
     keeper: bool = False
     off_field: str | None = None
-    """Why it does not take part."""
+    """Why it is off the field; None if it is on it."""
 
 
 def robot_entity(robot: RobotAppearance, setup: Setup) -> SceneEntity:
-    """A robot: its true hull, a plate on top that is round for cyan and square for magenta, heading, name."""
+    """A robot: hull in true size, a plate on top, round for cyan and square for magenta, heading, and name."""
     body = _body(robot, setup)
     opacity = 1.0 if robot.off_field is None else _OFF_FIELD_OPACITY
     colour = (ROBOT[robot.side] if robot.side is not None else UNKNOWN_ROBOT).faded(opacity)
@@ -67,7 +67,7 @@ def robot_entity(robot: RobotAppearance, setup: Setup) -> SceneEntity:
 
 
 def ball_entities(setup: Setup, holder: RobotAppearance | None) -> list[SceneEntity]:
-    """The ball, its place on the ground, and a disc below the robot that holds it."""
+    """The ball, its position on the ground, and a disc below the robot that holds it."""
     entities = [
         entity("ball", BALL_FRAME, spheres=[sphere((0.0, 0.0, 0.0), setup.ball.radius, BALL)]),
         entity("shadow", BALL_SHADOW, cylinders=[_disc(_JUST_ABOVE_LINES, _SHADOW_RADIUS)]),

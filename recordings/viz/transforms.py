@@ -1,6 +1,6 @@
-"""Where everything is, as `foxglove.FrameTransforms`: each robot's and the ball's frame in `map`, the field frame.
+"""Positions as `foxglove.FrameTransforms`: the frames of the robots and the ball in `map`, the field frame.
 
-Written some fifty times a second of simulated time, so the message is made once, and filled in for each world.
+They are written fifty times per simulated second, so one message is reused and filled in for each world.
 """
 
 from math import cos, sin
@@ -14,21 +14,21 @@ MAP = "map"
 """The field frame."""
 BALL = "ball"
 BALL_SHADOW = "ball/ground"
-"""On the ground below the ball."""
+"""The frame on the ground below the ball."""
 _PER_M = 2.0**14
 _TO_WHOLE = 1.5 * 2.0**52
-"""Added and subtracted, rounds a number below 2^51 as `round` does: a double of that size has no fraction."""
+"""Adding and subtracting it rounds numbers below 2^51 like `round`: a double of this size has no fraction."""
 STEP_M = 1 / _PER_M
-"""Places are written in steps of 0.06 mm, and turns as finely: numbers of a few digits pack well."""
+"""Step of positions, 0.06 mm, and of rotations: numbers with few digits compress well."""
 
 
 def base(robot: str) -> str:
-    """The frame of a robot: in the centre of its body, x in the kicking direction."""
+    """Name of a robot's frame, in the centre of its body, with x in the kicking direction."""
     return f"{robot}/base_link"
 
 
 class Transforms:
-    """Writes the transforms of one match."""
+    """Encodes the transforms of one match."""
 
     def __init__(self) -> None:
         self._robots: list[str] = []
@@ -54,7 +54,7 @@ class Transforms:
         return self._message.SerializeToString()
 
     def _frames(self, robots: list[str]) -> None:
-        """Make the message for these robots."""
+        """Build the message for these robots."""
         self._robots = robots
         self._message = FrameTransforms()
         for frame in (*map(base, robots), BALL, BALL_SHADOW):

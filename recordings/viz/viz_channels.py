@@ -1,6 +1,6 @@
-"""Writes what viewers draw into a recording, beside the messages that it comes from: in channels of their own.
+"""Writes the drawing of a match into its recording, in channels for viewers.
 
-It is derived: nothing that reads recordings here needs it, and whatever is made of a recording draws it anew.
+These channels are derived: readers of this project ignore them, and copies of a recording are drawn again.
 """
 
 from mcap.writer import Writer
@@ -13,7 +13,7 @@ from schemas.messages.host import Setup
 
 
 class VizChannels:
-    """Follows the messages that go into a file, and draws them there."""
+    """Draws the messages that are written to a file into the same file."""
 
     def __init__(self, mcap: Writer, setup: Setup) -> None:
         self._mcap, self._drawing = mcap, Drawing(setup)
@@ -22,7 +22,7 @@ class VizChannels:
         self._numbers: dict[str, int] = {}
 
     def draw(self, received: ReceivedMessage, log_ns: int) -> None:
-        """This message was written; what it brings for viewers follows it, with its times."""
+        """Write the messages for viewers that follow from this one, with its times."""
         for topic, payload in self._drawing.draw(received, log_ns):
             channel = self._channels.get(topic) or self._open(topic)
             number = self._numbers[topic] = self._numbers.get(topic, -1) + 1

@@ -1,86 +1,153 @@
-"""Publishes record batches: all that is to be recorded of a match, the messages of several ticks in one.
+"""Publishes the messages to be recorded of a match in batches of several ticks, and keeps the newest batches.
 
-A robot sends its commands once and forgets them. Noted here they can be fetched again from the host's cache, whatever
-program the robot is, and a recording has exactly what the host took in.
+A robot publishes its commands once and keeps none. In a batch, they can be requested from the host again, whatever
+program the robot runs, and a recording has exactly the messages that the host received.
 """
 
-from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Stamp
-from schemas.messages.record_batch import RawEntry, encode_batch, payload_fields
-from schemas.topic import Topic
-from schemas.topics import RECORD_BATCH
+from collections import deque
+from collections.abc import Callable
+from itertools import islice
+from typing import NamedTuple
 
-_MAX_TICKS = 8
-"""After which a batch is sent: of five a side it fits into one of Zenoh's batches, 64 KiB."""
-_MAX_AGE_S = 0.15
-"""Wall time after which it is sent where ticks take longer: a recorder has it half a second later on its disk."""
-_MAX_PAYLOADS = 1000
-"""Payloads of one tick from others that are noted; a flood is not. What is left out shows as a gap in its sender's
-numbers."""
-_MAX_PAYLOAD_BYTES = 65_536
-"""Bytes of a payload from others that is noted: no longer one is a valid message."""
-_MAX_BATCH_BYTES = 256 * 1024
-"""Bytes after which a batch is sent at once."""
+from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Stamp
+from schemas.message import BadMessageError
+from schemas.messages.record_batch import (
+    Entry,
+    RecordBatchesRequest,
+    payload_fields,
+    write_batch,
+    write_reply,
+)
+from schemas.recovery_window import BATCH_S, BATCH_TICKS, KEPT_BATCHES, KEPT_BYTES
+from schemas.topic import Topic
+from schemas.topics import RECORD_BATCH, RECORD_BATCHES
+
+_MOST = 1000
+"""Most payloads of other processes that are recorded in one tick, as protection from a flood. Those beyond it show as a
+gap in their sender's sequence numbers."""
+_LONGEST = 65_536
+"""Most bytes of a payload of another process that is recorded: longer payloads are not valid messages."""
+_AT_ONCE = 256 * 1024
+"""Bytes at which a batch is published at once."""
+_REPLY = 512 * 1024
+"""Most bytes of the batches in a reply with more than one batch: small enough to fit on a busy link soon."""
+_REPLIES = 4
+"""Most replies between two ticks, so that recorders with many requests do not delay the host."""
+
+
+class _Kept(NamedTuple):
+    sent_ns: int
+    payload: bytes
 
 
 class BatchPublisher:
-    """Collects what is said, and sends it now and then."""
+    """Collects messages, publishes them in batches, and serves requests for earlier batches."""
 
-    def __init__(self, bus: Bus) -> None:
+    def __init__(self, bus: Bus, note_invalid: Callable[[str, str, bytes], None] = lambda *_: None) -> None:
+        """`note_invalid` is called with key, reason and payload of an invalid request."""
         self._bus = bus
         self._clock = bus.clock
+        self._note_invalid = note_invalid
         self._writer = bus.publisher(RECORD_BATCH)
-        self._entries: list[RawEntry] = []
+        self._requests = bus.serve(RECORD_BATCHES)
+        self._stream = self._clock.unix_ns()
+        self._entries: list[Entry] = []
         self._count = self._size = self._ticks = 0
-        self._tick = 0
+        self._tick = -1
         self._sent_at = self._clock.now()
+        self._kept: deque[_Kept] = deque()
+        self._kept_bytes = self._next = 0
 
-    def publisher(self, topic: Topic, **chunks: str) -> Publisher:
-        """A writer of the host's, whose messages are noted if the topic is recorded."""
+    def publisher(self, topic: Topic, *, recorded: bool = False, **chunks: str) -> Publisher:
+        """A publisher of the host whose messages are recorded where the topic is, and in any case with `recorded`."""
         writer = self._bus.publisher(topic, **chunks)
-        return _BatchedPublisher(writer, self) if topic.recorded else writer
+        return _Recorded(writer, self) if topic.recorded or recorded else writer
 
     def add_received(self, received: ReceivedMessage) -> None:
-        """Somebody else said something that is to be recorded."""
+        """Add a message of another process."""
         payload = received.payload
-        if self._count >= _MAX_PAYLOADS or len(payload) > _MAX_PAYLOAD_BYTES:
+        if self._count >= _MOST or len(payload) > _LONGEST:
             return
         self._count += 1
         numbers = {} if received.stamp is None else received.stamp._asdict()
-        entry = RawEntry(received.key, arrived_ns=received.arrived_ns, **payload_fields(payload), **numbers)
-        self.add(entry, len(payload))
+        entry = Entry(
+            received.key,
+            arrived_ns=received.arrived_ns,
+            arrived_sim_ns=self._clock.sim_ns,
+            **payload_fields(payload),
+            **numbers,
+        )
+        self._enter(entry, len(payload))
 
-    def add(self, entry: RawEntry, size: int) -> None:
-        """Something is to be recorded, of so many bytes."""
-        self._entries.append(entry)
-        self._size += size
-        if self._size > _MAX_BATCH_BYTES:
-            self.send()
+    def add_own(self, key: str, payload: bytes, stamp: Stamp) -> None:
+        """Add a message that the host has published."""
+        self._enter(Entry(key, **payload_fields(payload), **stamp._asdict()), len(payload))
 
     def end_tick(self, tick: int) -> None:
-        """All of this tick has been said and noted; what is noted from now on is of the next."""
+        """End a tick: later messages belong to the next one."""
         self._tick = tick
         self._ticks += 1
         self._count = 0
-        if self._ticks >= _MAX_TICKS:
+        if self._ticks >= BATCH_TICKS:
             self.send()
         else:
             self.send_if_due()
 
     def send_if_due(self) -> None:
-        """Send what was noted, if that is a while ago."""
-        if self._entries and self._clock.now() - self._sent_at >= _MAX_AGE_S:
+        """Publish the collected messages where `BATCH_S` has passed since the last batch."""
+        if self._entries and self._clock.now() - self._sent_at >= BATCH_S:
             self.send()
 
     def send(self) -> None:
-        """Send what was noted, be it nothing: a recorder hears how far the host is."""
-        self._writer.put_payload(encode_batch(self._tick, self._entries))
+        """Publish the collected messages; an empty batch reports the host's progress to recorders."""
+        sent_ns = self._clock.unix_ns()
+        payload = write_batch(self._stream, self._next, self._tick, sent_ns, self._entries)
+        self._next += 1
+        self._writer.put_payload(payload)
+        self._keep(_Kept(sent_ns, payload))
         self._entries = []
         self._size = self._ticks = 0
         self._sent_at = self._clock.now()
 
+    def process(self) -> None:
+        """Reply to requests for earlier batches."""
+        for query in islice(iter(self._requests.receive, None), _REPLIES):
+            try:
+                request: RecordBatchesRequest = query.message()
+            except BadMessageError as error:
+                self._note_invalid(query.key, str(error), query.payload)
+                query.fail(str(error))
+            else:
+                query.reply_payload(self._reply(request))
 
-class _BatchedPublisher(Publisher):
-    """A publisher whose messages go into the record batches, too."""
+    def _enter(self, entry: Entry, size: int) -> None:
+        self._entries.append(entry)
+        self._size += size
+        if self._size > _AT_ONCE:
+            self.send()
+
+    def _keep(self, kept: _Kept) -> None:
+        self._kept.append(kept)
+        self._kept_bytes += len(kept.payload)
+        while len(self._kept) > KEPT_BATCHES or (self._kept_bytes > KEPT_BYTES and len(self._kept) > 1):
+            self._kept_bytes -= len(self._kept.popleft().payload)
+
+    def _reply(self, request: RecordBatchesRequest) -> bytes:
+        oldest = self._next - sum(kept.sent_ns >= request.since_ns for kept in self._kept)
+        start = min(max(request.first, oldest), self._next)
+        end = self._next if request.last is None else min(self._next, request.last + 1)
+        batches: list[bytes] = []
+        size = 0
+        for kept in islice(self._kept, start - self._next + len(self._kept), None):
+            size += len(kept.payload)
+            if start + len(batches) >= end or (batches and size > _REPLY):
+                break
+            batches.append(kept.payload)
+        return write_reply(self._stream, oldest, batches)
+
+
+class _Recorded(Publisher):
+    """A publisher whose messages are also recorded."""
 
     def __init__(self, writer: Publisher, batches: BatchPublisher) -> None:
         super().__init__(writer.topic, writer.key)
@@ -88,7 +155,7 @@ class _BatchedPublisher(Publisher):
 
     def put_payload(self, payload: bytes) -> Stamp:
         stamp = self._writer.put_payload(payload)
-        self._batches.add(RawEntry(self.key, **payload_fields(payload), **stamp._asdict()), len(payload))
+        self._batches.add_own(self.key, payload, stamp)
         return stamp
 
     def has_subscribers(self) -> bool:

@@ -1,12 +1,13 @@
-"""What every bus offers: publish, subscribe, query, serve, and liveliness tokens, by the rows of the topic table.
+"""The interface of a bus: publish, subscribe, query, serve, and liveliness tokens, by the rows of the topic table.
 
-The rest of the code is written against this module alone; `zenoh.bus` and `in_process_bus` behave alike, and one
-conformance suite runs over both.
+All other code uses this interface. `zenoh.bus` and `in_process_bus` implement it with the same behaviour, which one
+conformance suite tests for both.
 """
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from enum import StrEnum
 from types import TracebackType
 from typing import Any, NamedTuple, Self
 
@@ -16,37 +17,42 @@ from schemas.process.clock import Clock
 from schemas.struct import encode
 from schemas.topic import Delivery, Topic
 
+LEASE_S = 2.0
+"""Wall time without any data after which a link counts as broken."""
+HEARTBEAT_S = 0.5
+"""Longest wall time until a subscriber of a `recovered` topic detects that it missed the newest message."""
+
 
 class BusError(TouchlineError):
     """The bus could not be opened, or is closed."""
 
 
 class NoReplyError(Exception):
-    """No reply came in time."""
+    """No reply arrived in time, or the server reported that there is none."""
 
 
 class Stamp(NamedTuple):
-    """What the bus sends along with each message."""
+    """Metadata that the bus sends with each message."""
 
     sequence: int
-    """Counts this writer's messages on this key, from 0; a gap is a loss."""
+    """Counts the publisher's messages on this key, from 0; a gap is a loss."""
     sent_ns: int
-    """Writer's wall time, ns since 1970."""
+    """The publisher's wall time, ns since 1970."""
     sim_ns: int
-    """Writer's simulated time in ns, −1 when it knows none."""
+    """The publisher's simulated time in ns, −1 where it has none."""
 
 
 class ReceivedMessage(NamedTuple):
-    """A message as it came: read only when somebody asks for it."""
+    """A message as it arrived; decoded on demand."""
 
     topic: Topic
     key: str
     """Key below the match, `robot/cyan1/sight`."""
     payload: bytes
     stamp: Stamp | None
-    """Nothing when the writer did not use this library."""
+    """None where the publisher does not use this library."""
     arrived_ns: int = 0
-    """When the message reached the host, by the host's wall clock, ns since 1970; 0 when that is not known."""
+    """Wall time at which the message reached the host, by the host's clock, ns since 1970; 0 where unknown."""
 
     @property
     def chunks(self) -> dict[str, str]:
@@ -64,62 +70,72 @@ class ReceivedMessage(NamedTuple):
         return self.topic.message.decode(self.payload)
 
 
+class PresenceKind(StrEnum):
+    """The kind of a process in its liveliness token `alive/{kind}/{name}`."""
+
+    HOST = "host"
+    REPLAY = "replay"
+    """In addition to `host`: this host replays a recording."""
+    AGENT = "agent"
+    """Its name is that of its robot."""
+    RECORDER = "recorder"
+    COACH = "coach"
+    """A page or a terminal that shows the match."""
+    REFBOX = "refbox"
+    """A base station that is connected to a league's referee box; its name is that of its side."""
+
+
 @dataclass(frozen=True, slots=True)
 class Presence:
-    """A process came or went."""
+    """A liveliness token appeared or disappeared."""
 
-    kind: str
+    kind: PresenceKind
     name: str
     alive: bool
 
 
 class Publisher(ABC):
-    """Writes one key."""
+    """Publishes on one key."""
 
     def __init__(self, topic: Topic, key: str) -> None:
         self.topic = topic
         self.key = key
 
     def put(self, message: WireMessage) -> Stamp:
-        """Send a message; never waits for readers."""
+        """Publish a message, without waiting for subscribers."""
         return self.put_payload(message.encode())
 
     def put_fields(self, fields: dict[str, Any]) -> Stamp:
-        """Send a message given as plain fields, laid out as its model has them.
+        """Publish a message from plain fields in the order of its model, for messages that are sent often in each tick.
 
-        Nothing is validated here, for speed: the reader validates, and refuses a NaN, which is null here. For messages
-        sent many times per tick.
+        Does no validation, for speed: subscribers validate, and refuse NaN, which is encoded as null.
         """
         return self.put_payload(encode({"version": VERSION, **fields}))
 
     @abstractmethod
     def put_payload(self, payload: bytes) -> Stamp:
-        """Send bytes that are a message already; returns what travels beside them."""
+        """Publish an encoded message; returns the stamp sent with it."""
 
     @abstractmethod
     def has_subscribers(self) -> bool:
-        """Whether anybody listens to this key just now; always, where what was sent can be recovered later."""
+        """Whether the key has subscribers; always true on a `recovered` topic, whose messages can be fetched later."""
 
 
 class Subscription(ABC):
-    """Reads the keys of one topic."""
+    """Receives the messages of one topic."""
 
     @abstractmethod
     def receive(self, timeout: float | None = 0.0) -> ReceivedMessage | None:
-        """The next message, waiting up to `timeout` s for it (None: for ever); nothing when there is none."""
+        """The next message, waiting up to `timeout` s for it (None: without limit); None without a message."""
 
     def receive_payload(self, timeout: float | None = 0.0) -> bytes | None:
-        """The payload of the next message alone, for who asks for nothing else of it; as `receive`."""
+        """The payload of the next message, for callers that need nothing else; otherwise as `receive`."""
         received = self.receive(timeout)
         return received.payload if received is not None else None
 
     @abstractmethod
-    def skip_missing(self) -> None:
-        """Wait no more for what is missing of a `recovered` topic: what came after it is given out, behind a gap."""
-
-    @abstractmethod
     def close(self) -> None:
-        """Stop listening; a waiting `receive` returns nothing."""
+        """Unsubscribe; a waiting `receive` returns None."""
 
 
 class Query(ABC):
@@ -144,6 +160,10 @@ class Query(ABC):
         """Send the reply; once."""
 
     @abstractmethod
+    def reply_payload(self, payload: bytes) -> None:
+        """Send an encoded reply; once."""
+
+    @abstractmethod
     def fail(self, reason: str) -> None:
         """Report that there is no reply, and why; once."""
 
@@ -159,20 +179,33 @@ class Server(ABC):
 class PendingReply(ABC):
     """A reply that is on its way."""
 
-    @abstractmethod
+    def __init__(self, topic: Topic) -> None:
+        self._topic = topic
+
     def result(self, timeout: float) -> Any:
         """The reply, waiting up to `timeout` s.
 
         Raises:
             NoReplyError: no reply came, or the server reported that there is none, with the reason.
+            BadMessageError: the payload is not a reply of this topic.
+        """
+        assert self._topic.reply is not None
+        return self._topic.reply.decode(self.payload(timeout))
+
+    @abstractmethod
+    def payload(self, timeout: float) -> bytes:
+        """The bytes of the reply, waiting up to `timeout` s.
+
+        Raises:
+            NoReplyError: as `result`.
         """
 
 
 class PresenceWatch(ABC):
-    """Sees processes come and go; begins with those that are there."""
+    """Watches liveliness tokens; begins with those that exist."""
 
     is_empty: Callable[[], bool]
-    """Whether nothing waits to be received: for who asks often, and mostly in vain."""
+    """Whether no change is waiting: cheap, for callers that poll."""
 
     @abstractmethod
     def receive(self, timeout: float | None = 0.0) -> Presence | None:
@@ -189,15 +222,15 @@ class Bus(ABC):
 
     @abstractmethod
     def publisher(self, topic: Topic, **chunks: str) -> Publisher:
-        """A writer for one key: every chunk must be given."""
+        """A publisher for one key; every chunk must be given."""
 
     @abstractmethod
     def subscribe(self, topic: Topic, *, newest: bool = False, history: bool = False, **chunks: str) -> Subscription:
-        """A reader for a topic; a chunk left out reads every value of it.
+        """A subscription to a topic; without a chunk, to all its values.
 
-        A topic delivered `newest` yields the newest message of each key, any other every message that arrives, unless
-        the reader wants the `newest` alone. Where the writer keeps what it sent (`recovered`), `history` yields
-        that first.
+        A topic with the delivery `newest`, or any topic with `newest`, yields only the newest message of each key;
+        others yield every message that arrives. With `history`, a `recovered` topic first yields the messages in its
+        publishers' caches.
         """
 
     @abstractmethod
@@ -205,28 +238,37 @@ class Bus(ABC):
         """Serve the queries of this topic; every chunk must be given."""
 
     @abstractmethod
-    def query(self, topic: Topic, request: WireMessage, timeout: float = 2.0, **chunks: str) -> PendingReply:
-        """Send a query; `timeout` is how long it stays open, in s."""
+    def query(
+        self, topic: Topic, request: WireMessage, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
+    ) -> PendingReply:
+        """Send a query; it is open for `timeout` s.
+
+        With `droppable`, a request or a reply is dropped where a link is congested. Otherwise a process with a long
+        reply would wait for a requester that has stopped reading.
+        """
 
     @abstractmethod
-    def declare_alive(self, kind: str, name: str) -> None:
-        """Be seen as `alive/{kind}/{name}` until that is withdrawn, this bus is closed or its process dies."""
+    def declare_alive(self, kind: PresenceKind, name: str) -> None:
+        """Declare the token `alive/{kind}/{name}`.
+
+        It exists until it is withdrawn, this bus is closed, or its process dies.
+        """
 
     @abstractmethod
-    def withdraw_alive(self, kind: str, name: str) -> None:
-        """Be seen so no more; nothing where one was not."""
+    def withdraw_alive(self, kind: PresenceKind, name: str) -> None:
+        """Withdraw a token; without effect where it was not declared."""
 
     @abstractmethod
     def watch_alive(self) -> PresenceWatch:
-        """See others come and go."""
+        """Watch the tokens of all processes; tokens of unknown kinds are ignored."""
 
     @abstractmethod
     def connected(self) -> bool:
-        """Whether the medium is there: a client's link to its host is up."""
+        """Whether the medium is available: for a client, whether its link to the host is up."""
 
     @abstractmethod
     def close(self) -> None:
-        """Leave; further use raises `BusError`. Safe to call twice."""
+        """Close the connection; further use raises `BusError`. Safe to call twice."""
 
     def __enter__(self) -> Self:
         return self
@@ -238,14 +280,14 @@ class Bus(ABC):
 
 
 def check_publishable(topic: Topic) -> None:
-    """Refuse a topic that is not written but asked or declared."""
+    """Refuse a topic of queries or tokens."""
     if topic.delivery in (Delivery.QUERY, Delivery.PRESENCE):
-        raise BusError(f"{topic.key} is not published; it travels as {topic.delivery.value}")
+        raise BusError(f"{topic.key} is not published; its delivery is {topic.delivery.value}")
 
 
 def full_key(topic: Topic, chunks: dict[str, str]) -> str:
-    """The one key that these chunks name."""
+    """The key with all its chunks."""
     missing = [name for name in topic.chunks if name not in chunks]
     if missing:
-        raise BusError(f"topic {topic.key} needs {', '.join(missing)} to be written")
+        raise BusError(f"topic {topic.key} needs {', '.join(missing)} to be published")
     return topic.fill(**chunks)

@@ -1,4 +1,4 @@
-"""Endpoints in words: `tcp/HOST:PORT`, whether one stays on this machine, and a free port for `:0`."""
+"""Endpoints as text, `tcp/HOST:PORT`: parsing, whether one is on loopback, and a free port for `:0`."""
 
 import ipaddress
 import re
@@ -8,14 +8,14 @@ import sys
 from schemas.bus.contract import BusError
 
 DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
-"""Where a host listens and everyone else connects when nobody says otherwise: this machine alone."""
+"""The default endpoint of hosts and clients: on loopback, reachable only from this machine."""
 
 
 def parse_endpoint(endpoint: str) -> tuple[str, str, int]:
     """Protocol, host and port of an endpoint.
 
     Raises:
-        BusError: it is not `PROTOCOL/HOST:PORT`.
+        BusError: the text is not `PROTOCOL/HOST:PORT`.
     """
     found = re.fullmatch(r"(tcp|tls|quic|udp|ws)/(\[[^\]]+\]|[^:/\[\]]+):(\d{1,5})", endpoint)
     if found is None or int(found[3]) > 65_535:
@@ -24,7 +24,7 @@ def parse_endpoint(endpoint: str) -> tuple[str, str, int]:
 
 
 def is_loopback(endpoint: str) -> bool:
-    """Whether nothing outside this machine can reach the endpoint."""
+    """Whether only this machine can reach the endpoint."""
     _, host, _ = parse_endpoint(endpoint)
     if host == "localhost":
         return True
@@ -35,14 +35,14 @@ def is_loopback(endpoint: str) -> bool:
 
 
 def local_endpoint(listen: str) -> str:
-    """Where this machine reaches who listens there: on loopback where that is every address."""
+    """The endpoint at which this machine reaches a listener; on loopback for one that listens on every address."""
     protocol, host, port = parse_endpoint(listen)
     here = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
     return f"{protocol}/{here}:{port}"
 
 
 def with_free_port(endpoint: str) -> str:
-    """The endpoint itself, or with a free port where it says `:0`, which is then given to nobody else."""
+    """The endpoint, with a reserved free port in place of `:0`."""
     protocol, host, port = parse_endpoint(endpoint)
     if port:
         return endpoint
@@ -51,11 +51,11 @@ def with_free_port(endpoint: str) -> str:
 
 
 def reserve_port(host: str) -> int:
-    """A free TCP port of this address, to be listened on by this process or by one that it launches.
+    """A free TCP port of this address, for this process or one that it launches.
 
-    Between the choice and the listening, a second for a process that has to start, the system could give the port to
-    somebody else. Linux does not while a socket is bound to it, and lets others listen on it all the same if both allow
-    it, as Zenoh and the page's server do. That socket stays as long as this process.
+    A process takes about a second until it listens, and meanwhile the system could assign the port to another. On Linux
+    a bound socket prevents that, and does not prevent listening where both sockets set `SO_REUSEADDR`, as Zenoh and the
+    page's server do. The socket stays bound until this process ends.
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     with socket.socket(family, socket.SOCK_STREAM) as holder:

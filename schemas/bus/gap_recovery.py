@@ -1,8 +1,8 @@
-"""Keeps the messages of a key in their order until what is missing has come, or is known to be gone for good.
+"""Holds back the messages of a key behind a gap until the missing ones arrive or are known to be lost.
 
-Zenoh asks a writer's cache for what a reader missed, and goes on without it as soon as that request ends: also when
-the link broke in the middle of the answer, or when more was dropped while it came. What it leaves missing is asked for
-here again. Knows no network: `zenoh.cache_queries` sends the requests.
+Zenoh queries a publisher's cache for missed messages, and continues without them as soon as that query ends, even when
+the link broke during the reply or more messages were dropped meanwhile. The rest is requested again here. This module
+has no network access: `zenoh.cache_queries` sends the requests.
 """
 
 import math
@@ -13,17 +13,17 @@ from typing import NamedTuple
 from schemas.bus.contract import ReceivedMessage, Stamp
 
 RETRY_S = 0.2
-"""Wall time between an answer that was cut off and the next request."""
+"""Wall time between an incomplete reply and the next request."""
 GIVE_UP_S = 20.0
-"""Wall time after which what is missing is waited for no more: longer than any link takes that comes back."""
+"""Wall time after which missing messages are given up: longer than a link takes to recover."""
 LOOKBACK = 100
-"""Messages of a key that are asked for before the first that came: as many as go missing while a link is busy."""
+"""Messages of a key that are requested before the first that arrived: as many as are lost while a link is busy."""
 
 
 class Gap(NamedTuple):
-    """What is to be asked for: of one writer's messages on one key, those from `first` to `last`, both included.
+    """A range of missing messages: those of one publisher on one key, from `first` to `last`, both included.
 
-    The last of them has come already: an answer in which it stands was not cut off.
+    The last of them has already arrived: a reply that contains it is complete.
     """
 
     key: str
@@ -33,7 +33,7 @@ class Gap(NamedTuple):
 
 
 class _Stream:
-    """One writer's messages on one key."""
+    """One publisher's messages on one key."""
 
     __slots__ = ("expected", "give_up_at", "held", "requested", "retry_at", "writer")
 
@@ -46,26 +46,27 @@ class _Stream:
 
     @property
     def due_at(self) -> float:
-        """When it is asked for, or given up."""
+        """When its gap is requested next, or given up."""
         return self.give_up_at if self.requested else min(self.retry_at, self.give_up_at)
 
 
 class GapRecovery:
-    """Puts messages into the order of their numbers; times are wall time in s."""
+    """Sorts messages by their sequence numbers; times are wall time in s."""
 
     def __init__(self, since_ns: int, lookback: int = LOOKBACK) -> None:
-        """Before the first message of a key that comes, up to `lookback` others are asked for: nobody could see a gap
-        there. Of these, what was sent before `since_ns` (wall time) is not wanted.
+        """Before the first message of a key, where no gap is visible, up to `lookback` earlier ones are requested.
+
+        Those that were sent before `since_ns` (wall time) are left out.
         """
         self._since_ns, self._lookback = since_ns, lookback
         self.ready: deque[ReceivedMessage] = deque()
-        """What is in order, to be taken from the left."""
+        """Messages in order, to be taken from the left."""
         self._streams: dict[str, _Stream] = {}
         self._with_gaps: dict[str, _Stream] = {}
         """The streams with a gap."""
 
     def accept_if_next(self, received: ReceivedMessage) -> bool:
-        """Whether a message that has come is the next of its key, and nothing is held back: most are."""
+        """Whether an arrived message is the next of its key with none held back, as most are."""
         stamp, stream = received.stamp, self._streams.get(received.key)
         if stream is None or stamp is None or stamp.sequence != stream.expected or stream.held:
             return False
@@ -73,7 +74,7 @@ class GapRecovery:
         return True
 
     def insert(self, received: ReceivedMessage, writer: str | None, now: float) -> None:
-        """A message has come that does not pass, of this writer; nobody can be asked where that is not known."""
+        """Add a message of this publisher that is not the next; without a publisher, its gap cannot be requested."""
         stamp, key = received.stamp, received.key
         stream = self._streams.get(key)
         if stamp is None or writer is None:
@@ -83,7 +84,7 @@ class GapRecovery:
                 self._skip_all(key)
                 stream = self._streams[key] = _Stream(writer, self._first_of(stamp))
             if stamp.sequence < stream.expected:
-                self.ready.append(received)  # a double; who keeps account will see it
+                self.ready.append(received)  # a duplicate, which the caller counts
                 return
             if not stream.held:
                 stream.retry_at, stream.give_up_at = now, now + GIVE_UP_S
@@ -93,15 +94,15 @@ class GapRecovery:
 
     @property
     def has_gaps(self) -> bool:
-        """Whether something is missing."""
+        """Whether messages are missing."""
         return bool(self._with_gaps)
 
     def due_at(self) -> float:
-        """When there is something to ask for, or to give up; infinite while nothing is missing."""
+        """When the next gap is to be requested or given up; infinite without a gap."""
         return min((stream.due_at for stream in self._with_gaps.values()), default=math.inf)
 
     def due_requests(self, now: float) -> list[Gap]:
-        """What is to be asked for now; each is answered by `insert_reply`."""
+        """The gaps to request now; `insert_reply` takes the reply to each."""
         gaps = []
         for key, stream in list(self._with_gaps.items()):
             if now >= stream.give_up_at:
@@ -113,7 +114,7 @@ class GapRecovery:
         return gaps
 
     def insert_reply(self, gap: Gap, found: Iterable[ReceivedMessage], now: float) -> None:
-        """The reply to a request has ended, whole or cut off."""
+        """Add the messages of a reply, complete or not."""
         stream = self._streams.get(gap.key)
         if stream is None or stream.writer != gap.writer:
             return
@@ -127,17 +128,12 @@ class GapRecovery:
                     stream.held.setdefault(number, received)
         self._advance(gap.key, stream)
         if whole and stream.expected < gap.last:
-            self._skip(gap.key, stream)  # the writer keeps it no more, or nobody wants it
+            self._skip(gap.key, stream)  # no longer in the cache, or older than wanted
         if stream.expected > expected:
             stream.give_up_at = now + GIVE_UP_S
 
-    def skip_missing(self) -> None:
-        """Wait for nothing that is missing."""
-        for key in list(self._with_gaps):
-            self._skip_all(key)
-
     def _first_of(self, stamp: Stamp) -> int:
-        """The number to begin a key with whose first message that came has this stamp."""
+        """The first sequence number expected of a key whose first arrived message has this stamp."""
         return max(0, stamp.sequence - self._lookback) if stamp.sent_ns >= self._since_ns else stamp.sequence
 
     def _is_wanted(self, stamp: Stamp, stream: _Stream) -> bool:
@@ -148,7 +144,7 @@ class GapRecovery:
             self._skip(key, stream)
 
     def _skip(self, key: str, stream: _Stream) -> None:
-        """Go on behind a gap."""
+        """Continue behind a gap."""
         stream.expected = min(stream.held)
         self._advance(key, stream)
 

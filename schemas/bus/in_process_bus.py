@@ -1,4 +1,4 @@
-"""The bus within one process: the same behaviour without a network, for tests and for learning."""
+"""The bus within one process: the same behaviour without a network, for tests and matches in one process."""
 
 import threading
 from collections import deque
@@ -11,6 +11,7 @@ from schemas.bus.contract import (
     NoReplyError,
     PendingReply,
     Presence,
+    PresenceKind,
     PresenceWatch,
     Publisher,
     Query,
@@ -29,7 +30,7 @@ from schemas.topic import Delivery, Topic
 
 @dataclass(eq=False)
 class Medium:
-    """What the buses of one process share in place of a network."""
+    """The shared state of the buses of one process, in place of a network."""
 
     lock: threading.Lock = field(default_factory=threading.Lock)
     subscriptions: dict[str, list["_Subscription"]] = field(default_factory=dict)
@@ -37,21 +38,22 @@ class Medium:
     alive: dict[tuple[str, str], int] = field(default_factory=dict)
     watches: list["_Watch"] = field(default_factory=list)
     caches: dict[str, dict[str, deque[ReceivedMessage]]] = field(default_factory=dict)
-    """Topic with its match before it → key → what its writer has sent, where that can be recovered."""
+    """Match and topic → key → messages that the publisher of a `recovered` topic keeps."""
 
     def open_bus(self, match: str, clock: Clock) -> "InProcessBus":
         """A new bus for a match."""
         return InProcessBus(match, clock, self)
 
     def count_token(self, match: str, who: tuple[str, str], by: int) -> None:
-        """Count a token, and tell the watchers when the first came or the last went."""
+        """Count a token; watches are notified when the first appears or the last disappears."""
         with self.lock:
             before = self.alive.get(who, 0)
             self.alive[who] = before + by
             if (before == 0) != (before + by == 0):
                 for watch in self.watches:
                     if watch.match == match:
-                        watch.mailbox.put("", Presence(who[0].removeprefix(match + "/"), who[1], by > 0))
+                        kind = PresenceKind(who[0].removeprefix(match + "/"))
+                        watch.mailbox.put("", Presence(kind, who[1], by > 0))
 
 
 class _Publisher(Publisher):
@@ -102,9 +104,6 @@ class _Subscription(Subscription):
     def receive(self, timeout: float | None = 0.0) -> ReceivedMessage | None:
         return self._mailbox.get(timeout)
 
-    def skip_missing(self) -> None:
-        """Nothing is ever missing here."""
-
     def close(self) -> None:
         with self._bus.medium.lock:
             readers = self._bus.medium.subscriptions.get(self._bus.prefix + self._topic.key, [])
@@ -119,7 +118,10 @@ class _Query(Query):
         self._answer = answer
 
     def reply(self, reply: WireMessage) -> None:
-        self._answer.mailbox.put("", reply.encode())
+        self.reply_payload(reply.encode())
+
+    def reply_payload(self, payload: bytes) -> None:
+        self._answer.mailbox.put("", payload)
 
     def fail(self, reason: str) -> None:
         self._answer.mailbox.put("", reason)
@@ -135,17 +137,16 @@ class _Server(Server):
 
 class _PendingReply(PendingReply):
     def __init__(self, topic: Topic) -> None:
-        self._topic = topic
+        super().__init__(topic)
         self.mailbox: EveryMailbox[bytes | str] = EveryMailbox()
 
-    def result(self, timeout: float) -> Any:
+    def payload(self, timeout: float) -> bytes:
         reply = self.mailbox.get(timeout)
         if reply is None:
-            raise NoReplyError(f"nobody answers {self._topic.key}")
+            raise NoReplyError(f"no process answers {self._topic.key}")
         if isinstance(reply, str):
             raise NoReplyError(reply)
-        assert self._topic.reply is not None
-        return self._topic.reply.decode(reply)
+        return reply
 
 
 class _Watch(PresenceWatch):
@@ -172,7 +173,7 @@ class InProcessBus(Bus):
         self._kept: list[tuple[str, str]] = []
 
     def keep(self, topic: Topic, key: str) -> deque[ReceivedMessage]:
-        """Where a writer of this key keeps what it sends, for as long as its bus is open."""
+        """The cache of a publisher of this key, for as long as its bus is open."""
         kept: deque[ReceivedMessage] = deque(maxlen=topic.cache_size)
         with self.medium.lock:
             self.medium.caches.setdefault(self.prefix + topic.key, {})[key] = kept
@@ -180,7 +181,7 @@ class InProcessBus(Bus):
         return kept
 
     def check_open(self) -> None:
-        """Raise `BusError` when this bus is closed."""
+        """Raise `BusError` where this bus is closed."""
         if self._closed:
             raise BusError("this bus is closed")
 
@@ -212,25 +213,27 @@ class InProcessBus(Bus):
         self._mailboxes.append(server.mailbox)
         return server
 
-    def query(self, topic: Topic, request: WireMessage, timeout: float = 2.0, **chunks: str) -> PendingReply:
+    def query(
+        self, topic: Topic, request: WireMessage, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
+    ) -> PendingReply:
         self.check_open()
-        del timeout  # nothing is on its way here: a question waits with its server or was refused at once
+        del timeout, droppable  # a request waits with its server or is refused at once
         answer = _PendingReply(topic)
         key = full_key(topic, chunks)
         server = self.medium.servers.get(self.prefix + key)
         if server is None:
-            answer.mailbox.put("", f"nobody answers {key}")
+            answer.mailbox.put("", f"no process answers {key}")
         else:
             server.mailbox.put("", _Query(topic, request.encode(), answer))
         return answer
 
-    def declare_alive(self, kind: str, name: str) -> None:
+    def declare_alive(self, kind: PresenceKind, name: str) -> None:
         self.check_open()
         who = (self.prefix + kind, name)
         self._tokens.append(who)
         self.medium.count_token(self.match, who, +1)
 
-    def withdraw_alive(self, kind: str, name: str) -> None:
+    def withdraw_alive(self, kind: PresenceKind, name: str) -> None:
         self.check_open()
         who = (self.prefix + kind, name)
         if who in self._tokens:
@@ -244,7 +247,7 @@ class InProcessBus(Bus):
             self.medium.watches.append(watch)
             for (kind, name), count in self.medium.alive.items():
                 if count and kind.startswith(self.prefix):
-                    watch.mailbox.put("", Presence(kind.removeprefix(self.prefix), name, True))
+                    watch.mailbox.put("", Presence(PresenceKind(kind.removeprefix(self.prefix)), name, True))
         self._mailboxes.append(watch.mailbox)
         return watch
 

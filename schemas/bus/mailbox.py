@@ -1,7 +1,7 @@
-"""Where messages wait between the thread that brings them and the one that reads them.
+"""Queues of messages between the thread that delivers them and the thread that reads them.
 
-Built on `SimpleQueue`, whose put never blocks and never needs another thread to run: a bringing thread is never
-held up by a slow reader, which is what keeps one slow subscription from stalling a whole Zenoh session.
+Based on `SimpleQueue`, whose put never blocks and never depends on another thread: a slow reader cannot delay the
+delivering thread, so that one slow subscription does not stall a Zenoh session.
 """
 
 from queue import Empty, SimpleQueue
@@ -11,20 +11,20 @@ T = TypeVar("T")
 
 
 class Mailbox(Protocol[T]):
-    """Both kinds of mailbox."""
+    """The interface of mailboxes."""
 
     def put(self, key: str, item: T) -> None:
-        """Bring an item."""
+        """Add an item."""
 
     def get(self, timeout: float | None) -> T | None:
-        """The next item, waiting up to `timeout` s (None: for ever); nothing when there is none, or at the end."""
+        """The next item, waiting up to `timeout` s (None: without limit); None without an item, and at the end."""
 
     def close(self) -> None:
-        """Wake the reader: no more items will come."""
+        """End the mailbox and wake its reader."""
 
 
 class _End:
-    """What wakes a reader at the end."""
+    """The item that wakes a reader at the end."""
 
 
 _END = _End()
@@ -36,10 +36,10 @@ class EveryMailbox(Generic[T]):
     def __init__(self) -> None:
         self._queue: SimpleQueue[T | _End] = SimpleQueue()
         self.is_empty = self._queue.empty
-        """Whether nothing waits, neither an item nor the end."""
+        """Whether neither an item nor the end is waiting."""
 
     def put(self, key: str, item: T) -> None:
-        """Bring an item; the key does not matter here."""
+        """Add an item; the key has no effect."""
         del key
         self._queue.put(item)
 
@@ -52,7 +52,7 @@ class EveryMailbox(Generic[T]):
         return item
 
     def close(self) -> None:
-        """No more items will come."""
+        """End the mailbox and wake its reader."""
         self._queue.put(_END)
 
 
@@ -64,7 +64,7 @@ class NewestMailbox(Generic[T]):
         self._keys: SimpleQueue[str | _End] = SimpleQueue()
 
     def put(self, key: str, item: T) -> None:
-        """Bring an item; an older one of the same key that nobody took is forgotten."""
+        """Add an item; it replaces an unread older item of the same key."""
         self._newest[key] = item
         self._keys.put(key)
 
@@ -77,18 +77,18 @@ class NewestMailbox(Generic[T]):
             if isinstance(key, _End):
                 self._keys.put(key)
                 return None
-            item = self._newest.pop(key, None)  # the item was replaced, and taken with an earlier key
+            item = self._newest.pop(key, None)  # replaced, and returned with an earlier key
             if item is not None:
                 return item
 
     def close(self) -> None:
-        """No more items will come."""
+        """End the mailbox and wake its reader."""
         self._keys.put(_END)
 
 
 def _get_from(queue: SimpleQueue[T], timeout: float | None) -> T | None:
     if timeout == 0.0 and queue.empty():
-        return None  # mostly so where somebody only looks; an exception costs more than the look
+        return None  # the usual case without a timeout; an exception costs more than this test
     try:
         return queue.get(timeout != 0.0, timeout)
     except Empty:

@@ -1,1 +1,1 @@
-"""What a match is made of, read from files: match, roster, scene, profile, rule book. Frozen, with units and ranges."""
+"""Configuration of a match, read from files: match, roster, scene, profile and rule book; frozen, with units."""

@@ -1,6 +1,6 @@
 """The match file: one frozen `MatchConfig` from TOML, with errors that name file, key, value and remedy.
 
-`load_match` reads every file that a match file names, scene and profile, and embeds what is in it: a config is
+`load_match` reads the scene and the profile that a match file names and embeds their content: a config is
 self-contained.
 """
 
@@ -16,6 +16,7 @@ from schemas.config.profile import SHIPPED, Profile, load_profile, profile_of, p
 from schemas.config.roster import MAX_ROBOTS, RESERVED
 from schemas.config.scene import REMEDIES as SCENE_REMEDIES
 from schemas.config.scene import Scene, load_scene
+from schemas.config.settings import DEFAULT_MATCH, RecordOptions
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import OfficiatingMode
@@ -23,51 +24,51 @@ from schemas.message import Name, Part
 from schemas.side import Side
 
 LOCKSTEP = "lockstep"
-"""The pace in which the host waits for the answers of all robots."""
+"""The pace at which the host waits for the answers of all robots."""
 
 REMEDIES = {
-    "name": "a match name is a key chunk: small letters, digits and _",
+    "name": "a match name is a key chunk: lower-case letters, digits and _",
     "seed": "a whole number from 0 to 2^63 - 1",
     "pace": 'write "lockstep", "realtime", or "x4" for four times real time',
     "duration": "playing time of all halves in s, above 0 and at most 86400",
     "scene": "the name of a scene, or a path that ends in .toml",
     **{f"scene.{key}": remedy for key, remedy in SCENE_REMEDIES.items()},
     "teams": "write [teams.cyan] and [teams.magenta]",
-    "teams.cyan": "write [teams.cyan], and below it what the team is",
-    "teams.magenta": "write [teams.magenta], and below it what the team is",
+    "teams.cyan": "write [teams.cyan], and below it the keys of the team",
+    "teams.magenta": "write [teams.magenta], and below it the keys of the team",
     "teams.cyan.size": f"a side has 1 to {MAX_ROBOTS} robots",
     "teams.magenta.size": f"a side has 1 to {MAX_ROBOTS} robots",
-    "teams.cyan.robots": f"1 to {MAX_ROBOTS} different names of small letters, digits and _",
-    "teams.magenta.robots": f"1 to {MAX_ROBOTS} different names of small letters, digits and _",
+    "teams.cyan.robots": f"1 to {MAX_ROBOTS} different names of lower-case letters, digits and _",
+    "teams.magenta.robots": f"1 to {MAX_ROBOTS} different names of lower-case letters, digits and _",
     "teams.cyan.brain": 'write "module:Class"',
     "teams.magenta.brain": 'write "module:Class"',
-    "teams.cyan.types": 'write robot = "type", as in { cyan1 = "keeper" }',
-    "teams.magenta.types": 'write robot = "type", as in { magenta1 = "keeper" }',
-    "obstacles": "write [[obstacles]] above each of them",
+    "teams.cyan.types": 'write robot = "type", for example { cyan1 = "keeper" }',
+    "teams.magenta.types": 'write robot = "type", for example { magenta1 = "keeper" }',
+    "obstacles": "write [[obstacles]] above each obstacle",
     "obstacles.shape": f"one of {', '.join(Shape)}",
     "obstacles.place": "x and y of the centre in m",
     "obstacles.size": "x, y and z of a box in m",
     "referee.mode": f"one of {', '.join(OfficiatingMode)}",
     "noise.preset": f"one of {', '.join(PRESETS)}",
 }
-"""What to do about a wrong value, by key; a message of the validator's stands where there is none."""
+"""Key → remedy for an invalid value; keys without one get the validator's message."""
 
 
 class TeamConfig(Part):
-    """One team of the match file: who plays and what moves them."""
+    """One team of the match file: its robots and their program."""
 
     name: str = ""
-    """Name of the team, for display; the side's where it is empty."""
+    """Name of the team, for display; where it is empty, that of the side."""
     brain: Annotated[str, Field(pattern=r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")] | None = None
-    """`module:Class` of a brain in Python; it is built once in each robot's process."""
+    """`module:Class` of a brain in Python; each robot's process constructs one instance."""
     command: list[str] | None = None
-    """Any program that speaks the topics, in place of a brain; the environment tells it who it is."""
+    """Command line of a program in any language, in place of a brain; environment variables name its robot."""
     size: Annotated[int, Field(ge=1, le=MAX_ROBOTS)] = MAX_ROBOTS
     """Number of robots, where `robots` does not name them."""
     robots: Annotated[list[Name], Field(max_length=MAX_ROBOTS)] = Field(default_factory=list)
-    """Names of the robots, the goalkeeper first; when none are given, colour and number."""
+    """Names of the robots, the goalkeeper first; where the list is empty, side and number, as `cyan1`."""
     types: dict[Name, Name] = Field(default_factory=dict)
-    """Robot → its type, of the profile or of `[types.NAME]`; a robot that is not named here is a standard one."""
+    """Robot → its type, of the profile or of `[types.NAME]`; other robots are of the standard type."""
 
     @model_validator(mode="after")
     def _check_brain_or_command(self) -> "TeamConfig":
@@ -94,7 +95,7 @@ class TeamConfigs(Part):
 
 
 class NoiseConfig(Part):
-    """How well robots perceive."""
+    """Quality of the robots' perception."""
 
     preset: str = "profile"
     """Name of a preset of perception noise; `profile` for the numbers of the profile."""
@@ -108,82 +109,66 @@ class NoiseConfig(Part):
 
 
 class RadioOverride(Part):
-    """Numbers in place of the profile's."""
+    """Radio numbers that replace those of the profile."""
 
     delay: Annotated[float, Field(ge=0, le=5)] | None = None
     """Least simulated time from sending to delivery, in s; None for the profile's."""
     jitter: Annotated[float, Field(ge=0, le=5)] | None = None
-    """Longest time that delivery may take beyond `delay`, in s; None for the profile's."""
+    """Longest further time until delivery beyond `delay`, in s; None for the profile's."""
     loss: Annotated[float, Field(ge=0, le=1)] | None = None
-    """Share of messages that are lost, from 0 to 1; None for the profile's."""
+    """Share of deliveries that are lost, from 0 to 1; None for the profile's."""
     budget: Annotated[float, Field(ge=0)] | None = None
-    """What a team may send, in bit/s averaged over one second; None for the profile's."""
+    """Most bits that a team may send, in bit/s averaged over one second; None for the profile's."""
 
 
 class OfficiatingConfig(Part):
     """How the match is refereed."""
 
     kick_off: Side = Side.CYAN
-    """Who kicks off the first half."""
+    """The side that kicks off the first half."""
     automatic: bool = True
-    """The match starts by itself when all robots are there; otherwise it waits for `touchline coach start`."""
+    """The match starts by itself when all robots are present; otherwise it waits for `touchline coach start`."""
     mode: OfficiatingMode = OfficiatingMode.AUTOMATIC
-    """The referee decides, or people alone, or it proposes and people may overrule it."""
+    """Who decides: the referee, people, or the referee with people who may overrule its proposals."""
     proposal: Annotated[float, Field(ge=0, le=60)] = 3.0
-    """Mixed officiating: s of simulated time after which what was proposed is decided."""
+    """Mixed officiating: simulated time after which a proposal becomes a decision, in s."""
     winner: bool | None = None
-    """A level match goes on with extra time and penalties; by default as the rule book says."""
+    """A level match continues with extra time and penalties; None for the rule book's setting."""
 
 
-class RecordingConfig(Part):
-    """What is recorded."""
+class RecordingConfig(RecordOptions):
+    """What is recorded, and whether the match waits for a recorder."""
 
-    sights: bool = False
-    """The sights of all robots are recorded, too."""
     wait: bool = False
-    """The first tick waits for a recorder to be there, so that nothing is missed."""
-    include: list[str] = Field(default_factory=list)
-    """Key expressions that are recorded, `robot/*/command`; all where there is none."""
-    exclude: list[str] = Field(default_factory=list)
-    """Key expressions that are not."""
-    split_size: Annotated[float, Field(gt=0)] | None = None
-    """MB after which the recording goes on in a next file."""
-    split_duration: Annotated[float, Field(gt=0)] | None = None
-    """Simulated s after which it does."""
-    keep: Annotated[int, Field(ge=1)] | None = None
-    """Number of finished files that are kept, the newest; None for all."""
-    snapshot: Annotated[float, Field(gt=0)] | None = None
-    """Simulated s before a goal that are written, each to a file of its own; nothing else is."""
-    viz: bool = True
-    """What viewers draw is in the file: `/tf` and `/viz/*`, for Foxglove, Lichtblick and Rerun."""
+    """The first tick waits for a recorder, so that the recording is complete."""
 
 
 class Patience(Part):
     """How long the host waits, in s of wall time."""
 
     attendance: Annotated[float, Field(ge=0, le=600)] = 30.0
-    """Time for all robots to be there before the first tick."""
+    """Longest wait for all robots before the first tick, in s."""
     answer: Annotated[float, Field(gt=0, le=60)] = 1.0
-    """Lockstep: time for a robot's answer to one tick."""
+    """Lockstep: longest wait for a robot's answer to one tick, in s."""
     recorder: Annotated[float, Field(gt=0, le=600)] = 5.0
-    """Lockstep: time for a recorder that stands still or has lost its link."""
+    """Lockstep: longest wait for a recorder that makes no progress or has lost its connection, in s."""
 
 
 class MatchConfig(Part):
-    """Everything that makes one match, and with equal brains the same match again."""
+    """The complete description of a match; with the same brains, it gives the same match again."""
 
-    name: Name = "friendly"
+    name: Name = DEFAULT_MATCH
     """Name of the match on the bus."""
     seed: Annotated[int, Field(ge=0, lt=2**63)] = 1
-    """Whole number that all randomness comes from."""
+    """Seed of all random numbers."""
     pace: Annotated[str, Field(pattern=r"^(lockstep|realtime|x\d{1,6}(\.\d{1,6})?)$")] = LOCKSTEP
-    """lockstep, realtime, or x4 for four times real time."""
+    """`lockstep`, `realtime`, or `x4` for four times real time."""
     duration: Annotated[float, Field(gt=0, le=86_400)] | None = None
-    """Playing time of all halves in s; by default the rule book's."""
+    """Playing time of all halves in s; None for the rule book's."""
     scene: Scene | None = None
-    """The scene that the match starts in, with its robots; None for the kick-off.
+    """The scene that the match starts in, with its robots; None for a kick-off.
 
-    A match file has the name or the path of a scene here, or the scene itself.
+    In a match file, the name or the path of a scene, or the scene itself.
     """
     profile: str = "msl"
     """A shipped profile by name, or the path of the file that `profile_tables` was read from."""
@@ -192,20 +177,20 @@ class MatchConfig(Part):
     rules: str = "friendly"
     """A shipped rule book, by name."""
     teams: TeamConfigs = Field(default_factory=TeamConfigs)
-    """Who plays."""
+    """Both teams."""
     types: dict[Name, dict[str, Any]] = Field(default_factory=dict)
     """Type of robot → sections of numbers that differ from the profile's; adds types, or changes those of the
     profile."""
     obstacles: list[StaticObstacle] = Field(default_factory=list)
-    """What else stands on the pitch when the match begins."""
+    """Obstacles on the pitch when the match begins."""
     noise: NoiseConfig = NoiseConfig()
-    """How well robots perceive."""
+    """Quality of the robots' perception."""
     radio: RadioOverride = RadioOverride()
-    """Radio numbers in place of the profile's."""
+    """Radio numbers that replace those of the profile."""
     referee: OfficiatingConfig = OfficiatingConfig()
     """How the match is refereed."""
     record: RecordingConfig = RecordingConfig()
-    """What is recorded."""
+    """What is recorded, and into which files."""
     patience: Patience = Patience()
     """How long the host waits, in s of wall time."""
 
@@ -221,7 +206,7 @@ class MatchConfig(Part):
         names = [robot for side in Side for robot in self.robots(side)]
         for name in names:
             if name in RESERVED:
-                raise ValueError(f'a robot is named "{name}", which means something else in a key; rename it')
+                raise ValueError(f'a robot is named "{name}", which has another meaning in keys; rename it')
             if names.count(name) > 1:
                 raise ValueError(f'two robots are named "{name}"; every robot of a match has its own name')
         bodies = [*names, *RESERVED]
@@ -246,7 +231,7 @@ class MatchConfig(Part):
         return self.teams.cyan if side is Side.CYAN else self.teams.magenta
 
     def robots(self, side: Side) -> list[str]:
-        """The names of the robots that agents move, the goalkeeper first; of a scene, where the match starts in one."""
+        """Names of the robots that have an agent, the goalkeeper first; those of the scene where the match has one."""
         if self.scene is not None:
             return [robot.name for robot in self.scene.of(side) if robot.agent]
         team = self.team(side)
@@ -256,7 +241,7 @@ class MatchConfig(Part):
         """The profile that the match is played with.
 
         Raises:
-            TouchlineError: no such shipped profile, or a wrong number in it.
+            TouchlineError: there is no such shipped profile, or a number in it is invalid.
         """
         if self.profile_tables is None:
             return load_profile(self.profile)
@@ -264,14 +249,14 @@ class MatchConfig(Part):
 
     @property
     def speed(self) -> float | None:
-        """Simulated seconds per wall second that the pace asks for; nothing in lockstep."""
+        """Simulated seconds per wall second at this pace; None in lockstep."""
         if self.pace == LOCKSTEP:
             return None
         return 1.0 if self.pace == "realtime" else float(self.pace[1:])
 
 
 def load_match(path: Path | None, overrides: dict[str, Any] | None = None) -> MatchConfig:
-    """The match of a file, or the default one; `overrides` are laid over it, as the command line's flags are.
+    """The match of a file, or the default match; `overrides`, key with dots → value, replace its values.
 
     Raises:
         TouchlineError: one line that names file, key, value and remedy.
@@ -291,7 +276,7 @@ def load_match(path: Path | None, overrides: dict[str, Any] | None = None) -> Ma
 
 
 def _with_scene(content: dict[str, Any]) -> dict[str, Any]:
-    """The match file with the scene in place of its name, and with the scene's profile and rules as defaults."""
+    """The content of a match file with its scene embedded, and the scene's profile and rules as defaults."""
     if isinstance(content.get("scene"), str):
         content = content | {"scene": load_scene(content["scene"]).model_dump(mode="json")}
     scene = content.get("scene")
@@ -301,7 +286,7 @@ def _with_scene(content: dict[str, Any]) -> dict[str, Any]:
 
 
 def _with_profile(content: dict[str, Any], where: str) -> dict[str, Any]:
-    """The match file with the tables of a profile that is not shipped."""
+    """The content of a match file with the tables of a profile that is not shipped."""
     if "profile_tables" in content:
         raise TouchlineError(f'{where}: profile_tables is not for match files; write profile = "FILE.toml"')
     profile = content.get("profile")

@@ -1,4 +1,4 @@
-"""Named kinds of perception; `profile` stands for the profile's own numbers."""
+"""Presets of perception noise; `profile` stands for the numbers of the profile."""
 
 from dataclasses import replace
 
@@ -29,7 +29,7 @@ PERFECT = Sensing(
     camera_rate=1000.0,
     latency=0.0,
 )
-"""The truth, all of it, at once."""
+"""The complete truth, without noise or latency."""
 
 SIMATCH = replace(
     PERFECT,
@@ -40,20 +40,21 @@ SIMATCH = replace(
     obstacle_position=0.1,
     noise_rate=0.01,
 )
-"""simatch's global_config.yaml: scale 0.10 m and m/s at a rate of 0.01, meaning one reading in a hundred.
+"""simatch's global_config.yaml: scale 0.10 m and m/s at a rate of 0.01, that is, one reading in a hundred.
 
-As in its plugin, x, y, vx and vy have noise, of the own robot too, and heading and turn rate have none.
+As in its plugin, x, y, vx and vy have noise, including those of the robot itself; heading and turn rate have none.
 """
 
 PRESETS = ("profile", "perfect", "paper", "simatch")
-"""`paper` has sigma 0.0194 on positions, velocities and turn rate, as the paper's plugin, and no limits."""
+"""`paper` has the noise of the paper's plugin, a standard deviation of 0.0194 on positions, velocities and turn rate,
+and no limits of range."""
 
 
 def sensing_of(preset: str, own: Sensing) -> Sensing:
-    """What a preset stands for, in a match whose profile has `own`.
+    """The perception of a preset, in a match whose profile has `own`.
 
     Raises:
-        TouchlineError: no such preset.
+        TouchlineError: there is no such preset.
     """
     if preset == "profile":
         return own

@@ -1,4 +1,4 @@
-"""Bodies that stand on the pitch and are no robots: boxes and cylinders that nothing moves."""
+"""Static obstacles on the pitch: boxes and cylinders."""
 
 import math
 from enum import StrEnum
@@ -9,21 +9,21 @@ from pydantic import Field, model_validator
 from schemas.message import Name, Part
 
 Length = Annotated[float, Field(ge=0.02, le=5)]
-"""m; thinner than the least and a fast ball goes through it in one step of the physics."""
+"""m; a fast ball would pass through a thinner body in one physics step."""
 
 
 class Shape(StrEnum):
-    """What an obstacle looks like."""
+    """The shape of an obstacle."""
 
     CYLINDER = "cylinder"
     BOX = "box"
 
 
 class StaticObstacle(Part):
-    """One body on the ground that robots and ball bounce off and nobody moves."""
+    """One static body on the ground, which robots and ball bounce off."""
 
     name: Name
-    """Name of the obstacle; no other body of the match has it."""
+    """Name of the obstacle; unique among the bodies of the match."""
     shape: Shape
     """Cylinder or box."""
     place: Annotated[list[float], Field(min_length=2, max_length=2)]
@@ -50,15 +50,15 @@ class StaticObstacle(Part):
 
     @property
     def extents(self) -> tuple[float, float, float]:
-        """Size of the box that it just fits into, along its heading, across and up, m."""
+        """Size of its bounding box along its heading, across it and upward, in m."""
         if self.size is not None:
             x, y, z = self.size
             return x, y, z
-        assert self.radius is not None and self.height is not None  # the validator has seen to it
+        assert self.radius is not None and self.height is not None  # as the validator checks
         return 2 * self.radius, 2 * self.radius, self.height
 
     @property
     def reach(self) -> float:
-        """Largest distance of its hull from its axis, m: the radius of the circle around it."""
+        """Largest distance of its hull from its axis in m: the radius of the circle around it."""
         x, y, _ = self.extents
         return x / 2 if self.shape is Shape.CYLINDER else math.hypot(x, y) / 2

@@ -1,7 +1,8 @@
 """A profile: its sections and its types of robots, read from TOML.
 
-Those of `SHIPPED` come along; any TOML file may `extends = "msl"` and change what it likes. Every number has a unit
-(declared in `schemas.config.sections`) and an origin (written in the file, kept in `Profile.origins`).
+The package ships those of `SHIPPED`. Any other TOML file may extend one with `extends = "msl"` and change numbers.
+Every number has a unit (declared in `schemas.config.sections`) and an origin (written in the file, kept in
+`Profile.origins`).
 """
 
 import dataclasses
@@ -32,24 +33,23 @@ from schemas.described import Described
 from schemas.errors import TouchlineError, did_you_mean
 
 SHIPPED = ("msl", "omni", "omni3", "paper")
-"""The profiles that come with the package."""
-
+"""The profiles that the package ships."""
 
 STANDARD = "standard"
-"""The type whose numbers stand in the profile's own sections."""
+"""The type of robot whose numbers are in the profile's own sections."""
 
 Changes = Mapping[str, Mapping[str, Any]]
-"""Section → key → value: what makes a type of robot different from the standard one."""
+"""Section → key → value: the numbers of a type of robot that differ from the standard type."""
 
 
 @dataclass(frozen=True, slots=True)
 class Profile(Described):
-    """Everything physical about a match."""
+    """All physical numbers of a match."""
 
     name: str
     """Name of the profile."""
     time: TimeSteps
-    """How time is cut into ticks and physics steps."""
+    """Lengths of the physics step and the control tick."""
     field: Pitch
     """Dimensions of the pitch, its goals and its boundary."""
     robot: RobotBody
@@ -65,18 +65,18 @@ class Profile(Described):
     kicker: Kicker
     """Kicker of the standard robot."""
     sensing: Sensing
-    """What robots perceive, and how well."""
+    """What robots perceive, and with which noise."""
     radio: RadioChannel
     """Delay, loss and budget of the radio."""
     safety: Safety
     """When the host stops a silent robot."""
     types: Mapping[str, Changes]
-    """Type of robot → what is different about it; `schemas.config.robot_model` makes models of them."""
+    """Type of robot → its differences from the standard type; `schemas.config.robot_model` makes models of them."""
     origins: Mapping[str, str] = dataclasses.field(repr=False, compare=False)
-    """`section.key` → where the number comes from."""
+    """`section.key` → origin of the number."""
 
     def robot_of_type(self, name: str) -> dict[str, Any]:
-        """Section → its numbers for a type of robot, for each of `TYPE_SECTIONS`."""
+        """Section of `TYPE_SECTIONS` → its numbers for a type of robot."""
         changes = self.types[name] if name != STANDARD else {}
         return {
             section: dataclasses.replace(getattr(self, section), **changes.get(section, {}))
@@ -84,10 +84,10 @@ class Profile(Described):
         }
 
     def with_types(self, tables: Mapping[str, Any], where: str) -> "Profile":
-        """The same with more types of robots, or other numbers for those it has, as a match file gives them.
+        """The same profile with the types of a match file: new ones, or other numbers for existing ones.
 
         Raises:
-            TouchlineError: a number is wrong, or does not fit the others.
+            TouchlineError: a number is invalid or inconsistent with others.
         """
         origins: dict[str, str] = {}
         types = merge_tables(dict(self.types), read_types(tables, where, origins))
@@ -101,16 +101,16 @@ def load_profile(name: str) -> Profile:
     """A shipped profile by name, or one from a path that ends in `.toml`.
 
     Raises:
-        TouchlineError: no such profile, or something in it is wrong.
+        TouchlineError: there is no such profile, or it is invalid.
     """
     return profile_of(name, profile_tables(name))
 
 
 def profile_of(name: str, tables: Mapping[str, Any]) -> Profile:
-    """The profile of these tables, as `profile_tables` gives them.
+    """The profile of these tables, as `profile_tables` returns them.
 
     Raises:
-        TouchlineError: something in it is wrong.
+        TouchlineError: they are invalid.
     """
     origins: dict[str, str] = {}
     sections: dict[str, Any] = {
@@ -130,7 +130,7 @@ def read_types(tables: Any, where: str, origins: dict[str, str]) -> dict[str, Ch
     """The types of robots in the tables `[types.NAME.<section>]` of a profile or a match file.
 
     Raises:
-        TouchlineError: an unknown section or key, a wrong number, or a type named as the standard one.
+        TouchlineError: an unknown section or key, an invalid number, or a type with the name of the standard type.
     """
     types: dict[str, Changes] = {}
     for name, sections in _table(tables, f"{where}: types").items():
@@ -148,18 +148,18 @@ def read_types(tables: Any, where: str, origins: dict[str, str]) -> dict[str, Ch
 
 def _table(content: Any, at: str) -> dict[str, Any]:
     if not isinstance(content, dict):
-        raise TouchlineError(f"{at} is {content!r}; write tables, as [types.NAME.drive]")
+        raise TouchlineError(f"{at} is {content!r}; write tables, for example [types.NAME.drive]")
     return content
 
 
 def profile_tables(name: str, below: tuple[str, ...] = ()) -> dict[str, Any]:
-    """The tables of a profile laid over those of what it extends; `below` are the profiles that extend it.
+    """The tables of a profile, merged into those that it extends; `below` are the profiles that extend it.
 
     Raises:
-        TouchlineError: no such profile, no TOML, or one that extends itself.
+        TouchlineError: there is no such profile, it is not TOML, or it extends itself.
     """
     if name in below:
-        raise TouchlineError(f"{name}: extends itself over {' → '.join(below)}; break the circle")
+        raise TouchlineError(f"{name}: extends itself through {' → '.join(below)}; break the circle")
     try:
         tables = tomllib.loads(profile_text(name))
     except tomllib.TOMLDecodeError as error:
@@ -169,7 +169,7 @@ def profile_tables(name: str, below: tuple[str, ...] = ()) -> dict[str, Any]:
 
 
 def profile_text(name: str) -> str:
-    """The TOML of a profile as it stands in its file."""
+    """The TOML text of a profile."""
     if name in SHIPPED:
         return (resources.files("schemas") / "profiles" / f"{name}.toml").read_text("utf-8")
     if not name.endswith(".toml"):
@@ -181,10 +181,10 @@ def profile_text(name: str) -> str:
 
 
 def check_consistent(profile: Profile) -> None:
-    """Make sure of the numbers that only make sense together, of every type of robot.
+    """Check that the numbers of every type of robot are consistent.
 
     Raises:
-        TouchlineError: two that do not.
+        TouchlineError: two numbers contradict each other.
     """
     for name in (STANDARD, *profile.types):
         where = profile.name if name == STANDARD else f"{profile.name}: types.{name}"
@@ -201,12 +201,12 @@ def _check_robot(where: str, numbers: Mapping[str, Any], ball: Ball) -> None:
         )
     if dribble.gap < touching - 0.05:
         raise TouchlineError(
-            f"{where}: dribble.gap is {dribble.gap} m; robot and ball touch at {touching:.3f} m already"
+            f"{where}: dribble.gap is {dribble.gap} m; robot and ball already touch at {touching:.3f} m"
         )
     if (robot.frame_width > 0) != (robot.frame_depth > 0):
         raise TouchlineError(
             f"{where}: robot.frame_width is {robot.frame_width} m, robot.frame_depth {robot.frame_depth} m; "
-            "a frame has both, a robot without one neither"
+            "a frame has both, a robot without a frame has neither"
         )
     if wheels.max_speed > wheels.no_load_rim_speed:
         raise TouchlineError(

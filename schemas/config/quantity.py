@@ -1,7 +1,7 @@
 """Numbers with unit, range and origin: how profiles and rule books are read from TOML.
 
-A number in a data file is a table, `{ value = 22.0, unit = "m", origin = "rule book 24.1, A" }`. The dataclass
-that receives it says, per field, which unit it must have and which range makes sense.
+A number in a data file is a table, `{ value = 22.0, unit = "m", origin = "rule book 24.1, A" }`. The dataclass that
+receives it declares the unit and the sensible range of each field.
 """
 
 import math
@@ -17,7 +17,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """What a number means: its unit, its sentence, and the range in which it makes sense."""
+    """The meaning of a number: its unit, a phrase, and its sensible range."""
 
     unit: str
     meaning: str
@@ -26,7 +26,7 @@ class Quantity:
 
     @property
     def description(self) -> str:
-        """The sentence with the unit."""
+        """The phrase with the unit."""
         return self.meaning if self.unit == "1" else f"{self.meaning}; {self.unit}"
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Callable[[Any], dict[str, Any]]) -> dict[str, Any]:
@@ -36,14 +36,14 @@ class Quantity:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """A word out of a closed set, and what it chooses."""
+    """The meaning of a word from a closed set."""
 
     meaning: str
     options: tuple[str, ...]
 
     @property
     def description(self) -> str:
-        """The sentence with the words."""
+        """The phrase with the words."""
         return f"{self.meaning}: {', '.join(self.options)}"
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Callable[[Any], dict[str, Any]]) -> dict[str, Any]:
@@ -58,10 +58,10 @@ def meanings(section: type) -> dict[str, Quantity | Choice]:
 
 
 def read_section(section: type[T], table: dict[str, Any], where: str, origins: dict[str, str]) -> T:
-    """Fill a dataclass from a TOML table and collect each number's origin under `where.key`.
+    """The dataclass of a TOML table; the origin of each number is added to `origins` under `where.key`.
 
     Raises:
-        TouchlineError: an unknown or missing key, a wrong unit, type or range; names place, value and remedy.
+        TouchlineError: an unknown or missing key, or an invalid unit, type or range; names place, value and remedy.
     """
     for key in meanings(section):
         if key not in table:
@@ -70,10 +70,10 @@ def read_section(section: type[T], table: dict[str, Any], where: str, origins: d
 
 
 def read_changes(section: type, table: dict[str, Any], where: str, origins: dict[str, str]) -> dict[str, Any]:
-    """The values of those keys of a section that a TOML table gives, checked, in the section's order.
+    """The checked values of the keys in a TOML table of a section, in the section's order.
 
     Raises:
-        TouchlineError: an unknown key, a wrong unit, type or range; names place, value and remedy.
+        TouchlineError: an unknown key, or an invalid unit, type or range; names place, value and remedy.
     """
     known = meanings(section)
     if not isinstance(table, dict):
@@ -97,15 +97,15 @@ def read_changes(section: type, table: dict[str, Any], where: str, origins: dict
 
 def _check_entry(entry: dict[str, Any], meaning: Quantity | Choice, kind: Any, at: str) -> Any:
     if isinstance(meaning, Quantity) and entry.get("unit") != meaning.unit:
-        raise TouchlineError(f'{at} has unit {entry.get("unit")!r}; it is given in "{meaning.unit}"')
+        raise TouchlineError(f'{at} has unit {entry.get("unit")!r}; its unit is "{meaning.unit}"')
     return check_value(entry.get("value"), meaning, kind, at)
 
 
 def check_value(value: Any, meaning: Quantity | Choice, kind: Any, at: str) -> Any:
-    """A value as its field of that type keeps it; `at` names the place in the sentence of an error.
+    """A value converted to the type of its field; `at` names the place in error messages.
 
     Raises:
-        TouchlineError: a wrong type, a number out of range, a word that is not known.
+        TouchlineError: an invalid type, a number out of range, or an unknown word.
     """
     if isinstance(meaning, Choice):
         if value not in meaning.options:
@@ -128,12 +128,12 @@ def _number(value: Any, meaning: Quantity, at: str) -> float:
         raise TouchlineError(f"{at} is {value!r}; write a number in {meaning.unit}")
     if not meaning.low <= value <= meaning.high:
         unit = "" if meaning.unit == "1" else f" {meaning.unit}"
-        raise TouchlineError(f"{at} is {value}; it lies between {meaning.low:g} and {meaning.high:g}{unit}")
+        raise TouchlineError(f"{at} is {value}; it must be between {meaning.low:g} and {meaning.high:g}{unit}")
     return float(value)
 
 
 def merge_tables(base: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
-    """A file's tables laid over those it extends, key by key, down to the numbers, which are replaced whole."""
+    """Tables merged into those that they extend, key by key; a number is replaced as a whole."""
     merged: dict[str, Any] = dict(base)
     for name, part in changes.items():
         below = merged.get(name)

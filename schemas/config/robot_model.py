@@ -1,4 +1,4 @@
-"""What one robot of a match is: its body, its drive and wheels, how it holds the ball and how it kicks."""
+"""The model of one robot: its body, drive, wheels, dribbler and kicker."""
 
 from dataclasses import dataclass
 
@@ -29,26 +29,26 @@ class RobotModel(Described):
 
     @classmethod
     def standard(cls, profile: Profile) -> "RobotModel":
-        """The robot of a profile, of which most teams are made."""
+        """The standard robot of a profile."""
         return cls.of_type(profile, STANDARD)
 
     @classmethod
     def of_type(cls, profile: Profile, name: str) -> "RobotModel":
-        """A type of robot that the profile knows."""
+        """A type of robot of a profile."""
         numbers = profile.robot_of_type(name)
         return cls(type=name, body=numbers.pop("robot"), **numbers)
 
 
 def types_of(profile: Profile) -> dict[str, RobotModel]:
-    """Every type of robot that a profile knows, the standard one first."""
+    """Type of robot of a profile → its model, the standard one first."""
     return {name: RobotModel.of_type(profile, name) for name in (STANDARD, *profile.types)}
 
 
 def models_of(config: MatchConfig, profile: Profile) -> dict[str, RobotModel]:
-    """Robot → its model, both sides, cyan's first.
+    """Robot of either side → its model, cyan's first.
 
     Raises:
-        TouchlineError: a robot has a type that neither profile nor match file knows, or a type a wrong number.
+        TouchlineError: a robot has a type that is in neither profile nor match file, or a type has an invalid number.
     """
     types = types_of(profile.with_types(config.types, f'match "{config.name}"'))
     models = {}

@@ -1,12 +1,12 @@
-"""The roster of a match: which robots take part, and where bodies are set down."""
+"""The roster of a match: which robots take part, and where bodies are placed."""
 
 from schemas.message import Name, Part
 from schemas.side import Side
 
 MAX_ROBOTS = 5
-"""Robots of one side, rule book 10.2."""
+"""Most robots of one side."""
 RESERVED = frozenset({"ball"})
-"""Names that mean something else in a key."""
+"""Names that have another meaning in keys."""
 
 
 class RosterEntry(Part):
@@ -17,17 +17,17 @@ class RosterEntry(Part):
     side: Side
     """The side that it plays for."""
     type: Name = "standard"
-    """Type of robot, as the profile or the match file names it."""
+    """Type of robot, one of the profile or the match file."""
     agent: bool = True
-    """An agent moves it; without, it stands still wherever it is set down."""
+    """An agent moves it; a robot without one stands still where it is placed."""
     keeper: bool = False
     """The robot is its side's goalkeeper."""
 
 
 class Placement(Part):
-    """A body that was set down by hand: `body` is a robot's name or `ball`; field frame, at rest unless it says more.
+    """The placement of a robot or the ball, in the field frame; at rest unless it has velocities.
 
-    A ball that is set rolling on the ground rolls without sliding.
+    A ball with a velocity on the ground rolls without sliding.
     """
 
     body: Name

@@ -1,6 +1,6 @@
-"""Scenes: who and what stands where, and how the game is; from TOML files, or sent to a running host.
+"""Scenes: the robots, the ball, the obstacles and the game at a start, from TOML files or sent to a running host.
 
-Everything is in the field frame: m, rad, m/s, rad/s. A scene is a start: the first half, cyan attacking +x.
+Everything is in the field frame: m, rad, m/s, rad/s. A scene begins in the first half, with cyan attacking +x.
 """
 
 import tomllib
@@ -23,22 +23,22 @@ Speed = Annotated[float, Field(ge=-40, le=40)]
 """m/s or rad/s."""
 
 PHASES = frozenset({Phase.PRE_GAME, Phase.STOPPED, Phase.PLAY}) | RESTARTS
-"""What may be going on when a scene begins."""
+"""The phases in which a scene may begin."""
 
 REMEDIES = {
-    "description": "one sentence that tells what the scene is for",
+    "description": "one sentence with the purpose of the scene",
     "robots.side": "write cyan or magenta",
-    "robots.name": "a robot's name is a key chunk: small letters, digits and _",
+    "robots.name": "a robot's name is a key chunk: lower-case letters, digits and _",
     "game.phase": f"one of {', '.join(phase for phase in Phase if phase in PHASES)}",
     "obstacles.shape": "one of cylinder, box",
     "obstacles.place": "x and y of the centre in m",
     "obstacles.size": "x, y and z of a box in m",
 }
-"""What to do about a wrong value, by key; a message of the validator's stands where there is none."""
+"""Key → remedy for an invalid value; keys without one get the validator's message."""
 
 
 class SceneRobot(RosterEntry):
-    """A robot where it begins; with a velocity, it moves so when the scene begins."""
+    """A robot and its pose and velocity when the scene begins."""
 
     x: float
     """x of the centre in the field frame, in m."""
@@ -55,18 +55,18 @@ class SceneRobot(RosterEntry):
 
     @property
     def entry(self) -> RosterEntry:
-        """Who it is, without where it stands."""
+        """Its entry in the roster."""
         return RosterEntry(**{key: getattr(self, key) for key in RosterEntry.model_fields})
 
     @property
     def placement(self) -> Placement:
-        """Where it stands."""
+        """Its placement."""
         at = {key: getattr(self, key) for key in ("x", "y", "heading", "vx", "vy", "omega")}
         return Placement(body=self.name, **at)
 
 
 class SceneBall(Part):
-    """The ball where it begins; on the ground unless `z` lifts its centre."""
+    """The ball and its place and velocity when the scene begins; on the ground unless `z` is given."""
 
     x: float = 0.0
     """x of the centre in the field frame, in m."""
@@ -83,19 +83,19 @@ class SceneBall(Part):
 
     @property
     def placement(self) -> Placement:
-        """Where it lies."""
+        """Its placement."""
         return Placement(body="ball", x=self.x, y=self.y, z=self.z, vx=self.vx, vy=self.vy, vz=self.vz)
 
 
 class SceneGame(Part):
-    """How the game is when the scene begins; a restart is taken from where the ball lies."""
+    """The state of the game when the scene begins; a restart is taken from where the ball lies."""
 
     phase: Phase = Phase.PLAY
     """What is being played when the scene begins."""
     side: Side | None = None
     """The side that takes the restart; None where no side does."""
     running: bool = False
-    """START of the restart was given: it may be taken at once. Play runs in any case."""
+    """START of the restart was given: it may be taken at once. The phase `play` is running in any case."""
     score: Score = Score()
     """Goals of both sides."""
     clock: Annotated[float, Field(ge=0)] = 0.0
@@ -107,32 +107,32 @@ class SceneGame(Part):
             known = ", ".join(phase for phase in Phase if phase in PHASES)
             raise ValueError(f"no scene begins in the phase {self.phase}; write one of {known}")
         if (self.side is not None) != (self.phase in SIDED):
-            need = "belongs to a side; name cyan or magenta" if self.side is None else "belongs to nobody; name no side"
+            need = "belongs to a side; name cyan or magenta" if self.side is None else "belongs to no side; name none"
             raise ValueError(f"{self.phase} {need}")
         if self.running and self.phase not in RESTARTS:
-            raise ValueError(f"running says that a restart may be taken, and the phase is {self.phase}; leave it out")
+            raise ValueError(f"running means that a restart may be taken, and the phase is {self.phase}; leave it out")
         return self
 
 
 class Scene(Part):
-    """One scene."""
+    """A start position with the state of the game."""
 
     name: Name = "scene"
     """Name of the scene; by default that of its file."""
     description: Annotated[str, StringConstraints(min_length=1, max_length=200)]
-    """One sentence: what it is for."""
+    """Purpose of the scene, in one sentence."""
     profile: str | None = None
-    """Profile that `touchline match --scene` plays it with, unless another is named; None for the default."""
+    """Profile that `touchline match --scene` uses, unless the match names another; None for the default."""
     rules: str | None = None
-    """Rule book that `touchline match --scene` plays it with, unless another is named; None for the default."""
+    """Rule book that `touchline match --scene` uses, unless the match names another; None for the default."""
     game: SceneGame = SceneGame()
     """State of the game when the scene begins."""
     ball: SceneBall = SceneBall()
-    """Where the ball is."""
+    """Place and velocity of the ball."""
     robots: Annotated[list[SceneRobot], Field(min_length=1, max_length=2 * MAX_ROBOTS)]
     """The robots of both sides."""
     obstacles: Annotated[list[StaticObstacle], Field(max_length=100)] = Field(default_factory=list)
-    """What else stands on the pitch."""
+    """The obstacles on the pitch."""
 
     @model_validator(mode="after")
     def _check_robots(self) -> "Scene":
@@ -146,23 +146,23 @@ class Scene(Part):
 
 
 def check_names(names: list[str]) -> None:
-    """Make sure that every body has a name of its own.
+    """Check that every body has a unique name.
 
     Raises:
-        ValueError: one has not.
+        ValueError: a name is taken or reserved.
     """
     for place, name in enumerate(names):
         if name in RESERVED:
-            raise ValueError(f'a body is named "{name}", which means something else in a key; rename it')
+            raise ValueError(f'a body is named "{name}", which has another meaning in keys; rename it')
         if name in names[:place]:
             raise ValueError(f'two bodies are named "{name}"; every body has its own name')
 
 
 def check_sides(entries: "list[SceneRobot] | list[RosterEntry]") -> None:
-    """Make sure that no side has too many robots or goalkeepers.
+    """Check that no side has too many robots or goalkeepers.
 
     Raises:
-        ValueError: one has.
+        ValueError: a side has.
     """
     for side in Side:
         mine = [entry for entry in entries if entry.side is side]
@@ -170,11 +170,11 @@ def check_sides(entries: "list[SceneRobot] | list[RosterEntry]") -> None:
             raise ValueError(f"{side} has {len(mine)} robots; a side has at most {MAX_ROBOTS}")
         keepers = [entry.name for entry in mine if entry.keeper]
         if len(keepers) > 1:
-            raise ValueError(f"{' and '.join(keepers)} both keep {side}'s goal; a side has one goalkeeper at most")
+            raise ValueError(f"{' and '.join(keepers)} are goalkeepers of {side}; a side has at most one")
 
 
 class SceneOperation(StrEnum):
-    """What is asked for."""
+    """What to do with the scene of a running match."""
 
     LOAD = "load"
     PLACE = "place"
@@ -184,41 +184,41 @@ class SceneOperation(StrEnum):
 
 
 class SceneRequest(Message):
-    """Asks the host to set bodies down, add or remove some, or begin anew; all of it is done, or nothing."""
+    """A request to place, add or remove bodies, load a scene, or reset the world; all or nothing."""
 
     operation: SceneOperation
-    """What is asked for."""
+    """What to do."""
     load: str | None = None
-    """For `load`: the name of a scene that ships."""
+    """For `load`: the name of a shipped scene."""
     scene: Scene | None = None
     """For `load`: the scene itself, in place of a name."""
     place: Annotated[list[Placement], Field(max_length=100)] = Field(default_factory=list)
-    """For `place`: where robots or the ball are set down."""
+    """For `place`: placements of robots or the ball."""
     robots: Annotated[list[SceneRobot], Field(max_length=2 * MAX_ROBOTS)] = Field(default_factory=list)
-    """For `add`: robots that join."""
+    """For `add`: robots that are added."""
     obstacles: Annotated[list[StaticObstacle], Field(max_length=100)] = Field(default_factory=list)
-    """For `add`: obstacles that are put on the pitch."""
+    """For `add`: obstacles that are added."""
     remove: Annotated[list[Name], Field(max_length=100)] = Field(default_factory=list)
-    """For `remove`: robots and obstacles."""
+    """For `remove`: names of robots and obstacles."""
     to_match: bool = False
-    """For `reset`: to the match's own start, and not to that of the scene loaded last."""
+    """For `reset`: to the start of the match instead of the scene that was loaded last."""
     source: Source = "operator"
-    """Who asks."""
+    """Name of the sender, for display."""
 
 
 class SceneReply(Message):
-    """The host's answer."""
+    """The host's reply."""
 
     accepted: bool
-    """All that was asked for was done."""
+    """The request was carried out."""
     reason: str = ""
-    """Why it was refused; then nothing was done."""
+    """Why it was refused; then nothing was changed."""
     episode: int
-    """What is being played from the next tick on; loading a scene and resetting begin a new one."""
+    """The episode from the next tick on; loading a scene and resetting begin a new one."""
 
 
 def shipped_scenes() -> list[str]:
-    """The names of the scenes that come with the package."""
+    """The names of the shipped scenes."""
     files = resources.files("schemas") / "scenes"
     return sorted(entry.name.removesuffix(".toml") for entry in files.iterdir() if entry.name.endswith(".toml"))
 
@@ -227,7 +227,7 @@ def load_scene(name: str) -> Scene:
     """A shipped scene by name, or one from a path that ends in `.toml`.
 
     Raises:
-        TouchlineError: no such scene, or one line that names file, key, value and remedy.
+        TouchlineError: there is no such scene, or it is invalid; names file, key, value and remedy.
     """
     try:
         content: dict[str, Any] = tomllib.loads(_text(name))

@@ -1,4 +1,4 @@
-"""Files of people, read into a model: one line for what is wrong, with file, key, value and remedy."""
+"""Validation of TOML files: one line for the first fault, with file, key, value and remedy."""
 
 import json
 import re
@@ -14,13 +14,13 @@ M = TypeVar("M", bound=BaseModel)
 
 
 def validate_tables(model: type[M], content: Mapping[str, Any], where: str, remedies: Mapping[str, str]) -> M:
-    """The model of what a TOML file holds; `where` names the file.
+    """The model of the content of a TOML file; `where` names the file.
 
     Args:
-        remedies: what to do about a wrong value, by its key without places in lists, as `robots.side`.
+        remedies: key without indices of lists, `robots.side` → remedy for an invalid value.
 
     Raises:
-        TouchlineError: the first thing that is wrong.
+        TouchlineError: the first fault.
     """
     try:
         return model.model_validate_json(json.dumps(content, default=str), strict=True)

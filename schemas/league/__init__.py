@@ -1,4 +1,4 @@
-"""The league's referee box as data: what it signals, what it is told of the world, in which axes (reference 9).
+"""Data formats of the Middle Size League's referee box: its signals, its world states, and their axes.
 
-Recordings read and write its logs, the coach gateway speaks with it; nobody else knows the league's axes.
+Recordings read and write its logs, and the coach gateway exchanges messages with it; no other code uses these axes.
 """

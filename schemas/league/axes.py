@@ -1,8 +1,8 @@
-"""The league's axes and ours: +y toward the opponents' goal, +x to the right of it, heading 0 toward that goal.
+"""Transforms between the field frame and the league's axes: +y toward the opponents' goal, +x to the right of it.
 
-That is each team's own frame (reference 9.4): the team frame of this project turned by a quarter, with headings that
-count from the direction of play in both. All functions take numbers or arrays; m, rad; `attack` is +1 or −1, the x
-direction of the field frame that the team attacks.
+The league's axes are those of each team: its team frame turned by a quarter. In both, heading 0 is toward the
+opponents' goal. All functions take numbers or arrays, in m and rad; `attack` is +1 or −1, the x direction of the field
+frame that the team attacks.
 """
 
 from typing import Any
@@ -23,6 +23,6 @@ def vector_to_field(x: Any, y: Any, attack: Any) -> tuple[Any, Any]:
 
 
 def heading_across(heading: Any, attack: Any) -> Any:
-    """A heading of either in the other, in (−π, π]: they differ by half a turn for the team that attacks −x."""
+    """A heading of one frame in the other, in (−π, π]; they differ by half a turn for the team that attacks −x."""
     turned = np.asarray(heading) + np.where(np.asarray(attack) > 0, 0.0, np.pi)
     return np.pi - (np.pi - turned) % TAU

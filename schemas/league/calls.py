@@ -1,4 +1,4 @@
-"""What the league's referee box would signal when our game goes from one state to the next."""
+"""The signals that the league's referee box would give between two states of our game."""
 
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
@@ -12,18 +12,18 @@ _PHASES: Mapping[Phase, Signal] = {
     Phase.HALF_TIME: BY_NAME["HALF_TIME"],
     Phase.FULL_TIME: BY_NAME["END_GAME"],
 } | {phase: signal for phase, signal in RESTART_OF.items() if phase is not None}
-"""Phase → what is signalled when it begins; STOP comes before goals, and these after them."""
+"""Phase → the signal when it begins; STOP comes before goals, these signals after them."""
 _LEAVES: Mapping[OffField, Signal] = {
     OffField.REPAIR: BY_NAME["REPAIR"],
     OffField.SUBSTITUTION: BY_NAME["SUBSTITUTION"],
     OffField.SILENT: BY_NAME["IS_ALIVE"],
 }
-"""Why a robot left → what is signalled: after one whose program is gone the box asks."""
-_NOBODY = DisciplinaryRecord()
+"""Why a robot left → the signal; after a robot without a program, the box queries whether it is alive."""
+_CLEAN = DisciplinaryRecord()
 
 
 class Call(NamedTuple):
-    """One signal, for whom it is meant: a side, or nobody or everybody; one robot of it by name."""
+    """One signal with the side that it concerns, where it concerns one, and the robot by name."""
 
     signal: Signal
     side: Side | None = None
@@ -31,9 +31,9 @@ class Call(NamedTuple):
 
 
 def calls(old: GameState | None, new: GameState, sides: Mapping[str, Side]) -> list[Call]:
-    """The signals that lead from one state to the next, in their order; from nothing, as from before the match.
+    """The signals from one state to the next, in order; None stands for the state before the match.
 
-    `sides` tells whose robots are whose. Cards that are taken back have no signal in the league.
+    `sides` maps robots to sides. The league has no signal for a revoked card.
     """
     before = old if old is not None else GameState(tick=0, time=0.0, phase=Phase.PRE_GAME)
     found = list(_half(old, new))
@@ -53,7 +53,7 @@ def calls(old: GameState | None, new: GameState, sides: Mapping[str, Side]) -> l
 
 
 def _half(old: GameState | None, new: GameState) -> Iterator[Call]:
-    """A half begins with its kick-off; the box calls the shoot-out no half."""
+    """A half begins with its kick-off; for the box, the shoot-out is not a half."""
     if new.phase is Phase.PRE_GAME or new.stage is GameStage.SHOOT_OUT:
         return
     if (old is None or old.phase is Phase.PRE_GAME or new.half != old.half) and new.half in HALF_OF:
@@ -63,7 +63,7 @@ def _half(old: GameState | None, new: GameState) -> Iterator[Call]:
 def _people(before: GameState, new: GameState, sides: Mapping[str, Side]) -> Iterator[Call]:
     for name in sorted({*before.robots, *new.robots}):
         if name in sides:
-            was, now = before.robots.get(name, _NOBODY), new.robots.get(name, _NOBODY)
+            was, now = before.robots.get(name, _CLEAN), new.robots.get(name, _CLEAN)
             for signal in _person(was, now):
                 yield Call(signal, sides[name], name)
 

@@ -1,9 +1,9 @@
-"""What in a log is not as the league's schema says: each kind counted, with the first place where it was found."""
+"""Deviations of a log from the league's schema: each kind counted, with its first occurrence."""
 
 from dataclasses import dataclass
 
 MOST = 1000
-"""Kinds that are told apart: a sender that spells each key anew must not fill the memory."""
+"""Most kinds that are distinguished, so that a sender with ever new spellings of keys does not fill the memory."""
 _FURTHER = "further kinds of deviation"
 
 
@@ -13,22 +13,22 @@ class Finding:
 
     what: str
     lost: bool
-    """Something could not be read because of it; otherwise it was coped with."""
+    """Data could not be read because of it; otherwise it was read all the same."""
     first: str
-    """Where it was met first: file and record."""
+    """File and record of its first occurrence."""
     count: int = 0
 
 
 class Findings:
-    """All of them, in the order they were met in."""
+    """All deviations, in the order of their first occurrence."""
 
     def __init__(self) -> None:
         self._found: dict[str, Finding] = {}
         self.place = ""
-        """Where the reader is."""
+        """File and record at which the reader is."""
 
     def note(self, what: str, *, lost: bool = False, count: int = 1) -> None:
-        """Count a deviation at the place where the reader is."""
+        """Count a deviation at the reader's place."""
         if what not in self._found and len(self._found) >= MOST:
             what = _FURTHER
         finding = self._found.get(what)
@@ -38,10 +38,10 @@ class Findings:
 
     @property
     def coped(self) -> list[Finding]:
-        """What was read all the same."""
+        """Deviations in data that was read all the same."""
         return [finding for finding in self._found.values() if not finding.lost]
 
     @property
     def lost(self) -> list[Finding]:
-        """What could not be read."""
+        """Deviations that made data unreadable."""
         return [finding for finding in self._found.values() if finding.lost]

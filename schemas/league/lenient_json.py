@@ -1,4 +1,4 @@
-"""Reads values that keep to no schema: keys spelled as a team likes, numbers as texts, nothing for a number."""
+"""Reads values that deviate from the schema: other spellings of keys, numbers as text, null for a number."""
 
 import math
 from functools import lru_cache
@@ -21,9 +21,9 @@ KEYS = (
     ),
     *("id", "pose", "targetPose", "velocity", "batteryLevel", "ballEngaged", "position", "confidence", "radius"),
 )
-"""As the schema spells them (reference 9.4)."""
+"""Keys as the league's schema spells them."""
 REQUIRED = ("type", "teamName", "intention", "robots", "balls", "obstacles", "ageMs")
-"""Of a world state, by the schema."""
+"""Keys that the schema requires of a world state."""
 _OTHER_NAMES = {
     "time": "timestamp",
     "timestampms": "timestamp",
@@ -52,34 +52,34 @@ def _canonical(key: str) -> str:
 
 
 def fields_of(value: Any, findings: Findings) -> dict[str, Any]:
-    """An object by the schema's spelling of its keys; nothing in it when it is none."""
+    """An object with the schema's spelling of its keys; empty where the value is not an object."""
     if not isinstance(value, dict):
         return {}
     fields: dict[str, Any] = {}
     for key, content in value.items():
         known = _canonical(key)
         if known != key and known not in value:
-            findings.note(f'key "{key}" where the schema says "{known}"')
+            findings.note(f'key "{key}" where the schema has "{known}"')
         if known == key or known not in value:
             fields[known] = content
     return fields
 
 
 def items_of(value: Any) -> list[Any]:
-    """A list; one thing alone counts as a list of it."""
+    """A list; a single object counts as a list of one."""
     if isinstance(value, list):
         return value
     return [value] if isinstance(value, dict) else []
 
 
 def number(value: Any, what: str, findings: Findings) -> float | None:
-    """A finite number, or nothing."""
+    """A finite number; None where the value is none."""
     if isinstance(value, str):
         try:
             value = float(value)
             findings.note(f"{what} written as a text")
         except ValueError:
-            findings.note(f"{what} is a text that is no number")
+            findings.note(f"{what} is a text that is not a number")
             return None
     if not isinstance(value, int | float):
         return None
@@ -94,7 +94,7 @@ def number(value: Any, what: str, findings: Findings) -> float | None:
 
 
 def vector(value: Any, length: int, what: str, findings: Findings) -> list[float | None]:
-    """So many coordinates, nothing for those that are not there."""
+    """A list of `length` coordinates; None for each that is missing."""
     if isinstance(value, dict):
         findings.note(f"{what} is an object of coordinates, not a list")
         value = [next((value[name] for name in names if name in value), None) for names in _COMPONENTS[:length]]

@@ -1,4 +1,4 @@
-"""Robots by number, as the league names them."""
+"""Numbers of robots, by which the league identifies them."""
 
 from collections.abc import Mapping
 
@@ -6,7 +6,7 @@ from schemas.side import Side
 
 
 def numbers_of(sides: Mapping[str, Side]) -> dict[str, int]:
-    """Robot → its number: that at the end of its name, or else its place in its team, from 1."""
+    """Robot → its number: that at the end of its name, or where these are not unique, its place in the team, from 1."""
     numbers: dict[str, int] = {}
     for side in Side:
         names = [name for name, own in sides.items() if own is side]

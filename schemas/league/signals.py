@@ -1,4 +1,4 @@
-"""The referee box's signals: their names since 2020, their characters before, and what they do to the game."""
+"""The signals of the referee box: their names since 2020, their earlier characters, and their effect on the game."""
 
 from dataclasses import dataclass
 
@@ -8,19 +8,23 @@ from schemas.side import Side
 
 @dataclass(frozen=True, slots=True)
 class Signal:
-    """One signal; `character` is that of cyan where a side is meant, magenta's is the small letter (reference 9.2)."""
+    """One signal."""
 
     name: str
+    """Name in the protocol since 2020."""
     character: str
+    """Character in the earlier protocol; for a signal to a side that of cyan; lower case for magenta."""
     kind: EventKind
     description: str
     sided: bool = False
+    """It is for a side."""
     phase: Phase | None = None
-    """What is being played from now on."""
+    """The phase that it begins."""
     goals: int = 0
+    """Goals that it adds to the side's score."""
     card: Card | None = None
     half: int = 0
-    """Begins this half."""
+    """The half that it begins; 0 for none."""
     stage: GameStage = GameStage.REGULAR
 
 
@@ -70,7 +74,9 @@ SIGNALS: tuple[Signal, ...] = (
 )
 
 BY_NAME = {signal.name: signal for signal in SIGNALS} | {
-    "GAME_OVER": next(signal for signal in SIGNALS if signal.name == "GAMEOVER"),  # as the document spells it
+    "GAME_OVER": next(
+        signal for signal in SIGNALS if signal.name == "GAMEOVER"
+    ),  # the spelling in the league's document
 }
 BY_CHARACTER: dict[str, tuple[Signal, Side | None]] = {
     signal.character: (signal, Side.CYAN if signal.sided else None) for signal in SIGNALS if signal.character

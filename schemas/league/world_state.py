@@ -1,6 +1,6 @@
-"""A team's view of the world as the league's referee box takes it in (reference 9.4), made from the field frame.
+"""A team's world state in the format of the league's referee box, made from values of the field frame.
 
-`world_state` gives the plain object of the league's JSON: metres, m/s, rad, in that team's own axes.
+`world_state` returns the object of the league's JSON: m, m/s and rad, in the team's axes.
 """
 
 from collections.abc import Iterable
@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 from schemas.league.axes import heading_across, vector_to_log
 
 _DIGITS = 3
-"""After the point, as the format's own description has it: mm and mrad."""
+"""Decimal places, as in the description of the format: mm and mrad."""
 FULL = 100.0
-"""Battery level in percent of a robot that nobody asks: a simulated one does not run out."""
+"""Battery level in percent; the battery of a simulated robot does not run out."""
 
 
 class RobotSeen(NamedTuple):
@@ -29,7 +29,7 @@ class RobotSeen(NamedTuple):
 
 
 class BallSeen(NamedTuple):
-    """A ball: centre in m, velocity in m/s, in the field frame; how sure the team is of it, 0 to 1."""
+    """A ball: centre in m, velocity in m/s, in the field frame; confidence of the team from 0 to 1."""
 
     x: float
     y: float
@@ -41,7 +41,7 @@ class BallSeen(NamedTuple):
 
 
 class ObstacleSeen(NamedTuple):
-    """Something in the way: centre in m, velocity in m/s, in the field frame; radius in m; confidence 0 to 1."""
+    """An obstacle: centre in m, velocity in m/s, in the field frame; radius in m; confidence from 0 to 1."""
 
     x: float
     y: float
@@ -60,9 +60,9 @@ def world_state(
     *,
     age_ms: int = 0,
 ) -> dict[str, Any]:
-    """The league's object for the team of that name, which attacks `attack` (+1 or −1) along x.
+    """The world state of the team of that name, which attacks `attack` (+1 or −1) along x.
 
-    Where a robot is going to, which the schema asks for, nobody says: its own pose stands in.
+    Target poses, which the schema requires, are not known; each robot's own pose takes their place.
     """
     return {
         "type": "worldstate",

@@ -1,1 +1,1 @@
-"""The messages on the bus, one module for each conversation; the topic table says which key carries which."""
+"""The messages on the bus, one module for each subject; the topic table maps keys to messages."""

@@ -1,4 +1,4 @@
-"""What a coach tells a side: the paper's coach record in SI units, sequence-numbered, and who has taken it in."""
+"""Orders from a coach to its side, numbered in sequence, and which robots have acknowledged them."""
 
 import math
 from enum import StrEnum
@@ -15,44 +15,47 @@ from schemas.struct import StructMessage, check
 MAX_SEQUENCE = 2**53 - 1
 """The largest whole number that every language reads exactly from JSON."""
 MAX_SEQUENCE_STEP = 2**51
-"""How far an order may be numbered beyond the one that stands: a clock in microseconds since 1970 fits in, a slip that
-would leave no number for anybody's next order does not."""
+"""How far an order's number may exceed that of the order in force. A clock in microseconds since 1970 fits in; a
+mistake that would leave no number for the next order does not."""
 MAX_DISTANCE = 100.0
-"""m from the centre mark; a point farther away is a fault of the sender, perhaps of its units."""
+"""m from the centre mark; a point farther away is an error of the sender, perhaps of its units."""
 
 Angle = Annotated[float, Meta(ge=-2.0 * math.pi, le=2.0 * math.pi, extra={"unit": "rad"})]
-"""rad; more than a whole turn is a fault of the sender, perhaps of its units."""
+"""rad; more than a whole turn is an error of the sender, perhaps of its units."""
 
 
 class CoachMode(StrEnum):
-    """What the team shall do while the game allows it."""
+    """What the team does while the game allows it."""
 
     PLAY = "play"
     HOLD = "hold"
     PARK = "park"
     TEST = "test"
-    """One of the tests, by the robots that the order names; all others stand still."""
+    """Run a test with the robots that the order names; all others stand still."""
 
 
 class CoachTest(StrEnum):
-    """What robots do in test mode; `robot_a` acts, and in a pass `robot_b`, too."""
+    """What robots do in test mode; `robot_a` acts, and in a pass `robot_b` as well."""
 
     STOP = "stop"
-    """Everybody stands still."""
+    """All robots stand still."""
     MOVE = "move"
-    """Drive to `point_a` and face `angle_a`, there and on the way."""
+    """Drive to `point_a`, facing `angle_a` on the way and there."""
     LOCATION = "location"
-    """Drive from `point_a` to `point_b` and back, over and over: what a robot takes for one place is seen to be one."""
+    """Drive between `point_a` and `point_b` repeatedly, which shows how well the robot localizes itself."""
     CIRCLE = "circle"
-    """Drive round `point_a` at `radius`, counter-clockwise and facing ahead."""
+    """Drive around `point_a` at `radius`, counter-clockwise, facing ahead."""
     PASS = "pass"
-    """Get the ball, with a `point_a` bring it there, and pass to `robot_b`, who waits at `point_b` or where it is."""
+    """Get the ball, bring it to `point_a` where that is given, and pass to `robot_b`, which waits at `point_b` or where
+    it is."""
     CATCH = "catch"
-    """Wait at `point_a`, or where one is, and stop a ball that comes."""
+    """Wait at `point_a`, or where the robot is, and stop an approaching ball."""
     SHOOT = "shoot"
-    """Get the ball, with a `point_a` bring it there, and kick it at `point_b`, or at the middle of the goal."""
+    """Get the ball, bring it to `point_a` where that is given, and kick it at `point_b`, by default at the middle of
+    the goal."""
     MACHINE = "machine"
-    """Run the paper's behaviour machine once; it dribbles to `point_a` and comes back to `point_b`, or to its own."""
+    """Run the paper's behaviour machine once; it dribbles to `point_a` and returns to `point_b`, by default to points
+    of its own."""
 
 
 REQUIRED_FIELDS: dict[CoachTest, tuple[str, ...]] = {
@@ -65,54 +68,58 @@ REQUIRED_FIELDS: dict[CoachTest, tuple[str, ...]] = {
     CoachTest.SHOOT: ("robot_a",),
     CoachTest.MACHINE: ("robot_a",),
 }
-"""Test → the fields of an order that it cannot do without."""
+"""Test → the fields of an order that it requires."""
 
 
 class CoachOrder(StructMessage, frozen=True, kw_only=True):
-    """A standing order; the newest counts, and each robot acknowledges it by its number. All in the team frame.
+    """A standing order to a side, in its team frame; the newest is in force, and each robot acknowledges its number.
 
-    It carries the paper's coach record but for match mode and previous mode: what is played is the referee's to say,
-    and every sight has it. The record's two static passes are tactics, its kick force is a speed.
+    It carries the coach record of the paper in SI units, except match mode and previous mode: the referee decides what
+    is played, and every sight has it. The record's two static passes are tactics here, its kick force is a speed.
     """
 
     sequence: Annotated[int, Meta(ge=1, le=MAX_SEQUENCE)]
-    """Larger than that of every order before it, whoever gave that; the setup tells which stands."""
+    """Larger than that of every earlier order to the side, from any sender; the setup has the number in force."""
     mode: CoachMode = CoachMode.PLAY
+    """What the team does while the game allows it."""
     test: CoachTest | None = None
-    """Which test; given in the mode `test`, and in no other."""
+    """Which test to run; required in the mode `test`, None in every other."""
     tactic: ShortText = ""
-    """A word that the team's own code understands."""
+    """Name of a tactic; the team's own code defines the values."""
     point_a: Point | None = None
-    """m, at most 100 from the centre mark, as `point_b`."""
+    """First point of a test, in the team frame, in m; at most 100 m from the centre mark."""
     point_b: Point | None = None
+    """Second point of a test, in the team frame, in m; at most 100 m from the centre mark."""
     angle_a: Angle | None = None
-    """rad; where to face at `point_a`."""
+    """Heading at `point_a` in the team frame, in rad."""
     angle_b: Angle | None = None
-    """rad; where to face at `point_b`."""
+    """Heading at `point_b` in the team frame, in rad."""
     robot_a: Name | None = None
-    """Who acts in a test."""
+    """The robot that acts in a test."""
     robot_b: Name | None = None
-    """Who receives a pass in a test."""
+    """The robot that receives a pass in a test."""
     radius: Annotated[float, Meta(gt=0, le=20, extra={"unit": "m"})] | None = None
-    """m; of the circle in a test."""
+    """Radius of the circle in a test, in m."""
     with_ball: bool = False
-    """Tests of motion: get the ball first, and bring it along."""
+    """Tests of motion: get the ball first, and dribble it along."""
     avoid: bool = False
-    """Tests: go around whatever is in the way; otherwise straight on."""
+    """Tests: drive around obstacles; otherwise straight on."""
     kick_speed: KickSpeed | None = None
-    """m/s; otherwise as the distance of a pass asks for, and for a shot as fast as can be."""
+    """Speed of a test's pass or shot, in m/s; None for a speed that suits the distance of a pass, and for the fastest
+    shot."""
     kick_mode: KickMode = KickMode.GROUND
-    """How a test shoots."""
+    """How a test kicks."""
     max_speed: Annotated[float, Meta(gt=0, le=20, extra={"unit": "m/s"})] | None = None
-    """m/s; what no robot of the side exceeds, in any mode; a circle is driven at it."""
+    """Speed that no robot of the side exceeds, in any mode, in m/s; a circle is driven at it. None for no limit."""
     max_turn_rate: Annotated[float, Meta(gt=0, le=50, extra={"unit": "rad/s"})] | None = None
-    """rad/s; likewise."""
+    """Turn rate that no robot of the side exceeds, in any mode, in rad/s; None for no limit."""
 
     def refusal_after(self, active: "CoachOrder | None") -> str:
-        """Why it does not take the place of the one that stands, or nothing."""
+        """Why this order cannot replace the one in force; empty where it can."""
         before = active.sequence if active is not None else 0
         if self.sequence <= before:
-            return f"sequence {self.sequence} is not after {before}, which stands; number orders from {before + 1} on"
+            start = before + 1
+            return f"sequence {self.sequence} is not above {before}, which is in force; number orders from {start} on"
         if self.sequence - before > MAX_SEQUENCE_STEP:
             return f"sequence {self.sequence} leaves no room for later orders; number them from {before + 1} on"
         return ""
@@ -124,7 +131,7 @@ class CoachOrder(StructMessage, frozen=True, kw_only=True):
             raise FaultError(Fault((), None, broken, FaultKind.RULE))
 
     def _broken_rule(self) -> str:
-        """What about its fields does not go together, in one sentence; else nothing."""
+        """Which fields contradict each other, in one sentence; empty where none do."""
         if (self.test is not None) != (self.mode is CoachMode.TEST):
             known = ", ".join(CoachTest)
             what = f"needs a test, one of {known}" if self.test is None else f"has no test; leave out {self.test.value}"
@@ -143,7 +150,7 @@ class CoachOrder(StructMessage, frozen=True, kw_only=True):
 
 
 class ActiveOrder(Message):
-    """A side's standing order, and which of its robots have taken it in."""
+    """A side's order in force, and which of its robots have acknowledged it."""
 
     tick: int
     """Control ticks since the match began."""
@@ -152,4 +159,4 @@ class ActiveOrder(Message):
     order: CoachOrder
     """The order in force."""
     acknowledged: dict[Name, bool]
-    """Robot → whether its newest command acknowledges this very order; all robots of the side that an agent moves."""
+    """Robot → whether its newest command acknowledges this order; all robots of the side that have an agent."""

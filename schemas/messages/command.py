@@ -1,4 +1,4 @@
-"""What a robot says in one tick: where it wants to go, what it does with the ball, what it tells its teammates."""
+"""A robot's command for one tick: drive, dribbler, kick, and a radio message to its teammates."""
 
 from enum import StrEnum
 from typing import Annotated, ClassVar
@@ -11,9 +11,9 @@ from schemas.struct import Checked, Struct, StructMessage
 from schemas.units import Age, Metres, MetresPerSecond, Radians, RadiansPerSecond
 
 MAX_DRIVE = 20.0
-"""m/s; a demand beyond any robot's means is a fault of the sender, not a wish."""
+"""m/s; a demand that no robot can meet is an error of the sender, perhaps of its units."""
 MAX_TURN = 50.0
-"""rad/s; likewise."""
+"""rad/s; the same."""
 MAX_EXTRA = 16
 """Entries in the free part of a radio message."""
 
@@ -29,70 +29,87 @@ class KickMode(StrEnum):
     GROUND = "ground"
     """Rolling along the ground."""
     LOB = "lob"
-    """Through the point below the bar that the kick axis meets."""
+    """Solved to pass below the bar where the kick axis meets the goal."""
     LOFT = "loft"
-    """At the kicker's fixed angle above the ground, wherever that leads."""
+    """At the kicker's fixed angle above the ground."""
 
 
 class Drive(Struct, frozen=True, kw_only=True, metaclass=Checked):
-    """A velocity demand in the body frame: m/s and rad/s."""
+    """A velocity demand in the body frame: x in the kicking direction, y to the left."""
 
     vx: DriveSpeed = 0.0
+    """Velocity in the kicking direction, in m/s."""
     vy: DriveSpeed = 0.0
+    """Velocity to the left, in m/s."""
     omega: TurnRate = 0.0
+    """Turn rate, counter-clockwise, in rad/s."""
 
 
 class Kick(Struct, frozen=True, kw_only=True, metaclass=Checked):
-    """A kick along the body's x axis.
-
-    `speed` in m/s: the exit speed of a ground kick or one with fixed loft; the horizontal speed of a lob on its way
-    through the point under the bar that the kick axis meets, as far as it leads there neither too flat nor too steeply.
-    """
+    """A kick along the body's x axis."""
 
     mode: KickMode
+    """How the ball leaves the robot."""
     speed: KickSpeed
+    """Exit speed of a ground kick or a kick with fixed loft, in m/s. For a lob, its horizontal speed in m/s: the angle
+    is solved so that the ball passes under the bar where the kick axis meets it, within the kicker's limits."""
 
 
 class BallBelief(Struct, frozen=True, kw_only=True, metaclass=Checked):
-    """Where a robot believes the ball to be, in its team frame: m and m/s; `age` in s since it was seen."""
+    """Where a robot believes the ball to be, in its team frame."""
 
     x: Metres
+    """x of the ball's centre in the team frame, in m."""
     y: Metres
+    """y of the ball's centre in the team frame, in m."""
     vx: MetresPerSecond = 0.0
+    """Velocity along x of the team frame, in m/s."""
     vy: MetresPerSecond = 0.0
+    """Velocity along y of the team frame, in m/s."""
     age: Age = 0.0
+    """Simulated time since the robot last saw the ball, in s."""
 
 
 class Motion(Struct, frozen=True, kw_only=True):
-    """Pose and twist of a robot in its team frame: m, rad, m/s, rad/s."""
+    """Pose and twist of a robot in its team frame."""
 
     x: Metres
+    """x of the centre in the team frame, in m."""
     y: Metres
+    """y of the centre in the team frame, in m."""
     heading: Radians
+    """Kicking direction in the team frame, counter-clockwise from +x, in rad."""
     vx: MetresPerSecond = 0.0
+    """Velocity along x of the team frame, in m/s."""
     vy: MetresPerSecond = 0.0
+    """Velocity along y of the team frame, in m/s."""
     omega: RadiansPerSecond = 0.0
+    """Turn rate, counter-clockwise, in rad/s."""
 
 
 class RadioContent(Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """What can be said on the radio; a field that is null or empty is left out where it is sent."""
+    """The content of a radio message; fields that are null or empty are omitted when it is sent."""
 
     self: Motion | None = None
+    """Pose and twist of the sender, as it measures them; None where it does not send them."""
     ball: BallBelief | None = None
+    """Where the sender believes the ball to be; None where it does not send it."""
     role: ShortText | None = None
+    """The sender's role in its team; the team's own code defines the values."""
     intention: ShortText | None = None
+    """What the sender is about to do; the team's own code defines the values."""
     pass_to: Name | None = None
-    """The teammate who is asked to receive a pass."""
+    """The teammate that is asked to receive a pass; None without a pass."""
     extra: Annotated[dict[ShortText, float | int | bool | ShortText], Meta(max_length=MAX_EXTRA)] = msgspec.field(
         default_factory=dict
     )
-    """Whatever else the team agrees on."""
+    """Further values that the team's own code defines, by name."""
 
 
 class Radio(RadioContent, frozen=True, kw_only=True, metaclass=Checked):
-    """A word to all teammates; the host delivers it with delay and loss, within the team's byte budget.
+    """A message to all teammates; the host delivers it with delay and loss, within the team's bit budget.
 
-    A field that is null or empty is left out where it is sent.
+    Fields that are null or empty are omitted when it is sent.
     """
 
 
@@ -102,12 +119,14 @@ class Command(StructMessage, frozen=True, kw_only=True, metaclass=Checked):
     max_bytes: ClassVar[int] = 4096
 
     answers_tick: Annotated[int, Meta(ge=0)]
-    """Tick of the sight."""
+    """Tick of the sight that this command answers."""
     drive: Drive = Drive()
+    """Velocity demand in the body frame; it stays in force until the next command or the watchdog."""
     dribble: bool = False
     """The dribbler is on: a ball that comes within its reach is held."""
     kick: Kick | None = None
-    """Done in the tick this command arrives in, or refused."""
+    """Carried out in the tick in which this command arrives, or refused; None without a kick."""
     radio: Radio | None = None
+    """Message to all teammates; None without one."""
     acknowledges_order: int | None = None
-    """Sequence number of the newest coach order this robot has taken in."""
+    """Sequence number of the newest coach order that this robot has received; None before the first."""

@@ -1,4 +1,4 @@
-"""What the host says of itself: how the match is set up, what it applied, how it is doing."""
+"""Messages about the host: setup of the match, applied inputs, health, invalid payloads; and those of recorders."""
 
 from collections.abc import Mapping
 from typing import Annotated, Any, Self
@@ -26,38 +26,35 @@ _decode_fields = msgspec.json.Decoder(dict[str, Any]).decode
 
 
 class SetupRequest(Message):
-    """Asks the host how the match is set up."""
+    """A request for the setup of the match."""
 
 
 class TeamSetup(Part):
-    """One team: its robots in order."""
+    """One team and its robots."""
 
     name: str
     """Name of the team, for display."""
     robots: list[Name]
     """Names of the robots, the goalkeeper first."""
     types: dict[Name, Name] = Field(default_factory=dict)
-    """Robot → its type; a robot that is not named here is a standard one."""
+    """Robot → its type; other robots are of the standard type."""
     goalkeeper: bool = True
-    """The first on the field is the goalkeeper; without one, all play in the field."""
+    """The first robot that is on the field is the goalkeeper; False for a team without one."""
 
 
 class Setup(Message):
-    """Everything a robot or a viewer must know of a match before its first tick.
-
-    `robot`, `drive`, `dribble` and `kicker` are those of the standard robot.
-    """
+    """Everything that a robot or a viewer needs to know about a match before its first tick."""
 
     match: Name
-    """Name of the match: the chunk of the keys behind `touchline/`."""
+    """Name of the match: the chunk after `touchline/` in every key."""
     pace: str
     """`lockstep`, `realtime`, or `x4` for four times real time."""
     profile: str
     """Name of the profile: the physical numbers of the match."""
     rules: str
-    """Name of the rule book: the numbers that the match is refereed by."""
+    """Name of the rule book: the numbers that the referee applies."""
     time: TimeSteps
-    """How time is cut into ticks and physics steps."""
+    """Lengths of the physics step and the control tick."""
     pitch: Pitch
     """Dimensions of the pitch, its goals and its boundary."""
     robot: RobotBody
@@ -75,25 +72,26 @@ class Setup(Message):
     restarts: Restarts
     """Distances and times of restarts."""
     handling: Handling | None = None
-    """How robots may handle the ball; None in recordings from before these rules."""
+    """How robots may handle the ball; None in recordings that are older than this field."""
     scoring: Scoring | None = None
-    """Which goals count; None in recordings from before these rules."""
+    """Which goals count; None in recordings that are older than this field."""
     fouls: Fouls | None = None
-    """Which fouls are called; None in recordings from before these rules."""
+    """Which fouls are called; None in recordings that are older than this field."""
     officiating: OfficiatingMode | None = None
-    """Who decides; None in recordings from before this field."""
+    """Who decides: the referee, people, or both; None in recordings that are older than this field."""
     areas: Areas | None = None
-    """Who may be in goal areas and penalty areas, and for how long; None in recordings from before these rules."""
+    """Which robots may be in goal areas and penalty areas, and for how long; None in recordings that are older than
+    this field."""
     teams: dict[Side, TeamSetup]
     """Side → its team."""
     models: dict[Name, RobotModel] = Field(default_factory=dict)
-    """Type → model; `standard` for every robot that no type is given for."""
+    """Type → model; `standard` is that of robots without a type."""
     engine: dict[str, str] = Field(default_factory=dict)
-    """Fingerprint of what computes the world: engine version, the maths library's answers."""
+    """Fingerprint of what computes the world: version of the engine, results of the maths library."""
     parameters: dict[ParameterName, Setting] = Field(default_factory=dict)
-    """Live parameters that are not what the match began with, and their values; the numbers above have them already."""
+    """Live parameters that were changed since the match began → value; the numbers above include them."""
     orders: dict[Side, int] = Field(default_factory=dict)
-    """Side → number of the coach's order that stands; the next one's is larger."""
+    """Side → sequence number of the coach's order in force; the next order needs a larger one."""
 
     @classmethod
     def of(
@@ -104,7 +102,7 @@ class Setup(Message):
         engine: Mapping[str, str] = _EMPTY,
         parameters: Mapping[str, Setting] = _EMPTY,
     ) -> Self:
-        """The setup of a match that runs with the numbers of `profile`."""
+        """The setup of a match with the numbers of `profile`."""
         return cls(
             match=config.name,
             pace=config.pace,
@@ -133,7 +131,7 @@ class Setup(Message):
     def for_robot(self, robot: str) -> Self:
         """The same setup with this robot's own body, drive, dribbler and kicker in place of the standard robot's.
 
-        In a recording that is older than types all robots are alike.
+        Recordings that are older than types of robots have no models: all robots are standard ones.
         """
         types = {name: chosen for team in self.teams.values() for name, chosen in team.types.items()}
         model = self.models.get(types.get(robot, STANDARD))
@@ -149,7 +147,7 @@ def _team(config: MatchConfig, side: Side) -> TeamSetup:
 
 
 class AppliedInput(Struct, frozen=True):
-    """What one robot's actuators were told, after validation and watchdog; made for every robot in every tick."""
+    """The input of one robot's actuators in one tick, after validation and watchdog."""
 
     drive: Drive
     """Velocity demand in the body frame."""
@@ -164,7 +162,7 @@ class AppliedInput(Struct, frozen=True):
 class Applied(Message):
     """All inputs that led to this tick, and the hash chain over the states of all ticks so far.
 
-    With the manifest this is enough to simulate the match again and to compare each tick.
+    With the manifest, this suffices to simulate the match again and to compare each tick.
     """
 
     tick: int
@@ -172,74 +170,76 @@ class Applied(Message):
     time: float
     """Simulated time in s: tick × control tick."""
     inputs: dict[Name, AppliedInput]
-    """Robot → the input that its actuators were given."""
+    """Robot → the input of its actuators."""
     placements: list[Placement] = Field(default_factory=list)
-    """Bodies that were set down by hand before this tick."""
+    """Bodies that an operator or the referee placed before this tick."""
     checkpoint: bool = False
     """The world was rebuilt from poses and velocities before this tick: re-simulation may begin here."""
     remade: bool = False
-    """The world was built anew, with the parameters, robots and obstacles in force, before bodies were placed."""
+    """The world was rebuilt with the parameters, robots and obstacles in force, before bodies were placed."""
     parameters: dict[ParameterName, Setting] = Field(default_factory=dict)
-    """Live parameters that were changed before this tick, and their new values."""
+    """Live parameters that were changed before this tick → new value."""
     robots: list[RosterEntry] | None = None
-    """Who takes part from this tick on, in the order of the roster; always given at tick 0, None where it has not
-    changed."""
+    """The robots that take part from this tick on, in the order of the roster; given at tick 0 and on a change,
+    otherwise None."""
     obstacles: list[StaticObstacle] | None = None
-    """What else stands on the pitch from this tick on; None where it has not changed."""
+    """The obstacles on the pitch from this tick on; None where they have not changed."""
     episode: int = 1
-    """Which start this tick goes back to: the match's is 1, each scene that is loaded and each reset begin another."""
+    """The episode that this tick belongs to: the start of the match is 1, and each scene that is loaded and each reset
+    begin another."""
     chain: str
-    """blake2b over the state of this tick and this message up to its chain, keyed with the chain before it; hex."""
+    """blake2b over the state of this tick and all other fields of this message, keyed with the chain before it; hex."""
 
 
 def chained_part(applied: Mapping[str, Any]) -> bytes:
-    """What the hash chain takes in of the fields of an `Applied`: all but the chain, in their order.
+    """The bytes of an `Applied` that the hash chain covers: all fields but the chain, in their order.
 
-    As JSON without spaces, floats as short as they can be, up to the brace that ends it; so the same fields give the
-    same bytes, however the host that published them writes its JSON.
+    They are JSON without spaces, with the shortest form of each float, without the closing brace. The same fields give
+    the same bytes, however the host that published them formats its JSON.
     """
     return encode({name: value for name, value in applied.items() if name != "chain"})[:-1]
 
 
 def chained_part_of(payload: bytes) -> bytes:
-    """The same of an `Applied` as it was published.
+    """The bytes that the hash chain covers of an `Applied` as it was published.
 
     Raises:
-        BadMessageError: it is no JSON object.
+        BadMessageError: the payload is not a JSON object.
     """
     try:
         return chained_part(_decode_fields(payload))
     except ValueError as error:
-        raise BadMessageError(f"Applied: not to be read: {error}") from None
+        raise BadMessageError(f"Applied: cannot be read: {error}") from None
 
 
 class RobotHealth(Part):
-    """How one robot's agent is doing; counts since the match began."""
+    """State of one robot's agent; counts are since the match began."""
 
     alive: bool = False
-    """Its liveliness token is there."""
+    """Its liveliness token exists."""
     answering: bool = False
-    """Its answer to the last tick was there in time."""
+    """Its answer to the last tick arrived in time."""
     answers: int = 0
-    """Ticks that it answered."""
+    """Ticks with an answer."""
     missed: int = 0
-    """Ticks that went by without its answer."""
+    """Ticks without an answer."""
     duplicates: int = 0
-    """Commands that answered a tick it had answered already."""
+    """Commands for a tick that it had already answered."""
     invalid: int = 0
-    """Payloads on its key that were no valid command."""
+    """Payloads on its key that were not valid commands."""
     removed: bool = False
-    """Its robot was taken off the pitch: it gets no sights and is not waited for until the robot is put back."""
+    """Its robot was removed from the pitch: it gets no sights, and the host does not wait for it, until the robot is
+    added again."""
     still: bool = False
-    """Its robot stands still in the scene that is played: commands move nothing, and nobody waits for them."""
+    """Its robot stands still in the current scene: its commands have no effect, and the host does not wait for them."""
     refused: int = 0
-    """Parts of commands that could not be done."""
+    """Parts of commands that were refused."""
     latency_ms: float | None = None
     """Median wall time from sight to command over the last second, in ms; None without an answer."""
 
 
 class Health(Message):
-    """How the host is doing."""
+    """State of the host, its agents and recorders."""
 
     tick: int
     """Control ticks since the match began."""
@@ -250,19 +250,19 @@ class Health(Message):
     real_time_factor: float
     """Simulated seconds per wall second, over the last second."""
     late_ticks: int = 0
-    """Ticks that began late, or in lockstep did not get every answer in time."""
+    """Ticks that began late; in lockstep, ticks without all answers in time."""
     worst_tick_ms: float = 0.0
-    """Longest wall time that a tick of the last second took, in ms."""
+    """Longest wall time of a tick in the last second, in ms."""
     robots: dict[Name, RobotHealth] = Field(default_factory=dict)
-    """Robot → how its agent is doing."""
+    """Robot → the state of its agent."""
     strangers: dict[str, int] = Field(default_factory=dict)
-    """Key → messages on it from senders that have no business there."""
+    """Command key → messages on it, for names that no robot of this match has."""
     recorders: dict[Name, Annotated[int, Field(ge=0)]] = Field(default_factory=dict)
-    """How many ticks each recorder is behind."""
+    """Recorder → ticks that it is behind."""
 
 
 class Invalid(Message):
-    """A payload that was not a valid message, as the host met it; counted and ignored."""
+    """An invalid payload that the host received, counted and ignored."""
 
     tick: int
     """Control ticks since the match began."""
@@ -277,7 +277,7 @@ class Invalid(Message):
 
 
 class Belief(Message):
-    """What a robot said on the radio, in its team frame, as the host took it in."""
+    """A robot's radio message, as the host received it."""
 
     tick: int
     """Control ticks since the match began."""
@@ -290,17 +290,19 @@ class Belief(Message):
 
 
 class RecorderProgress(Message):
-    """How far a recorder has come; a lockstep host does not run away from it."""
+    """Progress of a recorder; a lockstep host limits its lead over it."""
 
     tick: int
-    """The newest of which all has come that the host says in every tick."""
+    """The newest tick of which the recorder has everything; −1 before the first."""
     messages: int
-    """Messages taken in so far."""
+    """Messages received so far."""
     lost: int
     """Messages known to be missing so far."""
     losses: dict[str, int] = Field(default_factory=dict)
-    """Key → messages known to be missing; keys without loss are left out."""
+    """Key → messages known to be missing; keys without losses are left out."""
+    sights: bool = False
+    """The recorder also records sights: the host adds them to its batches."""
     paused: bool = False
-    """The recorder leaves out what comes."""
+    """The recorder is paused and leaves out what arrives."""
     leaving: bool = False
-    """The recorder's last message: the host need not wait for it."""
+    """This is the recorder's last message: the host no longer waits for it."""

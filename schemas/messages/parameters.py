@@ -1,4 +1,4 @@
-"""Live parameters: the numbers of a match's profile, asked for, set and reset while it runs."""
+"""Live parameters: the numbers of a match's profile, read, set and reset while it runs."""
 
 from enum import StrEnum
 from typing import Annotated
@@ -8,16 +8,16 @@ from pydantic import Field, StrictFloat, StrictInt, StringConstraints
 from schemas.message import Message, Part, Source
 
 ParameterName = Annotated[str, StringConstraints(pattern=r"^[a-z_0-9]+(\.[a-z_0-9]+)*$", max_length=120)]
-"""As the profile names it, `ball.rolling_deceleration`; a section's name alone stands for all that is in it."""
+"""Name in the profile, `ball.rolling_deceleration`; the name of a section stands for all of its parameters."""
 
 Value = StrictInt | StrictFloat | str | list[StrictFloat | StrictInt]
 """A number in the parameter's unit, a word, or a list of numbers."""
 Setting = Value | None
-"""What a parameter is set to; nothing for a number of a type of robots that is the standard robot's again."""
+"""The value of a parameter; None where a type of robot has the value of the standard robot again."""
 
 
 class ParameterOperation(StrEnum):
-    """What is asked for."""
+    """What to do with parameters."""
 
     LIST = "list"
     GET = "get"
@@ -26,50 +26,50 @@ class ParameterOperation(StrEnum):
 
 
 class ParametersRequest(Message):
-    """Asks for parameters, or changes them between two ticks: all that are named, or none."""
+    """A request to read parameters, or to change them between two ticks: all that are named, or none."""
 
     operation: ParameterOperation
-    """What is asked for."""
+    """What to do."""
     names: Annotated[list[ParameterName], Field(max_length=200)] = Field(default_factory=list)
-    """Parameters or whole sections; for `reset` none stands for all that can be changed."""
+    """Parameters or whole sections; for `reset`, an empty list stands for all that can be changed."""
     values: Annotated[dict[ParameterName, Value], Field(max_length=200)] = Field(default_factory=dict)
     """For `set`: parameter → its new value."""
     source: Source = "operator"
-    """Who asks."""
+    """Name of the sender, for display."""
 
 
 class Parameter(Part):
-    """One parameter as it is now."""
+    """One parameter in its current state."""
 
     name: ParameterName
     """Name in the profile, `ball.rolling_deceleration`."""
     description: str
     """What it means."""
     unit: str
-    """`1` for a pure number; empty for a word."""
+    """Its unit; `1` for a dimensionless number, empty for a word."""
     low: float | None = None
-    """The least value that makes sense, in its unit; None where there is no bound."""
+    """The least sensible value, in its unit; None without a bound."""
     high: float | None = None
-    """The greatest value that makes sense, in its unit; None where there is no bound."""
+    """The greatest sensible value, in its unit; None without a bound."""
     options: list[str] = Field(default_factory=list)
-    """Allowed values of a parameter that is a word."""
+    """Valid values of a parameter that is a word."""
     origin: str = ""
-    """Where the first value comes from."""
+    """Source of the initial value."""
     value: Value
     """Value in force from the next tick on."""
     initial: Value
-    """What the match began with: the profile's value, or the match file's in its place."""
+    """Value at the start of the match: the profile's, or that of the match file."""
     live: bool = True
     """It can be changed while the match runs."""
     fixed_reason: str = ""
-    """Why it cannot."""
+    """Why it cannot be changed; empty where it can."""
 
 
 class ParametersReply(Message):
-    """The host's answer: the parameters that were named, as they are from the next tick on."""
+    """The host's reply."""
 
     accepted: bool
-    """What was asked for was done."""
+    """The request was carried out."""
     reason: str = ""
     """Why it was refused; then nothing was changed."""
     parameters: list[Parameter] = Field(default_factory=list)

@@ -1,7 +1,7 @@
-"""Batches of messages to be recorded: everything that a recording holds, byte for byte, several ticks in one message.
+"""Batches of all messages to be recorded, byte for byte, several ticks in one batch.
 
-A recorder listens to one key. What a message costs host and recorder is paid once for some ticks, and what robots and
-coaches say once and forget can be fetched again like all that the host says.
+A recorder subscribes to one key. The cost of a message to host and recorder is paid once for several ticks, and
+messages that robots and coaches publish once can be requested again like those of the host.
 """
 
 from base64 import b64decode, b64encode
@@ -13,80 +13,135 @@ from pydantic import Field
 
 from schemas.message import VERSION, BadMessageError, Message, Part
 
-MAX_KEY_LENGTH = 200
-"""Characters of a key."""
+MAX_KEY = 200
+"""Most characters of a key."""
 
 
 class BatchEntry(Part):
-    """One message, with what travelled beside it."""
+    """One message with its metadata."""
 
-    key: Annotated[str, Field(max_length=MAX_KEY_LENGTH)]
+    key: Annotated[str, Field(max_length=MAX_KEY)]
     """Key below the match, `robot/cyan1/command`."""
     message: Any = None
-    """The payload where it is JSON: the very bytes that were sent."""
+    """The payload where it is JSON, byte for byte."""
     octets: str | None = None
-    """The payload in base64 where it is anything else."""
+    """The payload in base64 where it is not JSON; otherwise None."""
     sequence: Annotated[int, Field(ge=0)] | None = None
-    """Its sender's number on that key; nothing when it gave none."""
+    """The sender's sequence number on that key; None where the sender gave none."""
     sent_ns: int = 0
     """The sender's wall time, ns since 1970."""
     sim_ns: int = -1
-    """The sender's simulated time in ns, −1 when it knows none."""
+    """The sender's simulated time in ns, −1 where it has none."""
     arrived_ns: int = 0
-    """When it reached the host, by the host's wall clock, ns since 1970; 0 for what the host itself says."""
+    """Wall time at which it reached the host, by the host's clock, ns since 1970; 0 for the host's own messages."""
+    arrived_sim_ns: int = -1
+    """The host's simulated time in ns when it received the message; −1 for the host's own messages."""
 
 
 class RecordBatch(Message):
-    """All that is recorded of what the host said and took in since the batch before, up to the end of `tick`.
+    """All messages to be recorded that the host published or received since the last batch, up to the end of `tick`.
 
-    Recorders take everything but sights from here, and nothing from its senders: what a host says can be fetched
-    again.
+    Recorders read all messages from here, and none from their senders. Missing numbers are requested on
+    `host/record_batches`.
     """
 
     max_bytes: ClassVar[int] = 4 * 2**20
 
+    stream: Annotated[int, Field(ge=0)]
+    """Wall time at which the host began, ns since 1970, which distinguishes hosts."""
+    number: Annotated[int, Field(ge=0)]
+    """Sequence number of the batch, from 0."""
     tick: int
-    """The last tick of the batch."""
+    """The last complete tick; −1 before the first."""
+    sent_ns: int
+    """The host's wall time when it published the batch, ns since 1970."""
     entries: list[BatchEntry]
     """The messages, in the order in which the host published or received them."""
 
 
-class RawEntry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True, gc=False):
-    """A `BatchEntry` whose message is kept as the bytes it is."""
+class RecordBatchesRequest(Message):
+    """A request for published batches, from number `first` to number `last`, both included."""
 
-    key: Annotated[str, msgspec.Meta(max_length=MAX_KEY_LENGTH)]
+    first: Annotated[int, Field(ge=0)]
+    """Number of the first requested batch."""
+    last: Annotated[int, Field(ge=0)] | None = None
+    """Number of the last requested batch; None for the newest."""
+    since_ns: Annotated[int, Field(ge=0)] = 0
+    """Batches published before this wall time, ns since 1970, are left out."""
+
+
+class RecordBatchesReply(Message):
+    """The requested batches, in order and without a gap: as many as fit into half a megabyte, and at least one.
+
+    Where it ends before the last requested batch, the rest is requested again.
+    """
+
+    max_bytes: ClassVar[int] = 8 * 2**20
+
+    stream: Annotated[int, Field(ge=0)]
+    """The host's `stream`, as in `RecordBatch`."""
+    oldest: Annotated[int, Field(ge=0)]
+    """Number of the oldest available batch, without those before `since_ns`; of the next batch where there is none.
+
+    Batches with smaller numbers are lost.
+    """
+    batches: list[RecordBatch] = Field(default_factory=list)
+    """The batches from the larger of `first` and `oldest` on; empty where that is unpublished or beyond `last`."""
+
+
+class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True, gc=False):
+    """A `BatchEntry` whose message stays encoded."""
+
+    key: Annotated[str, msgspec.Meta(max_length=MAX_KEY)]
     message: msgspec.Raw = msgspec.Raw(b"null")
     octets: str | None = None
     sequence: Annotated[int, msgspec.Meta(ge=0)] | None = None
     sent_ns: int = 0
     sim_ns: int = -1
     arrived_ns: int = 0
+    arrived_sim_ns: int = -1
 
     @property
     def payload(self) -> bytes:
         """The bytes that were sent.
 
         Raises:
-            ValueError: they are no base64.
+            ValueError: `octets` is not base64.
         """
         return bytes(self.message) if self.octets is None else b64decode(self.octets, validate=True)
 
 
-class _RawBatch(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):
-    """A `RecordBatch` of such entries."""
+_Count = Annotated[int, msgspec.Meta(ge=0)]
+
+
+class Batch(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):
+    """A `RecordBatch` of `Entry`."""
 
     version: str
+    stream: _Count
+    number: _Count
     tick: int
-    entries: Sequence[RawEntry]
+    sent_ns: int
+    entries: Sequence[Entry]
+
+
+class BatchesReply(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):
+    """A `RecordBatchesReply` whose batches stay encoded."""
+
+    version: str
+    stream: _Count
+    oldest: _Count
+    batches: list[msgspec.Raw] = []
 
 
 _encode = msgspec.json.Encoder().encode
-_decode = msgspec.json.Decoder(_RawBatch).decode
+_decode_batch = msgspec.json.Decoder(Batch).decode
+_decode_reply = msgspec.json.Decoder(BatchesReply).decode
 _skim = msgspec.json.Decoder(msgspec.Raw).decode
 
 
 def payload_fields(payload: bytes) -> dict[str, Any]:
-    """The fields of an `RawEntry` that carry a payload from outside, which may be anything."""
+    """The fields of an `Entry` for a payload, which may be any bytes."""
     try:
         payload.decode()
         message = _skim(payload)
@@ -96,23 +151,45 @@ def payload_fields(payload: bytes) -> dict[str, Any]:
     return {"message": message} if is_all else {"octets": b64encode(payload).decode()}
 
 
-def encode_batch(tick: int, entries: Sequence[RawEntry]) -> bytes:
-    """A `RecordBatch` as it is sent."""
-    return _encode(_RawBatch(VERSION, tick, entries))
+def write_batch(stream: int, number: int, tick: int, sent_ns: int, entries: Sequence[Entry]) -> bytes:
+    """An encoded `RecordBatch`."""
+    return _encode(Batch(VERSION, stream, number, tick, sent_ns, entries))
 
 
-def decode_batch(payload: bytes) -> Sequence[RawEntry]:
-    """The entries of a `RecordBatch`.
+def read_batch(payload: bytes) -> Batch:
+    """The batch in a payload.
 
     Raises:
-        BadMessageError: the payload is no batch.
+        BadMessageError: the payload is not a `RecordBatch`.
     """
     try:
-        batch = _decode(payload) if len(payload) <= RecordBatch.max_bytes else None
+        batch = _decode_batch(payload) if len(payload) <= RecordBatch.max_bytes else None
     except (ValueError, RecursionError) as error:
-        RecordBatch.decode(payload)  # says more of another version
+        RecordBatch.decode(payload)  # names another version
         raise BadMessageError(f"RecordBatch: {error}") from None
     if batch is None or batch.version != VERSION:
         RecordBatch.decode(payload)
     assert batch is not None
-    return batch.entries
+    return batch
+
+
+def write_reply(stream: int, oldest: int, batches: Sequence[bytes]) -> bytes:
+    """An encoded `RecordBatchesReply` of encoded batches."""
+    return _encode(BatchesReply(VERSION, stream, oldest, [msgspec.Raw(batch) for batch in batches]))
+
+
+def read_reply(payload: bytes) -> BatchesReply:
+    """The reply in a payload; `read_batch` reads its batches.
+
+    Raises:
+        BadMessageError: the payload is not a `RecordBatchesReply`.
+    """
+    try:
+        reply = _decode_reply(payload) if len(payload) <= RecordBatchesReply.max_bytes else None
+    except (ValueError, RecursionError) as error:
+        RecordBatchesReply.decode(payload)
+        raise BadMessageError(f"RecordBatchesReply: {error}") from None
+    if reply is None or reply.version != VERSION:
+        RecordBatchesReply.decode(payload)
+    assert reply is not None
+    return reply

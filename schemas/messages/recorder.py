@@ -1,4 +1,4 @@
-"""Controls a recorder while it records: asked of it by name, answered at once."""
+"""Control of a recorder while it records."""
 
 from enum import StrEnum
 
@@ -6,43 +6,43 @@ from schemas.message import Message, Name, Source
 
 
 class RecorderOperation(StrEnum):
-    """What a recorder is asked to do."""
+    """What a recorder can do on request."""
 
     STATUS = "status"
     PAUSE = "pause"
-    """Leave out what comes from now on."""
+    """Leave out what arrives from now on."""
     RESUME = "resume"
     SPLIT = "split"
-    """Finish this file and go on in the next one."""
+    """Finish this file and continue in the next one."""
     SNAPSHOT = "snapshot"
-    """Write what it holds in memory to a file."""
+    """Write the messages in memory to a file."""
 
 
 class RecorderRequest(Message):
-    """Asks a recorder to do something, or how it is doing."""
+    """A request to a recorder."""
 
     operation: RecorderOperation = RecorderOperation.STATUS
-    """What the recorder is asked to do."""
+    """What to do."""
     source: Source = "operator"
-    """Who asks."""
+    """Name of the sender, for display."""
 
 
 class RecorderReply(Message):
-    """A recorder's answer: how it is doing after what it was asked."""
+    """A recorder's reply, with its state after the request."""
 
     accepted: bool
-    """The recorder did what it was asked to do."""
+    """The request was carried out."""
     reason: str = ""
     """Why it was refused; then nothing has changed."""
     recorder: Name
     """Name of the recorder."""
     paused: bool
-    """The recorder leaves out what comes."""
+    """The recorder is paused and leaves out what arrives."""
     file: str
-    """Path of the file that it writes, on its own machine; with snapshots, the newest of them."""
+    """Path of its file, on its own machine; the newest snapshot of a recorder that writes snapshots."""
     messages: int
-    """Messages taken in so far."""
+    """Messages received so far."""
     lost: int
     """Messages known to be missing so far."""
     tick: int
-    """The newest tick that it has taken in; −1 before the first."""
+    """The newest tick that it has received; −1 before the first."""

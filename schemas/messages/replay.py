@@ -1,4 +1,4 @@
-"""What may be asked of a replay while it runs: a recording that is brought back onto the bus."""
+"""Control of a replay, which publishes a recording on the bus."""
 
 from enum import StrEnum
 from typing import Annotated, ClassVar
@@ -10,63 +10,64 @@ from schemas.message import Message
 
 
 class ReplayOperation(StrEnum):
-    """What to do."""
+    """What a replay can do on request."""
 
     STATUS = "status"
-    """Nothing: only say how it stands."""
+    """Report its state, and change nothing."""
     EVENTS = "events"
-    """Nothing: also say all that happens in what is recorded."""
+    """Report its state and all events of the recording, and change nothing."""
     PLAY = "play"
     PAUSE = "pause"
     STEP = "step"
-    """Pause, and play `ticks` more."""
+    """Play `ticks` ticks, and pause."""
     SEEK = "seek"
-    """Go to `to`, or `by` from here; everybody is told the state at that point."""
+    """Go to `to`, or by `by` from here, and publish the state at that point."""
     RATE = "rate"
-    """Play at `rate`, or as fast as possible when none is given."""
+    """Play at `rate`, or as fast as possible where it is None."""
     LOOP = "loop"
-    """Begin again at the end from now on, or no more when it did."""
+    """Switch between starting again at the end and ending there."""
     LEAVE = "leave"
     """End the replay."""
 
 
 class ReplayRequest(Message):
-    """Asks a replay to go on, stop, or go elsewhere."""
+    """A request to a replay."""
 
     operation: ReplayOperation = ReplayOperation.STATUS
-    """What the replay is asked to do."""
+    """What to do."""
     to: str | None = None
-    """Where to: s of simulated time, or an event, `goal:2`, `kick_off:1-5`."""
+    """Target of a seek: simulated time in s, or an event, `goal:2`, `kick_off:1-5`."""
     by: float | None = None
-    """How far from here, in s of simulated time; back where it is negative."""
+    """Distance of a seek from here in simulated time, in s; negative for backward."""
     rate: Annotated[float, Field(gt=0)] | None = None
-    """Simulated seconds per wall second; as fast as possible when not given."""
+    """Simulated seconds per wall second; None for as fast as possible."""
     ticks: Annotated[int, Field(ge=1)] = 1
-    """How many ticks a step has."""
+    """Length of a step in ticks."""
 
 
 class ReplayReply(Message):
-    """How a replay stands after what was asked."""
+    """A replay's reply, with its state after the request."""
 
     max_bytes: ClassVar[int] = 8_000_000
 
     accepted: bool
-    """The replay did what it was asked to do."""
+    """The request was carried out."""
     reason: str = ""
-    """Why it was refused."""
+    """Why it was refused; empty where it was accepted."""
     time: float = 0.0
-    """Where it is, s of simulated time."""
+    """Position in simulated time, in s."""
     start: float = 0.0
-    """Where what is replayed begins, s of simulated time."""
+    """Start of the replayed part in simulated time, in s."""
     end: float = 0.0
-    """Where it ends, s of simulated time; of a match that is still being recorded, how far that has come."""
+    """End of the replayed part in simulated time, in s; while the match is still being recorded, the newest time so
+    far."""
     rate: float | None = None
     """Simulated seconds per wall second; None for as fast as possible."""
     paused: bool = False
-    """The replay stands still."""
+    """The replay is paused."""
     loop: bool = False
-    """The replay begins again at its end."""
+    """The replay starts again at its end."""
     messages: int = 0
-    """Messages sent so far."""
+    """Messages published so far."""
     events: list[GameEvent] = Field(default_factory=list)
-    """All that happens in the recording, in order, where that was asked for."""
+    """All events of the recording in order, where they were requested."""

@@ -1,4 +1,4 @@
-"""Everything one robot knows at one tick, in its team frame: each team believes it attacks +x."""
+"""What one robot knows at one tick, in its team frame: each team attacks +x in its own frame."""
 
 from msgspec import field
 
@@ -12,70 +12,85 @@ from schemas.units import Metres, MetresPerSecond, Seconds
 
 
 class BallSight(Struct, frozen=True, kw_only=True):
-    """The ball as the camera saw it last: m, m/s; `age` in s since that picture was taken."""
+    """The ball as the camera last saw it."""
 
     x: Metres
+    """x of the ball's centre in the team frame, in m."""
     y: Metres
+    """y of the ball's centre in the team frame, in m."""
     z: Metres | None = None
+    """Height of the ball's centre above the ground, in m; None where the camera does not measure it."""
     vx: MetresPerSecond
+    """Velocity along x of the team frame, in m/s."""
     vy: MetresPerSecond
+    """Velocity along y of the team frame, in m/s."""
     age: Seconds = 0.0
+    """Simulated time since the picture was taken that these values come from, in s."""
     visible: bool = True
-    """It is in the newest picture; otherwise it is too far away, hidden or overlooked, and this is its last place."""
+    """The ball is in the newest picture. Otherwise it is out of range, hidden or not detected, and the other fields are
+    those of the last picture that it was in."""
 
 
 class Obstacle(Struct, frozen=True, kw_only=True):
-    """Something round in the way: m. Whose robot it is, or whether it is one, the robot has to find out."""
+    """A round body in the camera's picture; the picture does not identify it."""
 
     x: Metres
+    """x of its centre in the team frame, in m."""
     y: Metres
+    """y of its centre in the team frame, in m."""
     radius: Metres
+    """Radius of the circle around it on the ground, in m."""
 
 
 class ReceivedRadio(RadioContent, frozen=True, kw_only=True):
-    """A teammate's word, and how long ago it was said, in s."""
+    """A teammate's radio message as it was delivered."""
 
     age: Seconds
+    """Simulated time since it was sent, in s."""
 
 
 class Outcome(Struct, frozen=True, kw_only=True):
-    """What became of the robot's last command: `refused` holds one sentence for each part that was not done."""
+    """What became of the robot's last command."""
 
     answers_tick: int | None = None
-    """The sight that the command answered; nothing when none arrived for this tick."""
+    """Tick of the sight that the command answered; None where no command arrived for this tick."""
     refused: list[str] = field(default_factory=list)
-    """What was not done, and why."""
+    """One sentence with the reason for each part of the command that was not carried out."""
 
 
 class Sight(StructMessage, frozen=True, kw_only=True):
     """What one robot perceives at one tick."""
 
     tick: int
+    """Control ticks since the match began."""
     time: Seconds
-    """Simulated time in s."""
+    """Simulated time in s: tick × control tick."""
     robot: Name
-    """Who perceives this."""
+    """Name of the robot that perceives this."""
     side: Side
+    """The robot's side."""
     self: Motion
-    """Own pose and twist, as the robot measures them."""
+    """The robot's own pose and twist, as it measures them."""
     ball: BallSight | None
-    """Nothing when the ball was never seen."""
+    """The ball as the camera last saw it; None until it is seen for the first time."""
     holding: bool
-    """The ball is in hand: only then can it be kicked."""
+    """The robot holds the ball: only then can it kick."""
     kicker_ready: bool = True
-    """The kicker is charged: otherwise a kick is refused."""
+    """The kicker is charged; otherwise a kick is refused."""
     stuck: bool = False
-    """For long it has moved much slower than it was told: something is in its way."""
+    """The robot has moved much slower than commanded for a while: something is in its way."""
     obstacles: list[Obstacle]
     """Robots of both teams and other bodies in the newest picture, the nearest first."""
     obstacles_age: Seconds = 0.0
-    """Since that picture was taken, in s."""
+    """Simulated time since that picture was taken, in s."""
     radio: dict[Name, ReceivedRadio] = field(default_factory=dict)
-    """The newest word of each teammate."""
+    """Teammate → its newest radio message that was delivered."""
     game: GameView
+    """The state of the game from the team's point of view."""
     order: CoachOrder | None = None
-    """The coach's newest."""
+    """The coach's order in force; None without one."""
     outcome: Outcome = Outcome()
+    """What became of the robot's last command."""
 
 
 __all__ = ["BallBelief", "BallSight", "Motion", "Obstacle", "Outcome", "ReceivedRadio", "Sight"]

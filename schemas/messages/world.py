@@ -9,7 +9,7 @@ from schemas.side import Side
 
 
 class RobotTruth(Part):
-    """One robot: position of its centre in m, heading in rad, velocities in m/s and rad/s, in the field frame."""
+    """True state of one robot, in the field frame."""
 
     x: float
     """x of the centre in the field frame, in m."""
@@ -34,7 +34,7 @@ class RobotTruth(Part):
 
 
 class BallTruth(Part):
-    """The ball: position of its centre in m, velocity in m/s, in the field frame."""
+    """True state of the ball, in the field frame."""
 
     x: float
     """x of the centre in the field frame, in m."""
@@ -51,7 +51,7 @@ class BallTruth(Part):
 
 
 class ObstacleTruth(Part):
-    """A body that nothing moves: position of its centre in m, heading in rad, in the field frame."""
+    """Place and size of a static body, in the field frame."""
 
     x: float
     """x of the centre in the field frame, in m."""
@@ -72,7 +72,7 @@ class ObstacleTruth(Part):
 
 
 class World(Message):
-    """Everything there is on the field at one tick."""
+    """True state of everything on the field at one tick."""
 
     tick: int
     """Control ticks since the match began."""
@@ -85,19 +85,19 @@ class World(Message):
     possession: Name | None = None
     """The robot that holds the ball; None while no robot does."""
     touches: list[Name] = Field(default_factory=list)
-    """Robots that touched, held or kicked the ball since the tick before, in order of time; left out if nobody did."""
+    """Robots that touched, held or kicked the ball since the tick before, in order of time; omitted while empty."""
     kicked: Name | None = None
-    """The robot whose kick was carried out in this tick; left out if there was none."""
+    """The robot whose kick was carried out in this tick; omitted without one."""
     clock: float = 0.0
     """Game clock in s."""
     obstacles: dict[Name, ObstacleTruth] = Field(default_factory=dict)
-    """Obstacle → its place and size; left out while there is none."""
+    """Obstacle → its place and size; omitted while empty."""
     episode: int = 1
-    """Counts the starts: the match's own, each scene that is loaded, each reset. Ticks and time go on."""
+    """Counts the starts of the world: the match's own, each scene that is loaded, each reset. Ticks and time go on."""
 
 
 class RobotFrame(Message):
-    """The truth of one robot, keyed by its name."""
+    """True state of one robot at one tick."""
 
     tick: int
     """Control ticks since the match began."""
@@ -110,7 +110,7 @@ class RobotFrame(Message):
 
 
 class BallFrame(Message):
-    """The truth of the ball."""
+    """True state of the ball at one tick."""
 
     tick: int
     """Control ticks since the match began."""

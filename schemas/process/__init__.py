@@ -1,1 +1,1 @@
-"""What a process needs of its operating system: clocks, scheduling policy, and work in idle time."""
+"""Services of the operating system: clocks, scheduling policy, and work in idle time."""

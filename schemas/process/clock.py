@@ -1,21 +1,21 @@
-"""The clocks: the only door to wall time, and a stepped one that makes tests and lockstep need none.
+"""Clocks: the only access to wall time, and a stepped clock with which tests and lockstep need none.
 
-A clock tells two things: wall time, in which people and networks live, and simulated time, in which the match
-lives. Whoever owns a bus moves its clock's simulated time; the bus stamps what it sends with both.
+A clock has wall time, the time of people and networks, and simulated time, the time of the match. The owner of a bus
+advances its clock's simulated time; the bus stamps each message with both.
 """
 
 import time
 from typing import Protocol
 
 UNKNOWN_SIM_NS = -1
-"""Simulated time of a sender that has not heard any yet."""
+"""Simulated time of a sender that has received none yet."""
 
 
 class Clock(Protocol):
-    """What the rest of the code may know of time."""
+    """The interface of a clock."""
 
     sim_ns: int
-    """Simulated time in ns, or `UNKNOWN_SIM_NS`; set by the clock's owner."""
+    """Simulated time in ns, or `UNKNOWN_SIM_NS`; set by the owner of the clock."""
 
     def now(self) -> float:
         """Monotonic wall time in s, from an arbitrary origin."""
@@ -24,7 +24,7 @@ class Clock(Protocol):
         """Wall time in ns since 1970, UTC."""
 
     def sleep_until(self, moment: float) -> None:
-        """Return when `now()` has reached `moment`."""
+        """Wait until `now()` reaches `moment`."""
 
 
 class WallClock:
@@ -41,14 +41,14 @@ class WallClock:
         self.sim_ns = UNKNOWN_SIM_NS
 
     def sleep_until(self, moment: float) -> None:
-        """Sleep until `now()` has reached `moment`."""
+        """Sleep until `now()` reaches `moment`."""
         left = moment - time.perf_counter()
         if left > 0:
             time.sleep(left)
 
 
 class SteppedClock:
-    """Wall time that passes only when somebody sleeps: a paced loop runs in no time, and always the same."""
+    """Wall time that passes only in `sleep_until`: a paced loop takes no time and is deterministic."""
 
     __slots__ = ("_now", "sim_ns")
 
@@ -57,13 +57,13 @@ class SteppedClock:
         self._now = 0.0
 
     def now(self) -> float:
-        """The time slept so far, in s."""
+        """The sum of all sleeps so far, in s."""
         return self._now
 
     def unix_ns(self) -> int:
-        """The time slept so far, in ns."""
+        """The sum of all sleeps so far, in ns."""
         return round(self._now * 1e9)
 
     def sleep_until(self, moment: float) -> None:
-        """Let time pass to `moment` at once."""
+        """Advance to `moment` at once."""
         self._now = max(self._now, moment)

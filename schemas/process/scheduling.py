@@ -1,8 +1,8 @@
-"""Programs that take turns: one that is woken waits for a core instead of pushing aside whoever has it.
+"""The batch scheduling policy, with which a woken process waits for a core instead of preempting another.
 
-In lockstep everybody waits for somebody: a sight wakes a robot while another still thinks, a command wakes the host. By
-its ordinary policy the kernel runs the one that is woken at once; both then work with caches that the other has filled.
-Ten robots on two cores play about a sixth faster when each finishes its thought (Linux, SCHED_BATCH).
+In lockstep, processes wake each other: a sight wakes a robot while another still computes, a command wakes the host.
+With the default policy the kernel runs the woken process at once, and the two evict each other's data from the caches.
+Ten robots on two cores play about a sixth faster when each completes its computation (Linux, SCHED_BATCH).
 """
 
 import os
@@ -12,13 +12,13 @@ from pathlib import Path
 
 
 def use_batch_scheduling(enabled: bool = True) -> None:
-    """Let this process take turns, or be run at once as others are: its threads, and those that they start.
+    """Set the batch policy, or the default policy, for this process: its threads, and those that they start.
 
-    Where the kernel knows no such policy, or grants none, it stays as it is: nothing but speed depends on it.
+    Without effect where the kernel has no such policy or denies it; only speed depends on it.
     """
     if sys.platform != "linux":
         return
     policy = os.SCHED_BATCH if enabled else os.SCHED_OTHER
     for thread in Path("/proc/self/task").iterdir():
-        with suppress(OSError):  # it has ended meanwhile, or a sandbox forbids it
+        with suppress(OSError):  # the thread has ended, or a sandbox forbids it
             os.sched_setscheduler(int(thread.name), policy, os.sched_param(0))

@@ -1,4 +1,4 @@
-"""`python -m schemas.protocol > docs/protocol.md`: writes the page on the protocol."""
+"""`python -m schemas.protocol > docs/protocol.md` writes the page on the protocol."""
 
 import sys
 

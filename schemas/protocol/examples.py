@@ -1,4 +1,4 @@
-"""One example of each message, from one tick of a match; the first that a reader sees of it."""
+"""One example of each message, from one tick of a match."""
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.roster import Placement
@@ -33,7 +33,7 @@ from schemas.messages.host import (
 )
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import Parameter, ParameterOperation, ParametersReply, ParametersRequest
-from schemas.messages.record_batch import BatchEntry, RecordBatch
+from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest
 from schemas.messages.recorder import RecorderOperation, RecorderReply, RecorderRequest
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.messages.sight import BallSight, Obstacle, Outcome, ReceivedRadio, Sight
@@ -170,19 +170,7 @@ def _host() -> tuple[WireMessage, ...]:
             reason="Command: drive.vx is 'fast'; m/s from -20 to 20",
             size=41,
         ),
-        RecordBatch(
-            tick=_TICK + 1,
-            entries=[
-                BatchEntry(
-                    key="robot/cyan2/command",
-                    message=Command(answers_tick=_TICK, drive=_DRIVE).plain(),
-                    sequence=412,
-                    sent_ns=1_767_225_608_240_311_872,
-                    sim_ns=8_240_000_000,
-                    arrived_ns=1_767_225_608_240_498_113,
-                )
-            ],
-        ),
+        *_batches(),
         RecorderProgress(tick=403, messages=6045, lost=0),
         RecorderRequest(operation=RecorderOperation.SNAPSHOT),
         RecorderReply(
@@ -191,6 +179,27 @@ def _host() -> tuple[WireMessage, ...]:
         ReplayRequest(operation=ReplayOperation.SEEK, to="goal:1-5"),
         ReplayReply(accepted=True, time=3.24, end=28.02, rate=1.0, messages=2290),
     )
+
+
+def _batches() -> tuple[WireMessage, ...]:
+    entry = BatchEntry(
+        key="robot/cyan2/command",
+        message=Command(answers_tick=_TICK, drive=_DRIVE).plain(),
+        sequence=412,
+        sent_ns=1_767_225_608_240_311_872,
+        sim_ns=8_240_000_000,
+        arrived_ns=1_767_225_608_240_498_113,
+        arrived_sim_ns=8_240_000_000,
+    )
+    batch = RecordBatch(
+        stream=1_767_225_600_000_171_392,
+        number=51,
+        tick=_TICK + 1,
+        sent_ns=1_767_225_608_261_204_736,
+        entries=[entry],
+    )
+    request = RecordBatchesRequest(first=51, last=52)
+    return batch, request, RecordBatchesReply(stream=batch.stream, oldest=0, batches=[batch])
 
 
 def _parameters() -> tuple[WireMessage, ...]:
@@ -211,7 +220,7 @@ def _parameters() -> tuple[WireMessage, ...]:
 
 
 def _setup() -> Setup:
-    """The setup of the match that is played when nobody names a file."""
+    """The setup of the default match, which is played without a match file."""
     config = MatchConfig()
     profile, book = config.load_profile(), load_rule_book(config.rules)
     return Setup.of(config, profile, book, {"engine": "pybullet 3.2.7, api 202010061"})

@@ -1,6 +1,6 @@
-"""What a message or a part of one is made of, in words: its fields, their types and limits, and what they mean.
+"""The fields of a message or a part, in words: their types, limits, defaults and meanings.
 
-Meanings are the docstrings in the source; numbers of a profile or a rule book bring theirs, with the unit.
+Meanings are the docstrings in the source; a number of a profile or a rule book declares its own, with the unit.
 """
 
 import dataclasses
@@ -20,30 +20,7 @@ from schemas.message import Name
 from schemas.struct import encode
 
 Link = Callable[[type], str]
-"""How a part or an enumeration is named in the text."""
-
-COMMON_MEANINGS = {
-    "tick": "control ticks since the match began",
-    "time": "simulated time; s",
-    "clock": "game clock; s",
-    "x": "m",
-    "y": "m",
-    "z": "m",
-    "heading": "rad",
-    "vx": "m/s",
-    "vy": "m/s",
-    "vz": "m/s",
-    "omega": "rad/s",
-    "radius": "m",
-    "age": "s",
-    "speed": "m/s",
-    "angle_a": "rad",
-    "angle_b": "rad",
-    "kick_speed": "m/s",
-    "max_speed": "m/s",
-    "max_turn_rate": "rad/s",
-}
-"""What a field of this name means in every message, where its own docstring says nothing else."""
+"""Gives the name of a part or an enumeration in the text."""
 
 _PLAIN = {str: "text", bool: "true or false", int: "whole number", float: "number"}
 
@@ -54,7 +31,7 @@ class Row(NamedTuple):
     name: str
     type: str
     default: str
-    """JSON, or nothing where the field must be given."""
+    """The default as JSON; empty where the field is required."""
     meaning: str
 
 
@@ -64,25 +41,25 @@ def is_part(kind: Any) -> bool:
 
 
 def rows(part: type, link: Link) -> list[Row]:
-    """The fields of a part, in order, without `version`."""
+    """The fields of a part in order, without `version`."""
     hints = get_type_hints(part, include_extras=True)
     docstrings = field_docstrings(part)
     return [
-        Row(name, type_text(hints[name], link), default, _meaning(name, docstrings, hints[name]))
+        Row(name, type_text(hints[name], link), default, _meaning(docstrings.get(name, ""), hints[name]))
         for name, default in _defaults(part)
         if name != "version"
     ]
 
 
 def parts_of(part: type) -> Iterator[type]:
-    """The parts and enumerations that the fields of a part are made of, in order."""
+    """The parts and enumerations in the types of the fields, in order."""
     hints = get_type_hints(part, include_extras=True)
     for name, _ in _defaults(part):
         yield from _named_types(hints[name])
 
 
 def type_text(hint: Any, link: Link) -> str:
-    """A type in words, with the limits it is declared with."""
+    """A type in words, with its declared limits."""
     if hint == Name:
         return "name"
     if hint is Any:
@@ -115,7 +92,7 @@ def _named_types(hint: Any) -> Iterator[type]:
 
 
 def _defaults(part: type) -> Iterator[tuple[str, str]]:
-    """Field → its default as JSON; nothing where it must be given."""
+    """Field → its default as JSON; empty where the field is required."""
     if issubclass(part, BaseModel):
         for name, info in part.model_fields.items():
             required = info.is_required()
@@ -155,9 +132,7 @@ def _limits(kind: Any, metadata: Sequence[Any]) -> str:
     return ", ".join(limits)
 
 
-def _meaning(name: str, docstrings: dict[str, str], hint: Any) -> str:
-    for item in get_args(hint)[1:]:
-        if isinstance(item, Quantity | Choice):
-            return item.description
-    common = "" if any(_named_types(hint)) else COMMON_MEANINGS.get(name, "")
-    return docstrings.get(name) or common
+def _meaning(docstring: str, hint: Any) -> str:
+    """The declared meaning of a number of a profile or a rule book, with its unit; otherwise the docstring."""
+    declared = [item.description for item in get_args(hint)[1:] if isinstance(item, Quantity | Choice)]
+    return declared[0] if declared else docstring

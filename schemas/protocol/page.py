@@ -1,4 +1,4 @@
-"""The page on the protocol: how to join, the topic table, every message with its fields and an example."""
+"""The page on the protocol: how to join, the topic table, and every message with its fields and an example."""
 
 import json
 import re
@@ -12,18 +12,18 @@ from typing import Any
 from pydantic_core import from_json
 
 from schemas.message import VERSION, Message, WireMessage
+from schemas.older_versions import RENAMINGS
 from schemas.protocol.examples import examples
 from schemas.protocol.fields import is_part, parts_of, rows
 from schemas.topic import Topic
 from schemas.topics import TOPICS
 
-_NOTE = (
-    "<!-- Made by `python -m schemas.protocol > docs/protocol.md`; what is to be changed is changed in schemas/. -->"
-)
+_NOTE = "<!-- Made by `python -m schemas.protocol > docs/protocol.md`; to change this page, change schemas/. -->"
 _WIDE = 110
-"""Characters that a line of an example has at most, where it can be broken."""
+"""Most characters in a line of an example, where the line can be broken."""
 _TOPIC_HEADINGS = ("key", "message", "from", "to", "rate", "delivery", "recorded", "description")
 _FIELD_HEADINGS = ("field", "type", "default", "meaning")
+_RENAMING_HEADINGS = ("since", "old name", "new name")
 
 
 def page() -> str:
@@ -36,14 +36,15 @@ def page() -> str:
         f"# The protocol, version {VERSION}",
         _NOTE,
         joining.strip(),
+        _table(_RENAMING_HEADINGS, [(one.since, f"`{one.before}`", f"`{one.after}`") for one in RENAMINGS]),
         "## Topics",
-        "All keys stand below `touchline/{match}/`; words in braces are filled in. A topic whose delivery is `query` "
-        "is asked, and answered with the message behind the arrow.",
+        "All keys are below `touchline/{match}/`; words in braces are placeholders. On a topic whose delivery is "
+        "`query`, the message before the arrow is the request and the one behind it the reply.",
         _table(_TOPIC_HEADINGS, [_topic_cells(topic, titles) for topic in TOPICS.values()]),
         "## Messages",
         f"Every message has a field `version` (text, default `{VERSION}`) beside those listed. A field without a "
-        "default must be given; a field that is not listed is refused, and so are NaN and infinity. A payload of more "
-        f"than {Message.max_bytes} bytes is refused unread.",
+        "default is required; fields that are not listed, NaN and infinity are refused. A payload of more than "
+        f"{Message.max_bytes} bytes is refused without being parsed.",
         *(_message(kind, titles) for kind in messages),
         "## Parts",
         *(_part(kind, titles) for kind in parts),
@@ -52,13 +53,13 @@ def page() -> str:
 
 
 def _messages(topics: Iterable[Topic]) -> list[type[WireMessage]]:
-    """Every message and every reply, once, in the order of the table."""
+    """Every message and every reply once, in the order of the table."""
     both = [kind for topic in topics for kind in (topic.message, topic.reply) if kind is not None]
     return list(dict.fromkeys(both))
 
 
 def _parts(messages: Sequence[type]) -> list[type]:
-    """Everything that messages are made of, once, in the order in which a reader meets it."""
+    """The parts and enumerations in messages, each once, in the order of their first mention."""
     met: dict[type, None] = dict.fromkeys(messages)
     waiting = list(messages)
     while waiting:
@@ -70,7 +71,7 @@ def _parts(messages: Sequence[type]) -> list[type]:
 
 
 def _titles(kinds: Sequence[type]) -> dict[type, str]:
-    """What each type is called on the page; two of one name are told apart by their module."""
+    """The heading of each type on the page; types of the same name are distinguished by their module."""
     names = Counter(kind.__name__ for kind in kinds)
     return {
         kind: kind.__name__ if names[kind.__name__] == 1 else f"{kind.__name__} ({kind.__module__.split('.')[-1]})"
@@ -79,7 +80,7 @@ def _titles(kinds: Sequence[type]) -> dict[type, str]:
 
 
 def _link(title: str) -> str:
-    """A link to a heading of the page, as the places that show Markdown name it."""
+    """A link to a heading of the page, with the anchor that Markdown renderers give it."""
     anchor = re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
     return f"[{title}](#{anchor})"
 
@@ -107,7 +108,7 @@ def _message(kind: type[WireMessage], titles: dict[type, str]) -> str:
 
 
 def _part(kind: type, titles: dict[type, str]) -> str:
-    """Heading, docstring, and the table of fields or the words of an enumeration."""
+    """Heading, docstring, and the table of fields or the values of an enumeration."""
     sections = [f"### {titles[kind]}", " ".join(cleandoc(kind.__doc__ or "").split())]
     if issubclass(kind, Enum):
         sections.append(", ".join(f"`{member.value}`" for member in kind))
@@ -124,7 +125,7 @@ def _table(headings: Sequence[str], cells: Iterable[Sequence[str]]) -> str:
 
 
 def laid_out(message: WireMessage) -> str:
-    """A message as JSON with a line for each field; what is in a long one is packed into several lines."""
+    """A message as JSON with one line for each field; the content of a long field is packed into several lines."""
     entries = [_entry(name, value, "  ") for name, value in from_json(message.encode()).items()]
     return "{\n" + ",\n".join(f"  {entry}" for entry in entries) + "\n}"
 
@@ -139,7 +140,7 @@ def _entry(name: str, value: Any, indent: str) -> str:
 
 
 def _packed(entries: Sequence[str], indent: str) -> str:
-    """Entries side by side as far as they fit; one of several lines has its lines for itself."""
+    """Entries side by side as far as they fit; an entry of several lines shares them with no other."""
     lines: list[str] = []
     for entry in entries:
         last = lines[-1] if lines else None

@@ -1,1 +1,1 @@
-"""What the robots' commands do to the bodies: drive, dribble, kick."""
+"""The actuators of the robots: drive, dribbler and kicker."""

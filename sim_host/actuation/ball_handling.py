@@ -1,4 +1,4 @@
-"""The ball over one tick: who holds it, who kicks it, and what moves it in each physics step."""
+"""The ball over one tick: possession, kicks, and its motion in each physics step."""
 
 import math
 from collections.abc import Sequence
@@ -11,23 +11,24 @@ from sim_host.actuation.carrying import METHODS, HeldBall
 from sim_host.actuation.kick import KickRefusedError, Launch, PlannedKick, launch
 from sim_host.actuation.kickers import Kickers
 from sim_host.actuation.possession import can_hold, holder, why_not_held
-from sim_host.physics.engine import BallContacts, BodyState, Engine
+from sim_host.physics.body_state import BallContacts, BodyState
+from sim_host.physics.engine import Engine
 from sim_host.physics.free_ball import FreeBall
 from sim_host.physics.vectors import FieldTwist, Vector
 from sim_host.snapshot import BallState, RobotState
 
 _MAX_PRESSED_DEPTH = 0.005
-"""m; a held ball that is pressed this deep into another body is lost: it is never carried through one."""
+"""m; a held ball that is pressed this deep into another body is released: it is never carried through one."""
 _MAX_OVERRUN = 0.01
-"""m; a ball this much nearer than the gap is in the hull of its holder or kicker, who pushes it from then on."""
+"""m; a ball this much nearer than the gap is inside the hull of its holder or kicker, and collides with it again."""
 
 
 @dataclass(slots=True)
 class BallReport:
-    """What happened to the ball in one tick; robots by their index in the roster."""
+    """Kicks and touches of the ball in one tick; robots by their index in the roster."""
 
     refused: dict[int, str] = field(default_factory=dict)
-    """Kicks that could not be done, and why."""
+    """Robot → why its kick could not be carried out."""
     touches: list[int] = field(default_factory=list)
     kicked: int | None = None
 
@@ -48,9 +49,9 @@ class BallHandling:
         """The robot whose kicked ball has not left its hull yet."""
 
     def set_holder(self, index: int | None) -> None:
-        """Make a robot the holder, or nobody.
+        """Make a robot the holder of the ball, or no robot.
 
-        A ball that is carried lies a little in the hull; one that is drawn touches it.
+        A ball that is carried by pose or velocity lies a little inside the hull; one drawn by forces touches it.
         """
         is_carried = index is not None and self._is_carried(index)
         self._engine.ignore_ball_contacts(index if is_carried else None)
@@ -58,7 +59,7 @@ class BallHandling:
         self._ball_leaving = None
 
     def reset(self, ball: BallState) -> None:
-        """Make a checkpoint: nobody holds the ball, every kicker is charged, and a ball on the ground rolls."""
+        """Make a checkpoint: no robot holds the ball, every kicker is charged, and a ball on the ground rolls."""
         self.set_holder(None)
         self._kickers.charge()
         if not self._free.is_in_air(ball.z, ball.vz):
@@ -73,7 +74,7 @@ class BallHandling:
     ) -> BallReport:
         """Decide possession and carry out kicks, at the beginning of a tick.
 
-        Robots that dribble claim the ball, and those that kick. A kick is done now or refused now; none is kept.
+        Robots that dribble or kick claim the ball. A kick is carried out or refused at once, and never postponed.
         """
         report = BallReport()
         claims = [index for index, one in enumerate(inputs) if one.dribble or one.kick is not None]
@@ -94,7 +95,7 @@ class BallHandling:
         return report
 
     def before_step(self, drives: Sequence[FieldTwist]) -> BodyState | None:
-        """Move the ball as its holder does, or as ground and air do; a free ball, as it begins the step."""
+        """Move the ball with its holder, or by ground and air; the state of a free ball, None for a held one."""
         now = self._engine.ball_now()
         position, _, velocity, spin = now
         if self.holder is not None and self._is_overrun(self.holder, position):
@@ -112,13 +113,13 @@ class BallHandling:
         return now._replace(velocity=changed[0], spin=changed[1])
 
     def _push(self, ball: BodyState) -> None:
-        """Ground and air push the ball in this step."""
+        """Apply the forces of ground and air for this step."""
         force = self._free.force(ball.position, ball.velocity, ball.spin)
         if force != (0.0, 0.0, 0.0):
             self._engine.push_ball(force, ball.position)
 
     def after_step(self, report: BallReport) -> None:
-        """Note who touched the ball."""
+        """Note the touches of this step, and release a ball that is pressed too deep."""
         contacts: BallContacts = self._engine.ball_contacts(self.holder)
         if self._ball_leaving is not None:
             self._end_kick(self._ball_leaving)
@@ -129,7 +130,7 @@ class BallHandling:
         report.touches.extend(contacts.robots)
 
     def release_lost_ball(self, robots: tuple[RobotState, ...], ball: BallState) -> bool:
-        """At the end of a tick, let a ball go that has left its holder; whether one was."""
+        """At the end of a tick, release a ball that has left its holder; returns whether it was released."""
         if self.holder is None or can_hold(robots[self.holder], ball, self._dribbles[self.holder]):
             return False
         self.set_holder(None)
@@ -139,7 +140,7 @@ class BallHandling:
         """The velocity that this robot's kick gives the ball.
 
         Raises:
-            KickRefusedError: it does not hold the ball, its kicker is not charged, or the kick leads nowhere.
+            KickRefusedError: it does not hold the ball, its kicker is not charged, or no lob is possible.
         """
         if applied.kick is None or index != self.holder:
             raise KickRefusedError(why_not_held(robot, ball, self._dribbles[index]))
@@ -150,7 +151,7 @@ class BallHandling:
         return launch(applied.kick.mode, PlannedKick(applied.kick.speed, ball, robot.heading, kicker, self._profile))
 
     def _apply_launch(self, index: int, velocity: Launch) -> None:
-        """Set the ball going, out of its kicker's hull; along the ground it rolls at once and keeps its exit speed."""
+        """Set the velocity of a kicked ball; along the ground it rolls at once, and so keeps its speed."""
         vx, vy, vz = velocity
         self._engine.set_ball_motion((vx, vy, vz), self._free.rolling_spin(vx, vy) if vz == 0.0 else (0.0, 0.0, 0.0))
         self._engine.ignore_ball_contacts(index)
@@ -167,18 +168,18 @@ class BallHandling:
             self.set_holder(None)
 
     def _would_press(self, index: int) -> bool:
-        """Whether the ball lies pressed into another body than the robot that would carry it.
+        """Whether the ball is pressed into another body than the robot that would carry it.
 
-        Carried to its place it would be pressed deeper, lost, and caught again in the next tick, each time deeper.
+        Carried to its place, it would be pressed deeper, released, and caught again in the next tick, deeper each time.
         """
         return self._is_carried(index) and self._engine.ball_contacts(index).depth > _MAX_PRESSED_DEPTH
 
     def _is_carried(self, index: int) -> bool:
-        """Whether a robot moves the ball for certain, rather than draws it by forces."""
+        """Whether a robot carries the ball by pose or velocity, rather than draws it by forces."""
         return self._dribbles[index].method != "force"
 
     def _is_overrun(self, index: int, ball: Vector) -> bool:
-        """Whether another body, or its own way, has brought the ball into the hull of who holds or kicked it."""
+        """Whether the ball is inside the hull of this robot, which holds or kicked it."""
         robot, gap = self._engine.robot_now(index), self._dribbles[index].gap
         return math.hypot(ball[0] - robot.x, ball[1] - robot.y) < gap - _MAX_OVERRUN
 

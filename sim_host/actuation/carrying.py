@@ -1,10 +1,10 @@
-"""How a held ball moves with its holder, three ways by name: put in its place, given a velocity, or drawn by forces.
+"""Three methods by which a held ball moves with its holder: by setting its pose, its velocity, or by forces.
 
-The paper's two are `pose`, "directly and continuously set" before the robot (equation 2), and `velocity`, v + ω × r as
-its plugin does. Both move the ball for certain, draw it to the gap no faster than `PULL_SPEED`, and give it up when
-that presses it into another body. `force` is the physical way: a spring and a damper, as strong as the dribbler's
-wheels, draw the ball to the gap while it rolls on the ground and lies against the hull. What the wheels cannot hold in
-a turn or under the brake is lost. The wheels' pull on the robot, a thousandth of its weight, is left out.
+The paper has two: `pose`, "directly and continuously set" before the robot (equation 2), and `velocity`, v + ω × r as
+in its plugin. Both move the ball without fail, draw it to the gap no faster than `PULL_SPEED`, and release it when that
+presses it into another body. `force` is the physical method: a spring and a damper, as strong as the dribbler's wheels,
+draw the ball to the gap while it rolls on the ground and touches the hull. A ball that the wheels cannot hold in a turn
+or under braking is lost. The wheels' pull on the robot, a thousandth of its weight, is neglected.
 """
 
 import math
@@ -16,22 +16,22 @@ from sim_host.physics.vectors import FieldTwist, Vector
 from sim_host.snapshot import BallState, RobotState
 
 PULL_SPEED = 2.0
-"""m/s; how fast a ball is drawn to its place before the robot, beside moving along with it."""
+"""m/s; maximum speed, relative to the robot, at which a ball is drawn to its place before the robot."""
 
 
 class CarryStep(NamedTuple):
-    """What becomes of a held ball for one physics step; only what is given is changed."""
+    """The change of a held ball for one physics step; fields that are None are not changed."""
 
     place: Vector | None = None
     """m."""
     velocity: Vector | None = None
     """m/s; the ball rolls at it."""
     force: Vector | None = None
-    """N, at its centre."""
+    """N, applied at its centre."""
 
 
 class HeldBall(NamedTuple):
-    """A ball and the robot that holds it, before a step."""
+    """A held ball and its holder, before a step."""
 
     robot: RobotState
     drive: FieldTwist
@@ -44,12 +44,12 @@ class HeldBall(NamedTuple):
     """s."""
 
     def target_now(self) -> tuple[float, float]:
-        """Where the ball belongs as the robot stands, m."""
+        """Place of the ball before the robot, now, m."""
         robot, gap = self.robot, self.dribble.gap
         return robot.x + gap * math.cos(robot.heading), robot.y + gap * math.sin(robot.heading)
 
     def target_next(self) -> tuple[float, float]:
-        """Where the ball belongs after the step, m."""
+        """Place of the ball before the robot, after the step, m."""
         robot, gap, (vx, vy, omega) = self.robot, self.dribble.gap, self.drive
         turned = robot.heading + omega * self.step
         return (
@@ -59,7 +59,7 @@ class HeldBall(NamedTuple):
 
 
 def by_pose(held: HeldBall) -> CarryStep:
-    """The pose is set to the gap, and moves on with it."""
+    """Set the pose to the gap, and the velocity to that of the gap."""
     (x, y), (next_x, next_y), ball = held.target_now(), held.target_next(), held.ball
     dx, dy, dz = x - ball.x, y - ball.y, held.ball_radius - ball.z
     share = min(1.0, PULL_SPEED * held.step / max(math.hypot(dx, dy, dz), 1e-9))
@@ -68,7 +68,7 @@ def by_pose(held: HeldBall) -> CarryStep:
 
 
 def by_velocity(held: HeldBall) -> CarryStep:
-    """v + ω × r, and toward the gap."""
+    """Set the velocity to v + ω × r, plus a velocity toward the gap."""
     robot, ball, (vx, vy, omega) = held.robot, held.ball, held.drive
     along = (vx - omega * (ball.y - robot.y), vy + omega * (ball.x - robot.x))
     x, y = held.target_next()
@@ -78,7 +78,7 @@ def by_velocity(held: HeldBall) -> CarryStep:
 
 
 def by_force(held: HeldBall) -> CarryStep:
-    """Spring and damper toward the gap, along and across the kick axis as strong as the wheels at most."""
+    """Apply the force of a spring and a damper toward the gap, limited along and across the kick axis."""
     robot, ball, dribble, (vx, vy, omega) = held.robot, held.ball, held.dribble, held.drive
     x, y = held.target_now()
     faster = (vx - omega * (y - robot.y) - ball.vx, vy + omega * (x - robot.x) - ball.vy)
@@ -91,4 +91,4 @@ def by_force(held: HeldBall) -> CarryStep:
 
 
 METHODS: dict[str, Callable[[HeldBall], CarryStep]] = {"pose": by_pose, "velocity": by_velocity, "force": by_force}
-"""`Dribble.method` → what it does."""
+"""`Dribble.method` → its function."""

@@ -1,4 +1,4 @@
-"""The chassis of all robots: what they were told becomes field-frame velocities for each physics step of a tick."""
+"""The chassis of all robots: demanded velocities become field-frame velocities for each physics step of a tick."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
@@ -16,7 +16,7 @@ class Chassis:
     """Motion of all robots, in the order of the roster; each robot has the drive of its model."""
 
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel], now: Callable[[int], RobotState]) -> None:
-        """`now` tells how one robot moves between two physics steps."""
+        """`now` returns the state of a robot between two physics steps."""
         self._now = now
         self._velocity_driven = [index for index, model in enumerate(models) if model.drive.model == "velocity"]
         self._omni_driven = [index for index, model in enumerate(models) if model.drive.model == "omni"]
@@ -25,17 +25,17 @@ class Chassis:
         self._detector = StuckDetector(len(models), time.tick)
 
     def reset(self) -> None:
-        """Remember nothing: the robots' velocities are what is measured."""
+        """Clear the memory: the next tick begins from the measured velocities."""
         self._velocity.reset()
         self._omni.reset()
         self._detector.reset()
 
     def stuck(self) -> list[bool]:
-        """Per robot: it has long moved much slower than it should."""
+        """Per robot: it has moved much slower than demanded for some time."""
         return self._detector.stuck()
 
     def plan(self, robots: RobotStates, inputs: Sequence[AppliedInput]) -> Iterable[Sequence[FieldTwist]]:
-        """The drives of one tick: per physics step, per robot. Each is to be asked for when its step begins."""
+        """The velocities of one tick, per physics step and robot; iterate to each step when it begins."""
         demands = [one.drive for one in inputs]
         if not self._omni_driven:
             planned = self._velocity.plan(robots, demands)

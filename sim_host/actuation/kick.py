@@ -13,11 +13,11 @@ from sim_host.snapshot import BallState
 
 
 class KickRefusedError(Exception):
-    """The kick cannot be done; the sentence says why."""
+    """The kick cannot be carried out; the message is the reason."""
 
 
 class Launch(NamedTuple):
-    """Velocity of the ball in the field frame at the start of its way, m/s."""
+    """Velocity of the ball in the field frame right after the kick, m/s."""
 
     vx: float
     vy: float
@@ -25,10 +25,10 @@ class Launch(NamedTuple):
 
 
 class PlannedKick(NamedTuple):
-    """A kick that is to be done: the ball, the kick axis, and the means."""
+    """A kick that is about to be carried out: speed, ball, kick axis and kicker."""
 
     speed: float
-    """As asked for, m/s."""
+    """The requested speed, m/s."""
     ball: BallState
     heading: float
     """Of the kick axis, rad, field frame."""
@@ -37,39 +37,39 @@ class PlannedKick(NamedTuple):
 
 
 def launch(mode: KickMode, kick: PlannedKick) -> Launch:
-    """The velocity of the ball after a kick: the robot's own motion adds nothing to it (paper, equations 3 and 10).
+    """The velocity of the ball after a kick; the robot's own motion adds nothing to it (paper, equations 3 and 10).
 
     Raises:
-        KickRefusedError: a lob that no way leads under the bar.
+        KickRefusedError: no possible lob passes under the bar.
     """
     along, up = _MODES[mode](kick)
     return Launch(along * math.cos(kick.heading), along * math.sin(kick.heading), up)
 
 
 def _ground(kick: PlannedKick) -> tuple[float, float]:
-    """Paper, equation 3."""
+    """Along the ground (paper, equation 3)."""
     return min(kick.speed, kick.kicker.max_ground_speed), 0.0
 
 
 def _loft(kick: PlannedKick) -> tuple[float, float]:
-    """As simatch kicks, but never faster than the device."""
+    """With a fixed elevation, as in simatch, but never faster than the kicker allows."""
     speed = min(kick.speed, kick.kicker.max_air_speed)
     return speed * math.cos(kick.kicker.loft), speed * math.sin(kick.kicker.loft)
 
 
 def _lob(kick: PlannedKick) -> tuple[float, float]:
-    """Paper, equation 10, through the air of the profile."""
+    """A lob under the bar (paper, equation 10), with the drag of the profile's air."""
     profile, kicker, ball = kick.profile, kick.kicker, kick.ball
     pitch = profile.field
     d = distance_to_goal_plane(ball.x, kick.heading, pitch.goal_line)
     if not 0.0 < d < pitch.length * 2.0:
-        raise KickRefusedError("kick: a lob is aimed at a goal, and this axis meets no goal line ahead")
+        raise KickRefusedError("kick: a lob is aimed at a goal, and the kick axis meets no goal line ahead")
     aim = Aim(pitch.goal_height, profile.ball.radius + kicker.lob_margin, ball.z)
     drag, step = Aerodynamics.of_ball(profile.ball).drag, profile.time.physics_step
     speeds = solve(d, aim, kick.speed, kicker.max_lob_speed, drag, step)
     if speeds is None or math.hypot(*speeds) > kicker.max_air_speed:
         raise KickRefusedError(
-            f"kick: no lob goes the {d:.1f} m to the goal with the {kicker.max_air_speed:g} m/s there are; "
+            f"kick: no lob reaches the goal, {d:.1f} m away, with at most {kicker.max_air_speed:g} m/s; "
             "kick from nearer, or along the ground"
         )
     return speeds

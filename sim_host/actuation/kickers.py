@@ -1,8 +1,8 @@
-"""The charge of every robot's kicker: after a kick it cools down, then charges, and only then kicks again.
+"""The charge of the kickers: after a kick, a kicker cools down, then charges, and can kick again.
 
-All there is to know is the tick of each robot's last kick. At a checkpoint every kicker is charged, in the running
-match as in one that is simulated again from there, so that poses and velocities tell the whole future; a kick-off comes
-long after the last kick anyway.
+The tick of each robot's last kick is the whole state. At a checkpoint every kicker is charged, in the match and in its
+resimulation, so that poses and velocities determine the future. At a kick-off, the usual checkpoint, the last kick is
+long past.
 """
 
 from collections.abc import Sequence
@@ -14,22 +14,22 @@ class Kickers:
     """The kickers of all robots, in the order of the roster."""
 
     def __init__(self, kickers: Sequence[Kicker], tick: float) -> None:
-        """`tick`: one control tick in s."""
+        """`tick` is the control tick in s."""
         self._kickers = kickers
         self._tick = tick
         self._kicked_at: list[int | None] = [None] * len(kickers)
         self._all_ready = (True,) * len(kickers)
 
     def charge(self) -> None:
-        """Every kicker is charged."""
+        """Charge all kickers."""
         self._kicked_at = [None] * len(self._kickers)
 
     def kicked(self, index: int, tick: int) -> None:
-        """A robot has kicked in this tick."""
+        """Note that a robot has kicked in this tick."""
         self._kicked_at[index] = tick
 
     def why_not(self, index: int, tick: int) -> str | None:
-        """Why this robot's kicker cannot kick in this tick; nothing when it can."""
+        """Why this robot's kicker cannot kick in this tick, or None."""
         kicked_at, kicker = self._kicked_at[index], self._kickers[index]
         if kicked_at is None:
             return None

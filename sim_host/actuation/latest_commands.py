@@ -1,4 +1,4 @@
-"""From commands to inputs: the newest command of each robot counts, until it is too old."""
+"""The newest command of each robot becomes its input in every tick, until the watchdog finds it too old."""
 
 from collections.abc import Container, Mapping
 
@@ -9,20 +9,20 @@ _AT_REST = AppliedInput(Drive(), dribble=False)
 
 
 class LatestCommands:
-    """What each robot was last told, with the watchdog: a command older than its limit brakes the robot to rest.
+    """The newest command of each robot, with a watchdog: a command older than its limit brakes the robot to rest.
 
-    A command is as old as the sight it answers, so that a burst of stale ones after a broken link moves nobody.
+    A command is as old as the sight that it answers, so that a burst of old commands after a broken link has no effect.
     """
 
     def __init__(self, names: tuple[str, ...], watchdog_ticks: float, still: tuple[str, ...] = ()) -> None:
-        """Robots that stand `still` rest, whatever they are told."""
+        """Robots in `still` rest, whatever their commands."""
         self._names = names
         self._still = still
         self._watchdog = watchdog_ticks
         self._newest: dict[str, Command] = {}
 
     def with_roster(self, names: tuple[str, ...], watchdog_ticks: float, still: tuple[str, ...]) -> "LatestCommands":
-        """For other robots or another limit: who stays has been told what it was told."""
+        """The commands for another roster or limit; robots that remain keep their last command."""
         successor = LatestCommands(names, watchdog_ticks, still)
         successor._newest = {name: command for name, command in self._newest.items() if name in names}
         return successor
@@ -30,9 +30,9 @@ class LatestCommands:
     def inputs(
         self, tick: int, fresh: Mapping[str, Command], off_field: Container[str] = ()
     ) -> dict[str, AppliedInput]:
-        """The inputs of this tick; a kick is part of the tick its command arrives in, and of no other.
+        """The inputs of this tick; a kick is part of the tick in which its command is fresh, and of no other.
 
-        Robots off the field rest, whatever they are told.
+        Robots off the field rest, whatever their commands.
         """
         self._newest.update(fresh)
         return {name: _AT_REST if name in off_field else self._input(name, tick, name in fresh) for name in self._names}

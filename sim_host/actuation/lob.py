@@ -1,7 +1,8 @@
-"""A lob: the velocity that takes the ball to a point below the bar, through the air that slows it.
+"""The velocity of a lob: it takes the ball to a point below the bar, through the drag of the air.
 
-The paper's parabola (equations 4 to 12) is where the search begins, and where it ends without drag. With drag the
-flight is followed step by step as the engine integrates it, and the upward speed is corrected until it arrives.
+The search begins with the paper's parabola (equations 4 to 12), which is the solution without drag. With drag, the
+flight is computed step by step as the engine integrates it, and the upward speed is corrected until the ball arrives at
+the point.
 """
 
 import math
@@ -10,25 +11,25 @@ from typing import NamedTuple
 from sim_host.physics.gravity import GRAVITY
 
 _FLAT = 1e-6
-"""m; a lob that may not rise has no bound on its speed."""
+"""m; the smallest rise in the bound on the speed, which is infinite for a lob that may not rise."""
 _STEEPEST = 1.7
-"""1 / cos of the angle, 54°, at which a lob may come down: a steeper one has to pass more than a ball's radius below h
-to clear the bar."""
+"""1 / cos of the steepest angle, 54°, at which a lob may come down: a steeper one would have to pass more than a ball's
+radius below h to clear the bar."""
 _TANGENT = 1.2
-"""Of the angle, 50°, at which a parabola may come down: the air makes it steeper."""
+"""Tangent of the steepest angle, 50°, at which the parabola may come down: drag makes the flight steeper."""
 _FASTER = 1.1
-"""By what a lob that comes down too steeply is kicked faster along the ground, and how often that is tried."""
+"""Factor on the horizontal speed of a lob that comes down too steeply, in each of `_ATTEMPTS` attempts."""
 _ATTEMPTS = 12
 _NEAR = 5e-4
 """m; an arrival this close to the point needs no correction."""
 _CORRECTIONS = 12
-"""At most; three or four do for a lob that a robot can kick."""
+"""At most; three or four are enough for a lob within a robot's speed."""
 _LOST = 40.0
-"""m below the start, where a ball that has not come to the goal plane never will."""
+"""m below the start; a ball that has fallen this far has missed the goal plane."""
 
 
 class Arrival(NamedTuple):
-    """How a ball comes to the goal plane."""
+    """The arrival of a ball at the goal plane."""
 
     rise: float
     """Height above the start, m."""
@@ -39,7 +40,7 @@ class Arrival(NamedTuple):
 
 
 class Aim(NamedTuple):
-    """What a lob has to pass below; m."""
+    """The bar that a lob has to pass below; m."""
 
     bar: float
     """Ground to the lower face of the bar."""
@@ -49,16 +50,16 @@ class Aim(NamedTuple):
     """Height of the ball's centre when it is kicked."""
 
     def rise(self, steepness: float = 1.0) -> float:
-        """h: how far the ball's centre may rise to the goal plane.
+        """h: the rise of the ball's centre from its start to the goal plane; at least 0.
 
-        Paper, equation 5 (H − 2r from the ground), less a margin as in its code, for a ball that comes in level. One
-        that comes down steeply has to pass lower to clear the edge of the bar. Never lower than it started.
+        For a ball that arrives level, this is equation 5 of the paper (H − 2r from the ground), less a margin as in its
+        code. A ball that comes down steeply has to pass lower to clear the edge of the bar.
         """
         return max(self.bar - self.start - self.clearance * steepness, 0.0)
 
 
 def distance_to_goal_plane(x: float, heading: float, goal_line: float) -> float:
-    """d: from the ball to where the kick axis meets a goal line's plane ahead, m; infinite when it meets none."""
+    """d: from the ball along the kick axis to the plane of a goal line ahead, m; infinite if it meets none."""
     along = math.cos(heading)
     if abs(along) < 1e-9:
         return math.inf
@@ -68,11 +69,11 @@ def distance_to_goal_plane(x: float, heading: float, goal_line: float) -> float:
 def parabola(d: float, h: float, speed: float, step: float) -> tuple[float, float]:
     """Horizontal and vertical speed of a lob through (d, h) without drag, m/s.
 
-    Paper, equations 8, 9 and 12. v_x is the speed asked for within two limits, both below the bound v_x < d·√(g/2h):
-    half of it at most, the choice of the paper's code, so that the ball comes down through the goal plane well after
-    its apex; and as much as keeps it from coming down too steeply. At a share q of the bound, a parabola comes down at
-    the tangent (1/q² − 1)·h/d. The engine integrates semi-implicitly, so a flight of n steps of `step` s falls
-    ½·g·t·(t + step); the solution is for that sum.
+    Paper, equations 8, 9 and 12. v_x is the requested speed within two limits, both below the bound v_x < d·√(g/2h).
+    It is at most half of the bound, as in the paper's code, so that the ball passes the goal plane well after its apex.
+    It is at least so high that the ball does not come down too steeply: at a share q of the bound, a parabola comes
+    down at the tangent (1/q² − 1)·h/d. The engine integrates semi-implicitly, so that a flight in steps of `step` s
+    falls ½·g·t·(t + step); the solution is for that sum.
     """
     h_or_little = max(h, _FLAT)
     bound = d * math.sqrt(GRAVITY / (2.0 * h_or_little))
@@ -83,7 +84,7 @@ def parabola(d: float, h: float, speed: float, step: float) -> tuple[float, floa
 
 
 def fly(along: float, up: float, d: float, drag: float, step: float) -> Arrival | None:
-    """The flight over `d` m in the engine's own steps, slowed by drag·speed²; nothing if it never arrives."""
+    """The flight over `d` m in the engine's own steps, slowed by drag·speed²; None if it never arrives."""
     x = z = time = 0.0
     pull, vx, vz = GRAVITY * step, along, up
     while True:
@@ -101,9 +102,9 @@ def fly(along: float, up: float, d: float, drag: float, step: float) -> Arrival 
 
 
 def solve(d: float, aim: Aim, speed: float, fastest: float, drag: float, step: float) -> tuple[float, float] | None:
-    """Horizontal and vertical speed, m/s, of a lob that clears the edge of a bar `d` m away; nothing if there is none.
+    """Horizontal and vertical speed, m/s, of a lob that passes below a bar `d` m away; None if there is none.
 
-    `speed`: along the ground as asked for, m/s; a lob that would come down too steeply is kicked faster, up to
+    `speed`: the requested horizontal speed, m/s; a lob that would come down too steeply is kicked faster, up to
     `fastest`. `drag`: 1/m; `step`: s.
     """
     along, up = parabola(d, aim.rise(), speed, step)
@@ -119,7 +120,7 @@ def solve(d: float, aim: Aim, speed: float, fastest: float, drag: float, step: f
 
 
 def _corrected(along: float, up: float, d: float, aim: Aim, drag: float, step: float) -> tuple[float, Arrival] | None:
-    """The upward speed near `up` with which a lob arrives at its point, and its flight: by the secant method."""
+    """The upward speed near `up` with which a lob arrives at its point, by the secant method, and its arrival."""
     last: tuple[float, float] | None = None
     for _ in range(_CORRECTIONS):
         arrival = fly(along, up, d, drag, step)

@@ -1,8 +1,8 @@
-"""The drive `omni`: wheels are told what the limits allow, and push the robot as far as motors and grip let them.
+"""The drive model `omni`: wheels follow the planned velocity as far as motors and grip allow.
 
-The controller of the robot plans as `velocity` does, but from what it told last, not from what came of it: a robot
-that is held back goes on pushing. The velocity of the body is the engine's own, to which each physics step adds what
-the wheels' forces change in it.
+The robot's controller plans as the drive model `velocity` does, but from its last plan, not from the measured motion: a
+robot that is held back goes on pushing. The body keeps the engine's velocity, to which each physics step adds the
+change by the wheels' forces.
 """
 
 from collections.abc import Sequence
@@ -19,11 +19,11 @@ from sim_host.physics.vectors import FieldTwist
 from sim_host.snapshot import RobotState
 
 _SAME_SPEED = 1e-9
-"""m/s; what is told is the demand itself when it is this near, so that wheels told to rest are told zero."""
+"""m/s; a plan this near to the demand is set to the demand, so that wheels that shall rest get exactly zero."""
 
 
 class OmniDrive:
-    """Some robots of this drive, each with its own memory: rim speeds, and the twist that was told last."""
+    """The drives of some robots, each with its own memory: rim speeds, and the last planned twist."""
 
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:
         drives = [model.drive for model in models]
@@ -35,14 +35,14 @@ class OmniDrive:
         self._speeds = np.zeros((4, len(models)))
         self._plan: list[Floats] = []
         self.held_back: Flags = np.zeros(len(models), dtype=bool)
-        """Per robot, as the tick begins: it is well below what it was told last."""
+        """Per robot, at the beginning of the tick: its motion is well below the last plan."""
 
     def reset(self) -> None:
-        """Remember nothing: in the next tick the wheels roll without slip at the twists that are measured."""
+        """Clear the memory: in the next tick the wheels roll without slip at the measured twists."""
         self._remembers = False
 
     def plan(self, robots: Sequence[RobotState], demands: Sequence[Drive]) -> None:
-        """Begin a tick of robots that are told these velocities, in their body frames."""
+        """Plan a tick of robots with these demanded velocities, in their body frames."""
         twist, _ = _twist(robots)
         if not self._remembers:
             self._commanded, self._speeds = twist, self._wheels.rolling(twist)
@@ -60,7 +60,7 @@ class OmniDrive:
         self._commanded = self._plan[-1]
 
     def step(self, number: int, robots: Sequence[RobotState]) -> list[FieldTwist]:
-        """The velocities with which the robots, as they are now, begin one physics step of the tick."""
+        """The velocities with which the robots, in their present state, begin one physics step of the tick."""
         twist, turned = _twist(robots)
         wheels = self._wheels.step(twist, self._speeds, self._wheels.rolling(self._plan[number]))
         self._speeds = wheels.speeds
@@ -70,7 +70,7 @@ class OmniDrive:
 
 
 def _twist(robots: Sequence[RobotState]) -> tuple[Floats, Floats]:
-    """Twists in the body frame, (3, n), and for each robot the complex number that turns into the field frame."""
+    """Twists in the body frame, (3, n), and per robot the complex factor that turns them into the field frame."""
     state = np.array(robots)
     turned = np.exp(1j * state[:, 3])
     body = (state[:, 4] + 1j * state[:, 5]) * turned.conj()
@@ -78,7 +78,7 @@ def _twist(robots: Sequence[RobotState]) -> tuple[Floats, Floats]:
 
 
 def _is_held_back(twist: Floats, demands: Floats) -> Flags:
-    """Robots whose speed along what they were told is well below it: in moving, or in turning if that is all."""
+    """Robots whose speed along the plan is well below it: in moving, or in turning if they only turn."""
     wanted, wanted_turn = np.hypot(demands[0], demands[1]), np.abs(demands[2])
     slow = twist[0] * demands[0] + twist[1] * demands[1] < SLOW_SHARE * wanted**2
     slow_turn = (wanted_turn > MIN_TURN_RATE) & (twist[2] * demands[2] < SLOW_SHARE * wanted_turn**2)

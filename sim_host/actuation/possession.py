@@ -1,4 +1,4 @@
-"""Who holds the ball: the hold condition of each robot, and a fair decision between several."""
+"""Possession of the ball: the hold condition of each robot, and a fair decision between several robots."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -7,11 +7,11 @@ from schemas.config.sections import Dribble
 from sim_host.snapshot import BallState, RobotState
 
 TIE_DISTANCE = 0.005
-"""m; two robots whose distances to the ball differ by less are equally near, and neither gets it."""
+"""m; robots whose distances to the ball differ by less are equally near, and neither gets the ball."""
 
 
 def can_hold(robot: RobotState, ball: BallState, dribble: Dribble) -> bool:
-    """The hold condition, on the truth: distance, cone about the kick axis, height (paper, section III B 2)."""
+    """The hold condition, on true states: distance, cone about the kick axis, height (paper, section III B 2)."""
     if ball.z > dribble.max_ball_height:
         return False
     dx, dy = ball.x - robot.x, ball.y - robot.y
@@ -24,9 +24,9 @@ def can_hold(robot: RobotState, ball: BallState, dribble: Dribble) -> bool:
 def holder(
     claims: Iterable[int], robots: Sequence[RobotState], ball: BallState, dribbles: Sequence[Dribble]
 ) -> int | None:
-    """The robot that holds the ball among those that want to: the nearest that can, nobody when two are equally near.
+    """The robot among `claims` that holds the ball: the nearest that can, or None when two are equally near.
 
-    The same for both sides and any order of robots: the ball between two equal claims is left to the contacts.
+    The result is the same for both sides and any order of robots. A ball between two equal claims is left to contacts.
     """
     near = sorted(
         (math.hypot(ball.x - robots[i].x, ball.y - robots[i].y), i)
@@ -39,9 +39,9 @@ def holder(
 
 
 def why_not_held(robot: RobotState, ball: BallState, dribble: Dribble) -> str:
-    """Why a robot that wants to kick does not hold the ball."""
+    """Why a robot that requests a kick does not hold the ball."""
     if ball.z > dribble.max_ball_height:
         return f"kick: ball in the air, {ball.z:.2f} m high"
     if can_hold(robot, ball, dribble):
-        return "kick: ball contested, another robot is as near to it"
+        return "kick: ball contested, another robot is equally near"
     return "kick: ball not held"

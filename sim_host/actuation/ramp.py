@@ -1,11 +1,11 @@
-"""How a demand becomes motion a body can really have: limits on speed and acceleration, for all robots at once.
+"""Limits on speed and acceleration, which turn demanded motions into possible ones, for all robots at once.
 
-One control tick is planned at once: within it the demand does not change. The limits hold in the body frame, where the
-wheels are, and a limit that bites keeps the direction of what it limits. Planar vectors are complex numbers, x + iy:
-turning is multiplying. A turn rate is a vector of one dimension, and obeys the same rules.
+A whole control tick is planned at once, since the demand does not change within it. The limits apply in the body frame,
+where the wheels are, and keep the direction of the vector that they limit. Planar vectors are complex numbers, x + iy,
+which are turned by multiplication. A turn rate is a vector of one dimension with the same rules.
 
-Small arrays cost what numpy does around them: one type in each operation, and constants that are arrays already, spare
-it the buffers and conversions that take longer than ten multiplications.
+The cost of small arrays is numpy's overhead: operations on a single type, and constants that are arrays, avoid buffers
+and conversions that take longer than ten multiplications.
 """
 
 from collections.abc import Sequence
@@ -20,16 +20,16 @@ Floats = NDArray[np.float64]
 Vectors = NDArray[np.complex128]
 Flags = NDArray[np.bool_]
 MotionArray = TypeVar("MotionArray", bound=NDArray[Any])
-"""m/s or rad/s, one of each robot."""
+"""m/s or rad/s, one for each robot."""
 
 _ONE = np.array(1.0)
 _ZERO = np.array(0.0)
 _TINY = np.array(1e-12)
-"""m/s; keeps directions of nothing finite."""
+"""m/s; avoids a division by zero for motions without a direction."""
 
 
 class Ramp:
-    """The limits of some motions, and how each goes toward its demand over the physics steps of one tick."""
+    """The limits of some motions, and their ramps toward demands over the physics steps of one tick."""
 
     def __init__(
         self,
@@ -38,7 +38,10 @@ class Ramp:
         step: float,
         steps: int,
     ) -> None:
-        """Top speed, and how fast speed is gained and lost, of each motion, which are all of a kind; `step` in s."""
+        """`limits` are top speed, acceleration and deceleration of each motion; all motions are of one `kind`.
+
+        `step` is the physics step in s.
+        """
         top, gain, loss = limits
         elapsed = step * np.arange(1, steps + 1)[:, None]
         self._top = np.array(top)
@@ -48,7 +51,7 @@ class Ramp:
         self._share: NDArray[Any] = np.zeros(self._top.shape, kind)
         self._size: NDArray[Any] = np.zeros(self._top.shape, kind)
         self._gained: NDArray[Any] = np.zeros(self._gain.shape, kind)
-        """Real numbers of the kind that they are multiplied with, written through their real parts."""
+        """Real factors in arrays of the kind of the motions that they multiply, written through their real parts."""
         self._real_share, self._real_size, self._real_gained = self._share.real, self._size.real, self._gained.real
 
     @classmethod
@@ -63,23 +66,23 @@ class Ramp:
 
     @classmethod
     def of_both(cls, drives: Sequence[DriveLimits], step: float, steps: int) -> Self:
-        """The limits of each drive's velocity, and then of its turn rate."""
+        """The limits of each drive's velocity, followed by those of its turn rate."""
         pairs = zip(_moving(drives), _turning(drives), strict=True)
         top, gain, loss = ([limit for both in zip(*pair, strict=True) for limit in both] for pair in pairs)
         return cls(complex, (top, gain, loss), step, steps)
 
     def within_limits(self, demand: MotionArray) -> MotionArray:
-        """Demanded motions, shortened to top speed."""
+        """Demanded motions, scaled down to top speed."""
         speed: Floats = np.abs(demand) + _TINY
         np.minimum(_ONE, self._top / speed, out=self._real_share)
         shortened: MotionArray = demand * self._share
         return shortened
 
     def toward(self, now: MotionArray, demand: MotionArray) -> MotionArray:
-        """Motions after each step, shape (steps, n), from those now toward the demanded ones.
+        """Motions after each step, shape (steps, n), from the present ones toward the demanded ones.
 
-        A demand beyond top speed is shortened. Speed against the direction of the change is lost at the deceleration
-        limit, and only then speed is gained at the acceleration limit.
+        A demand beyond top speed is scaled down. Speed against the direction of the change is first lost at the
+        deceleration limit; then speed is gained at the acceleration limit.
         """
         change = self.within_limits(demand) - now
         size = np.abs(change)

@@ -1,4 +1,4 @@
-"""The drive `velocity`: the velocity that the limits allow is the velocity of the robot."""
+"""The drive model `velocity`: the robot moves with the planned velocity, within the limits of its drive."""
 
 from collections.abc import Sequence
 from itertools import chain
@@ -16,15 +16,15 @@ from sim_host.snapshot import RobotMotions, RobotStates
 
 _twist = attrgetter("vx", "vy", "omega")
 _NUMBERS = 4
-"""Of a robot's motion: vx, vy, omega, and the imaginary part of the turn rate, which is 0."""
+"""Numbers in a robot's motion: vx, vy, omega, and the imaginary part of the turn rate, which is 0."""
 _UNDISTURBED = np.array(1e-3)
-"""m/s and rad/s; a robot that moves this exactly as it was set to was touched by nobody."""
+"""m/s and rad/s; a robot whose measured motion differs by no more from the set one was not disturbed."""
 
 
 class VelocityDrive:
-    """Some robots of this drive, each with its own memory.
+    """The drives of some robots, each with its own memory.
 
-    Their motions stand in one array: of each robot its velocity, x + iy, and then its turn rate.
+    Their motions are in one array: for each robot its velocity, x + iy, and then its turn rate.
     """
 
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel]) -> None:
@@ -39,20 +39,20 @@ class VelocityDrive:
         self._angles = np.zeros((steps, self._count), dtype=complex)
         """i times the heading of each robot in each physics step."""
         self._turns = np.ones((steps, 2 * self._count), dtype=complex)
-        """What turns each motion into the field frame: a turn rate is the same there."""
+        """The factor that turns each motion into the field frame; 1 for a turn rate."""
         self._last_in_body: Vectors = np.zeros(2 * self._count, dtype=complex)
         self._last_in_field: Vectors = np.zeros(2 * self._count, dtype=complex)
         self._undisturbed: Flags = np.zeros(self._count, dtype=bool)
         self.held_back = self._undisturbed
-        """Per robot, as the tick begins: something keeps it well below its demand."""
+        """Per robot, at the beginning of the tick: its motion is disturbed and well below its demand."""
 
     def reset(self) -> None:
-        """Remember nothing: the robots' velocities are what is measured."""
+        """Clear the memory: the next tick begins from the measured velocities."""
         self._last_in_body = np.zeros_like(self._last_in_body)
         self._last_in_field = np.full_like(self._last_in_field, np.inf)
 
     def plan(self, robots: RobotStates, demands: Sequence[Drive]) -> list[list[FieldTwist]]:
-        """The drives of one tick: per physics step, per robot. What they are told is in their body frames."""
+        """The velocities of one tick, per physics step and robot; `demands` are in the body frames."""
         twists = np.fromiter(chain.from_iterable(map(_twist, demands)), float, 3 * self._count)
         self._demand_numbers[...] = twists.reshape(-1, 3)
         after = self._ramp.toward(self._now(robots.motions), self._demands)
@@ -69,9 +69,9 @@ class VelocityDrive:
         return planned
 
     def _now(self, robots: RobotMotions) -> Vectors:
-        """Motions as they were set, or as measured where something stood in the way; notes who is held.
+        """The motions as set, or as measured where a robot was disturbed; updates `held_back`.
 
-        A set velocity stays what it is in the turning body frame, as with wheels that keep their speeds.
+        A set velocity is constant in the turning body frame, as with wheels that keep their speeds.
         """
         measured = self._measured
         measured[::2], measured[1::2] = robots.velocity, robots.omega

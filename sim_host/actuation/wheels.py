@@ -1,16 +1,16 @@
-"""Omnidirectional wheels of many robots: what they were told becomes forces, within motors and grip.
+"""Omnidirectional wheels of many robots: commanded rim speeds become forces, within the limits of motors and grip.
 
-A wheel is told a rim speed. Its controller asks the motor for torque in proportion to what is missing, the motor
-gives what its torque-speed line leaves, and the ground gives back what the grip allows: a force along the rim that
-grows with the slip until traction × weight on the wheel. Across the rim the rollers roll freely. The weight is spread
-evenly over the wheels. Motor quantities are seen from the rim: torque × gear / radius is a force, inertia ×
-gear² / radius² a mass.
+Each wheel has a commanded rim speed. Its controller demands a motor torque in proportion to the missing speed, within
+the motor's torque-speed line. The ground returns a force along the rim that grows with the slip, up to traction × the
+weight on the wheel. Across the rim the rollers roll freely. The weight is spread evenly over the wheels. Motor
+quantities are converted to the rim: torque × gear / radius is a force, inertia × gear² / radius² a mass.
 
-The step is implicit, since controller and grip are stiff against milliseconds: forces fit the speeds that they lead to.
+The step is implicit, since controller and grip are stiff on the scale of milliseconds: the forces are consistent with
+the speeds that result from them.
 
-Arrays have the robots last: twists are (3, n), vx and vy in m/s and omega in rad/s in the body frame; wheels are
-(4, n), of which a robot on three wheels has one that touches nothing. All is elementwise arithmetic, which gives the
-same bits on every machine.
+Robots are on the last axis of all arrays. Twists are (3, n): vx and vy in m/s and omega in rad/s, in the body frame.
+Wheels are (4, n); a robot on three wheels has a fourth that touches nothing. All arithmetic is elementwise, which gives
+the same bits on every machine.
 """
 
 import math
@@ -27,26 +27,26 @@ from sim_host.physics.gravity import GRAVITY
 Floats = NDArray[np.float64]
 
 _MAX_WHEELS = 4
-"""Wheels of a robot at most; each has so many, some of which may touch nothing."""
+"""Maximum number of wheels; the arrays have this many for each robot, some of which may touch nothing."""
 _ROUNDS = 6
-"""Rounds in which a robot's wheels find their forces, to 1 % when some slide; two do while no wheel is at a limit."""
+"""Iterations for the forces of a robot's wheels, to 1 % when some slide; two are enough with no wheel at a limit."""
 
 
 class WheelStep(NamedTuple):
-    """What one step brings."""
+    """The result of one step."""
 
     push: Floats
     """(3, n): force along x and y in N, torque about z in N·m, in the body frame at the beginning of the step."""
     twist: Floats
-    """(3, n): the twist that this push alone leads to, in the same frame."""
+    """(3, n): the twist that results from this push alone, in the same frame."""
     speeds: Floats
     """(4, n): rim speeds after the step, m/s."""
     traction: Floats
-    """(4, n): force of the ground on each wheel along its rim, N."""
+    """(4, n): force of the ground along the rim of each wheel, N."""
 
 
 class WheelSets:
-    """The wheels of some robots, without memory: rim speeds come in and go out."""
+    """The wheels of some robots, without state: the caller keeps the rim speeds."""
 
     def __init__(self, models: Sequence[RobotModel], step: float) -> None:
         def each(number: Callable[[Wheels], float]) -> Floats:
@@ -64,9 +64,9 @@ class WheelSets:
         self._grip = load * each(lambda w: w.traction) * (self._geometry != 0).any(axis=1)
         self._rim_mass = each(lambda w: (w.inertia + w.rotor_inertia * w.gear**2) / w.radius**2)
         self._gain_impulse, self._stall_impulse = step * gain, step * stall
-        # What holds a rim back while it speeds up: its mass, and the controller or the motor's line that asks for less.
+        # Effective mass of a rim that speeds up: its own, and that of the controller or the motor's line.
         self._controlled_mass, self._motor_mass = self._rim_mass + step * gain, self._rim_mass + step * line
-        # By how much a wheel pushes less for each m/s that the ground under it is faster.
+        # Decrease of a wheel's force for each m/s of the ground under it.
         self._controlled_slope = 1 / (creep + step / self._controlled_mass)
         self._motor_slope = 1 / (creep + step / self._motor_mass)
         self._step_over_mass = step / _robots_last(masses, (3,))
@@ -79,17 +79,17 @@ class WheelSets:
         return speeds
 
     def within_limit(self, twist: Floats) -> Floats:
-        """The twist, shortened as a whole until its fastest wheel keeps its limit: the direction stays."""
+        """The twist, scaled down as a whole until its fastest wheel is within its limit."""
         fastest = np.abs(self.rolling(twist)).max(axis=0)
         shortened: Floats = twist * (self._limit / np.maximum(fastest, self._limit))
         return shortened
 
     def step(self, twist: Floats, speeds: Floats, commanded: Floats) -> WheelStep:
-        """One physics step of robots that move at a twist, on wheels with these rim speeds, told others.
+        """Simulate one physics step of robots with this twist, and wheels with these actual and commanded rim speeds.
 
-        A wheel's force falls with the speed of the ground under it, and is known in closed form: what the controller
-        asks for, within what the motor has in either direction, within the grip. The twist that fits the forces of
-        all wheels is found in a few rounds of a Newton iteration with the steepest slope, which cannot overshoot.
+        A wheel's force decreases with the speed of the ground under it, and has a closed form: the controller's demand,
+        limited by the motor in both directions, limited by the grip. The twist that is consistent with the forces of
+        all wheels is found by a few Newton iterations with the steepest slope, which cannot overshoot.
         """
         momentum = self._rim_mass * speeds
         controlled = (momentum + self._gain_impulse * commanded) / self._controlled_mass
@@ -110,12 +110,12 @@ class WheelSets:
 
 
 def _robots_last(each: Sequence[ArrayLike], shape: tuple[int, ...]) -> Floats:
-    """One array of an array of this shape for each robot, of whom there may be none."""
+    """Stack arrays of this shape, one for each robot, on the last axis; there may be no robots."""
     return np.ascontiguousarray(np.moveaxis(np.array(each, dtype=float).reshape(len(each), *shape), 0, -1))
 
 
 def _geometry(wheels: Wheels) -> Floats:
-    """(4, 3): the rim speed of each wheel for a unit of vx, vy and omega; zeros for a wheel that is not there."""
+    """(4, 3): the rim speed of each wheel for a unit of vx, vy and omega; zeros for a missing wheel."""
     angles = [wheels.angle + 2 * math.pi * number / wheels.count for number in range(wheels.count)]
     rows = [(-math.sin(angle), math.cos(angle), wheels.arm) for angle in angles]
     return np.array(rows + [(0.0, 0.0, 0.0)] * (_MAX_WHEELS - wheels.count))

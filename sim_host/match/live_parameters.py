@@ -1,4 +1,4 @@
-"""The numbers of a running match by their names: those it began with, those in force, and what may be changed."""
+"""The parameters of a running match by name: initial values, current values, and which of them may be changed."""
 
 import dataclasses
 import functools
@@ -17,13 +17,13 @@ from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.parameters import Parameter, ParameterOperation, ParametersRequest, Setting, Value
 
 PRESET = "noise.preset"
-"""The one parameter that is no number of the profile: whose noise robots perceive with."""
+"""The one parameter that is not part of the profile: the noise that robots perceive with."""
 _OWN_NOISE = "profile"
 _MATCH_FILE = "the match file"
 _STANDARD_ROBOT = "the standard robot"
 
 _TIME_IS_FIXED = "time steps are fixed for a match: everything is counted in ticks"
-_SIZE_IS_FIXED = "sizes are fixed for a match: robots, referee and recording were told them"
+_SIZE_IS_FIXED = "sizes are fixed for a match: robots, referee and recording rely on them"
 FIXED: Mapping[str, str] = {
     "time": _TIME_IS_FIXED,
     "field": _SIZE_IS_FIXED,
@@ -33,36 +33,36 @@ FIXED: Mapping[str, str] = {
     "robot.frame_depth": _SIZE_IS_FIXED,
     "ball.radius": _SIZE_IS_FIXED,
 }
-"""Section or parameter → why it cannot be changed while the match runs; all others can."""
+"""Section or parameter → why it cannot be changed while the match runs; all others can be changed."""
 
 
 TYPES = "types"
 
 
 class _ParameterPath(NamedTuple):
-    """Where a parameter stands in a profile, and what it means."""
+    """Location of a parameter in a profile, and its meaning."""
 
     section: str
     key: str
     meaning: Quantity | Choice
     kind: Any
     type: str | None = None
-    """The type of robots whose number it is; nothing for the profile's own."""
+    """The robot type that it belongs to; None for the profile's own parameters."""
 
     def value_in(self, profile: Profile) -> Any:
-        """The value that is in force."""
+        """The current value."""
         section = getattr(profile, self.section)
         override = self.override_in(profile)
         return getattr(section, self.key) if override is None else override
 
     def override_in(self, profile: Profile) -> Any:
-        """The value that a type has for itself; nothing where it is as the standard robot."""
+        """The value that a type overrides; None where the type follows the standard robot."""
         return profile.types[self.type].get(self.section, {}).get(self.key) if self.type is not None else None
 
 
 @functools.cache
 def _paths(types: tuple[str, ...]) -> Mapping[str, _ParameterPath]:
-    """Name → place, for a profile that knows these types of robots."""
+    """Name → location, for a profile with these types of robots."""
     paths = {}
     for section, cls in SECTIONS.items():
         hints = get_type_hints(cls)
@@ -74,22 +74,22 @@ def _paths(types: tuple[str, ...]) -> Mapping[str, _ParameterPath]:
     return paths
 
 
-_PRESET_MEANING = Choice("what robots perceive with: the profile's override noise, or a named one", PRESETS)
+_PRESET_MEANING = Choice("the noise that robots perceive with: the profile's own, or a named one", PRESETS)
 
 
 @dataclass(frozen=True, slots=True)
 class LiveParameters:
-    """What a match runs with; every change makes a new one."""
+    """The parameters of a match; every change makes a new instance."""
 
     initial: Profile
-    """The profile with the radio of the match file."""
+    """The profile at the start of the match, with the radio of the match file."""
     initial_preset: str
     profile: Profile
     preset: str
 
     @classmethod
     def of(cls, config: MatchConfig) -> "LiveParameters":
-        """What a match begins with.
+        """The parameters that a match begins with.
 
         Raises:
             TouchlineError: the profile or a type of robots cannot be read.
@@ -102,32 +102,32 @@ class LiveParameters:
 
     @property
     def at_start(self) -> "LiveParameters":
-        """What the match began with."""
+        """The parameters that the match began with."""
         return LiveParameters(self.initial, self.initial_preset, self.initial, self.initial_preset)
 
     @property
     def types(self) -> dict[str, RobotModel]:
-        """Every type that a robot may have."""
+        """All robot types by name."""
         return types_of(self.profile)
 
     @property
     def sensing(self) -> Sensing:
-        """What robots perceive with."""
+        """The sensor parameters in force: the profile's own, or those of the noise preset."""
         return sensing_of(self.preset, self.profile.sensing)
 
     def describe(self, names: Iterable[str] = ()) -> list[Parameter]:
         """Parameters by name or section, or all of them, in the order of the profile.
 
         Raises:
-            TouchlineError: a name that is not known.
+            TouchlineError: a name is unknown.
         """
         return [self._parameter(name) for name in self._expand_names(names)]
 
     def after_request(self, request: ParametersRequest) -> "LiveParameters":
-        """What the match runs with when this request has been followed.
+        """The parameters after this request.
 
         Raises:
-            TouchlineError: something in it is unknown, fixed, out of range, or does not fit the rest.
+            TouchlineError: a parameter is unknown, fixed, out of range, or inconsistent with the others.
         """
         if request.operation is ParameterOperation.SET:
             return self.with_values(request.values)
@@ -136,10 +136,10 @@ class LiveParameters:
         return self
 
     def with_values(self, values: Mapping[str, Value]) -> "LiveParameters":
-        """The same with other values.
+        """The parameters with other values, which are checked.
 
         Raises:
-            TouchlineError: as `changed`.
+            TouchlineError: a parameter is unknown, fixed, out of range, or inconsistent with the others.
         """
         if not values:
             raise TouchlineError("no value is given; name a parameter and its new value")
@@ -159,12 +159,12 @@ class LiveParameters:
         return self.with_settings(checked_values if PRESET not in values else {**checked_values, PRESET: preset})
 
     def changes_since(self, before: "LiveParameters") -> dict[str, Setting]:
-        """What differs from an earlier state: name → what it is set to now."""
+        """Differences from an earlier state: name → its setting now."""
         now, then = self._settings(), before._settings()
         return {name: setting for name, setting in now.items() if setting != then[name]}
 
     def _settings(self) -> dict[str, Setting]:
-        """Every parameter; of a type's number that is the standard robot's, nothing."""
+        """The setting of every parameter; None for one of a type that follows the standard robot."""
         numbers = {
             name: _as_list(path.value_in(self.profile) if path.type is None else path.override_in(self.profile))
             for name, path in self._paths.items()
@@ -172,7 +172,7 @@ class LiveParameters:
         return {**numbers, PRESET: self.preset}
 
     def _reset(self, names: Iterable[str]) -> "LiveParameters":
-        """What is named as the match began with it; fixed parameters are passed over where a section is named."""
+        """The parameters with the named ones at their initial values; fixed ones of a named section are skipped."""
         asked = list(names)
         for name in asked:
             if name in self._names():
@@ -182,10 +182,10 @@ class LiveParameters:
         return self.with_settings({name: began[name] for name in meant if _fixed_reason(name) is None})
 
     def with_settings(self, settings: Mapping[str, Any]) -> "LiveParameters":
-        """The same with these settings, each of which is known to be fit.
+        """The parameters with these settings, each of which is already validated.
 
         Raises:
-            TouchlineError: they do not fit each other.
+            TouchlineError: the settings are inconsistent with each other.
         """
         sections: dict[str, dict[str, Any]] = {}
         types = {
@@ -224,9 +224,9 @@ class LiveParameters:
         return [*self._paths, PRESET]
 
     def _expand_names(self, names: Iterable[str]) -> list[str]:
-        """The parameters that are meant, each once, in the order of the profile.
+        """The parameters that these names and sections stand for, each once, in the order of the profile.
 
-        Nothing named stands for all, but for the numbers of types that are the standard robot's.
+        No names stand for all parameters, except those of types that follow the standard robot.
         """
         known, asked = self._names(), list(names)
         meant: set[str] = set()
@@ -249,7 +249,7 @@ class LiveParameters:
             raise TouchlineError(f"{name} cannot be changed; {why}")
 
     def value(self, name: str) -> Value:
-        """A parameter in force, by its name."""
+        """The current value of a parameter."""
         return self.preset if name == PRESET else _as_list(self._paths[name].value_in(self.profile))
 
     def _parameter(self, name: str) -> Parameter:
@@ -278,7 +278,7 @@ def _as_list(value: Any) -> Value:
 
 
 def _fixed_reason(name: str) -> str | None:
-    """Of a type's number, what holds for the standard robot's."""
+    """Why a parameter is fixed, or None; for one of a type, as for the standard robot's."""
     standard = name.split(".", maxsplit=2)[2] if name.startswith(f"{TYPES}.") else name
     return FIXED.get(standard) or FIXED.get(standard.split(".", maxsplit=1)[0])
 
@@ -287,7 +287,7 @@ def _unknown_text(name: str, known: list[str]) -> str:
     section = name.split(".", maxsplit=1)[0]
     near = [other for other in known if other.startswith(f"{section}.")]
     sections = list(dict.fromkeys(other.split(".")[0] for other in known))
-    return f"{name} is no parameter; {did_you_mean(name, near) if near else did_you_mean(section, sections)}"
+    return f"{name} is not a parameter; {did_you_mean(name, near) if near else did_you_mean(section, sections)}"
 
 
 def _bound(limit: float) -> float | None:

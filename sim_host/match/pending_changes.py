@@ -1,4 +1,4 @@
-"""Changes that are pending between two ticks: decided by the referee in the last one, or by an operator since."""
+"""Changes that are pending between two ticks: decided by the referee in the last tick, or by an operator since."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -11,30 +11,30 @@ from schemas.messages.parameters import Setting
 
 @dataclass(slots=True)
 class PendingChanges:
-    """Applied in this order before the next tick: the world rebuilt, bodies placed, a checkpoint made."""
+    """Changes to apply before the next tick, in this order: rebuild the world, place bodies, make a checkpoint."""
 
     placements: list[Placement] = field(default_factory=list)
     checkpoint: bool = False
     rebuild_world: bool = False
-    """Numbers, robots or obstacles of the world have changed."""
+    """Parameters, robots or obstacles of the world have changed."""
     new_episode: bool = False
-    """Another episode begins: what robots answer to the tick before means nothing."""
+    """Another episode begins: commands that answer the tick before are ignored."""
     parameters: dict[str, Setting] = field(default_factory=dict)
-    """Those that were changed, and their new values."""
+    """Changed parameter → its new value."""
     roster_changed: bool = False
-    """Other robots take part."""
+    """Robots were added, removed or changed."""
     obstacles_changed: bool = False
-    """Other obstacles stand there."""
+    """Obstacles were added or removed."""
     events: list[tuple[EventKind, str, str]] = field(default_factory=list)
-    """Kind, rule and sentence of each event that tells of it."""
+    """Kind, rule and text of each event that reports a change."""
 
     def add_placements(self, placements: Sequence[Placement], names: Sequence[str]) -> None:
-        """Set bodies down after those that are pending, of which only these names are there still."""
+        """Add placements after the pending ones, of which those of bodies not in `names` are dropped."""
         self.placements = [one for one in self.placements if one.body in names] + list(placements)
         self.checkpoint = True
 
     def applied_fields(self) -> dict[str, Any]:
-        """The fields of a `schemas.messages.host.Applied` that tell of it, without those that stand for nothing."""
+        """The fields of a `schemas.messages.host.Applied` on these changes, without those that have their default."""
         fields: dict[str, Any] = {"placements": self.placements, "checkpoint": self.checkpoint}
         if self.rebuild_world:
             fields["remade"] = True

@@ -1,11 +1,11 @@
-"""The world of a match simulated again, from what was noted of each tick; pure: no brains, no referee, no sensors.
+"""Simulates the world of a recorded match again, without brains, referee or sensors.
 
-What moved the world stands in every `schemas.messages.host.Applied`: the robots' inputs, what was placed, and what was
-changed of numbers, robots and obstacles. It begins at tick 0, or at any checkpoint, from poses and velocities alone:
-there nobody holds the ball, the ball rolls, every kicker is charged, and wheels turn as their robot moves.
+Each `schemas.messages.host.Applied` holds everything that moved the world in its tick: the robots' inputs, placements,
+and changes of parameters, robots and obstacles. A resimulation begins at tick 0, or at any checkpoint, from poses and
+velocities alone: at a checkpoint no robot holds the ball, the ball rolls, every kicker is charged, and wheels turn as
+their robot moves.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -20,17 +20,16 @@ from schemas.messages.world import World as WorldMessage
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.world import World
 from sim_host.match.world_fields import Fields, bodies_fields
-from sim_host.snapshot import BallState, RobotState, Roster
-from sim_host.staging.layout import BALL
+from sim_host.snapshot import BALL, BallState, RobotState, Roster
 
 
 class ImpossibleTickError(TouchlineError):
-    """What was noted of a tick cannot be: no host has applied this."""
+    """A recorded tick is impossible: no host can have applied it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Conditions:
-    """What a match is played with, and by whom, at one tick."""
+    """Parameters, robots and obstacles of a match at one tick."""
 
     live_parameters: LiveParameters
     robots: tuple[RosterEntry, ...] = ()
@@ -38,10 +37,10 @@ class Conditions:
     obstacles: tuple[StaticObstacle, ...] = ()
 
     def after(self, applied: Applied) -> "Conditions":
-        """What is in force when the changes of a tick are made.
+        """The conditions after the changes of a tick.
 
         Raises:
-            ImpossibleTickError: it changes what is not there.
+            ImpossibleTickError: the tick changes a parameter that does not exist, or sets an impossible value.
         """
         if not applied.parameters and applied.robots is None and applied.obstacles is None:
             return self
@@ -61,10 +60,10 @@ class Conditions:
         """The robots with the models of their types.
 
         Raises:
-            ImpossibleTickError: a type that nobody knows, or nobody.
+            ImpossibleTickError: a robot has an unknown type, or there is no robot.
         """
         if not self.robots:
-            raise ImpossibleTickError("nobody takes part")
+            raise ImpossibleTickError("no robot takes part")
         try:
             return Roster.of_entries(self.robots, self.live_parameters.types)
         except KeyError as error:
@@ -72,7 +71,7 @@ class Conditions:
 
 
 class CheckpointState(NamedTuple):
-    """All that has to be known of the tick before a checkpoint."""
+    """The state at the tick before a checkpoint."""
 
     world: WorldMessage
     chain: str
@@ -80,17 +79,18 @@ class CheckpointState(NamedTuple):
 
 
 class ResimulatedTick(NamedTuple):
-    """One tick as it was simulated again."""
+    """One tick of a resimulation."""
 
     bodies: Fields
-    """What `sim_host.match.world_fields.bodies_fields` tells of the world."""
+    """The world, as `sim_host.match.world_fields.bodies_fields` returns it."""
     chain: str
 
 
 def parameters_of(setup: Setup) -> LiveParameters:
-    """The numbers that a host says it runs with; those of sensors and radio, which move nothing, are any.
+    """The parameters that a host reports in its setup.
 
-    A number of a type that is the standard robot's is taken to follow it when that is changed.
+    Those of sensors and radio, which do not affect the world, are the shipped ones. A type's parameter that equals the
+    standard robot's is taken to follow it.
     """
     shipped = load_profile("msl")
     standard = setup.models.get(STANDARD)
@@ -114,7 +114,7 @@ def parameters_of(setup: Setup) -> LiveParameters:
 
 
 def _differences(model: RobotModel, standard: RobotModel) -> dict[str, dict[str, object]]:
-    """Section → key → value, where a type is not as the standard robot."""
+    """Section → key → value, where a type differs from the standard robot."""
     found: dict[str, dict[str, object]] = {}
     for section in TYPE_SECTIONS:
         attribute = "body" if section == "robot" else section
@@ -126,10 +126,10 @@ def _differences(model: RobotModel, standard: RobotModel) -> dict[str, dict[str,
 
 
 class Resimulation:
-    """A match that is simulated again, tick by tick."""
+    """Simulates a recorded match again, tick by tick."""
 
     def __init__(self, initial: Conditions, checkpoint: CheckpointState | None = None) -> None:
-        """`initial` is in force at the tick before, and `checkpoint` what the world was then; nothing at tick 0."""
+        """`initial` and `checkpoint` are of the tick before the first one; `checkpoint` is None to begin at tick 0."""
         self._conditions = initial
         self._checkpoint = checkpoint
         self._names: set[str] = set()
@@ -141,16 +141,16 @@ class Resimulation:
             self._world.close()
 
     def step(self, applied: Applied, unchained: bytes) -> ResimulatedTick:
-        """The next tick. `unchained` is the part of its message that the hash chain covers (`chained_part_of`).
+        """Simulate the next tick. `unchained` is the part of its message that enters the chain (`chained_part_of`).
 
         Raises:
-            ImpossibleTickError: what it says cannot have been.
+            ImpossibleTickError: no host can have applied this tick.
         """
         try:
             return self._step(applied, unchained)
         except ImpossibleTickError:
             raise
-        except (ArithmeticError, LookupError, ValueError) as error:  # what no host has written may be out of any range
+        except (ArithmeticError, LookupError, ValueError) as error:  # values that no host wrote may be out of range
             raise ImpossibleTickError(f"tick {applied.tick}: {type(error).__name__} ({error})") from None
 
     def _step(self, applied: Applied, unchained: bytes) -> ResimulatedTick:
@@ -174,7 +174,7 @@ class Resimulation:
         return ResimulatedTick(bodies_fields(snapshot, stuck), world.chain(unchained))
 
     def _new_world(self, conditions: Conditions) -> World:
-        """The world before its first tick here."""
+        """The world before the first tick of the resimulation."""
         roster = self._roster_of(conditions)
         world = World(conditions.live_parameters.profile, roster)
         for obstacle in conditions.obstacles:
@@ -195,65 +195,19 @@ class Resimulation:
         names = self._names
         if applied.tick > 0 and applied.inputs.keys() != names:
             odd = ", ".join(sorted(applied.inputs.keys() ^ names))
-            raise ImpossibleTickError(f"tick {applied.tick}: inputs and robots that take part differ: {odd}")
+            raise ImpossibleTickError(f"tick {applied.tick}: inputs do not match the robots that take part: {odd}")
         for placement in applied.placements:
             if placement.body not in names and placement.body != BALL:
-                raise ImpossibleTickError(f"tick {applied.tick}: {placement.body} is placed and does not take part")
+                raise ImpossibleTickError(f"tick {applied.tick}: {placement.body} is placed, but does not take part")
 
 
 def _states(world: WorldMessage, roster: Roster) -> tuple[list[RobotState], BallState]:
     if world.robots.keys() != set(roster.names):
         odd = ", ".join(sorted(world.robots.keys() ^ set(roster.names)))
-        raise ImpossibleTickError(f"tick {world.tick}: the world and those that take part differ: {odd}")
+        raise ImpossibleTickError(f"tick {world.tick}: the world does not match the robots that take part: {odd}")
     robots = []
     for name in roster.names:
-        one = world.robots[name]
-        robots.append(RobotState(one.x, one.y, one.z, one.heading, one.vx, one.vy, one.omega, holding=False))
+        its = world.robots[name]
+        robots.append(RobotState(its.x, its.y, its.z, its.heading, its.vx, its.vy, its.omega, holding=False))
     ball = world.ball
     return robots, BallState(ball.x, ball.y, ball.z, ball.vx, ball.vy, ball.vz)
-
-
-class Difference(NamedTuple):
-    """One field of one body that is not as it was recorded; positions in m, headings in rad, speeds in m/s, rad/s."""
-
-    body: str
-    """A robot, `ball`, an obstacle, or `world` for what belongs to no body."""
-    field: str
-    recorded: object
-    simulated: object
-
-    @property
-    def by(self) -> float | None:
-        """How much, where both are numbers."""
-        pair = self.recorded, self.simulated
-        if any(isinstance(one, bool) or not isinstance(one, int | float) for one in pair):
-            return None
-        return abs(float(self.simulated) - float(self.recorded))  # type: ignore[arg-type]
-
-
-def differences(recorded: Mapping[str, object], simulated: Fields) -> list[Difference]:
-    """Every field in which a recorded world is not as it was simulated again; robots first, then ball and the rest."""
-    found: list[Difference] = []
-    for group in ("robots", "obstacles"):
-        theirs, ours = _table(recorded.get(group)), simulated.get(group, {})
-        for name in dict.fromkeys([*ours, *theirs]):
-            found += _body_differences(name, _table(theirs.get(name)), ours.get(name, {}))
-    found += _body_differences(BALL, _table(recorded.get("ball")), simulated["ball"])
-    found += _body_differences("world", recorded, {key: simulated.get(key, _ABSENT.get(key)) for key in _OWN})
-    return found
-
-
-_OWN = ("tick", "time", "possession", "touches", "kicked")
-_ABSENT: dict[str, object] = {"touches": []}
-"""What a field of the world is where it is left out; others are nothing."""
-
-
-def _table(value: object) -> Mapping[str, object]:
-    return value if isinstance(value, Mapping) else {}
-
-
-def _body_differences(name: str, recorded: Mapping[str, object], simulated: Mapping[str, object]) -> list[Difference]:
-    if simulated.items() <= recorded.items():
-        return []
-    pairs = ((key, recorded.get(key, _ABSENT.get(key)), ours) for key, ours in simulated.items())
-    return [Difference(name, key, theirs, ours) for key, theirs, ours in pairs if theirs != ours]

@@ -1,44 +1,42 @@
-"""A match without a network: commands and actions in, one tick, sights and truth out.
+"""A match without a network: a step takes commands and referee actions, and returns sights and the true state.
 
-The host steps it for agents on the bus, tests and learning step it with brains in the same process.
+The host steps it for agents on the bus; tests and learning step it with brains in the same process.
 """
 
 from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from msgspec import Raw
+
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import STANDARD, Profile
-from schemas.config.roster import Placement
 from schemas.config.rule_book import RuleBook, load_rule_book
 from schemas.config.scene import SceneReply, SceneRequest
-from schemas.errors import TouchlineError
-from schemas.game import ActionReply, EventKind, GameEvent, Phase, RefereeAction
+from schemas.game import ActionReply, GameEvent, Phase, RefereeAction
 from schemas.message import VERSION
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
 from schemas.messages.host import AppliedInput, Setup, TeamSetup, chained_part
-from schemas.messages.parameters import ParameterOperation, ParametersReply, ParametersRequest, Setting
+from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.side import Side
 from schemas.struct import encode
 from sim_host.match.live_parameters import LiveParameters
+from sim_host.match.operator_requests import OperatorRequests
 from sim_host.match.pending_changes import PendingChanges
 from sim_host.match.sights import Send
 from sim_host.match.start_scene import opening_layout
 from sim_host.match.subsystems import Subsystems
 from sim_host.match.world import World
 from sim_host.match.world_fields import Fields, world_fields
-from sim_host.physics.engine import fingerprint
+from sim_host.physics.fingerprint import fingerprint
 from sim_host.referee.core import Referee, Ruling
-from sim_host.referee.evidence import NO_EVIDENCE
 from sim_host.snapshot import Roster, Snapshot
-from sim_host.staging.layout import BALL, Layout, LayoutChange, Specs
-from sim_host.staging.operations import ResetScenes, apply_request
 
 
 @dataclass(frozen=True, slots=True)
 class TickResult:
-    """Everything that one tick brought, as messages or as their plain fields."""
+    """The result of one tick, as messages or as their plain fields."""
 
     tick: int
     time: float
@@ -49,44 +47,47 @@ class TickResult:
     applied: Fields
     """`schemas.messages.host.Applied`."""
     applied_encoded: bytes
-    """The same as it goes over the bus, and as the hash chain has taken it in."""
+    """The same as it is published, and as it enters the hash chain."""
     beliefs: Sequence[tuple[Side, str, bytes]] = ()
-    """Side, robot, `schemas.messages.host.Belief` of each word said, encoded."""
+    """Side, robot and encoded `schemas.messages.host.Belief` of each radio message sent."""
     events: tuple[GameEvent, ...] = ()
     replies: tuple[ActionReply, ...] = ()
     """One for each action, in order."""
     refused: Mapping[str, int] = field(default_factory=dict)
-    """Robot → how many parts of its command could not be done."""
+    """Robot → number of parts of its command that could not be carried out."""
 
 
 def _discard_sight(robot: str, sight: bytes) -> None:
-    """Send nothing: whoever steps the simulation finds the sights in its tick."""
+    """Send nothing: the caller finds the sights in the result of the tick."""
 
 
 class Simulation:
-    """World, referee, sensors and radio of one match, stepped from outside."""
+    """World, referee, sensors and radio of one match, stepped by the caller."""
 
     def __init__(self, config: MatchConfig) -> None:
         self.config = config
-        self.live_parameters = LiveParameters.of(config)
-        """The numbers in force from the next tick on."""
+        live_parameters = LiveParameters.of(config)
         self.book: RuleBook = load_rule_book(config.rules)
         self._engine = fingerprint()
-        start, began = opening_layout(config, self.live_parameters, self.book.restarts)
-        self._reset_scenes = ResetScenes(start, start)
-        self._layout = began.layout
-        self.episode = 1
-        """Counts the starts: the match's own, each scene that is loaded, each reset."""
-        self._subsystems = Subsystems(config, self.book, self.live_parameters, self._layout.robots)
+        start, began = opening_layout(config, live_parameters, self.book.restarts)
+        self._subsystems = Subsystems(config, self.book, live_parameters, began.layout.robots)
+        self._operator = OperatorRequests(live_parameters, self._subsystems, start, began)
         self.state = self.referee.begin_at(start.game, began.ball)
         self.world = World(self.profile, self.roster)
-        for obstacle in self._layout.obstacles:
+        for obstacle in began.layout.obstacles:
             self.world.put_obstacle(obstacle)
         self.orders: dict[Side, CoachOrder] = {}
-        self._pending = PendingChanges(
-            began.placements, roster_changed=True, obstacles_changed=bool(self._layout.obstacles)
-        )
         self.now = self._begin()
+
+    @property
+    def live_parameters(self) -> LiveParameters:
+        """The numbers in force from the next tick on."""
+        return self._operator.live_parameters
+
+    @property
+    def episode(self) -> int:
+        """Number of the episode, from 1: the start of the match, each loaded scene and each reset begins one."""
+        return self._operator.episode
 
     @property
     def profile(self) -> Profile:
@@ -95,17 +96,17 @@ class Simulation:
 
     @property
     def roster(self) -> Roster:
-        """Who takes part from the next tick on."""
+        """The robots that take part from the next tick on."""
         return self._subsystems.roster
 
     @property
     def referee(self) -> Referee:
-        """Who judges from the next tick on."""
+        """The referee from the next tick on."""
         return self._subsystems.referee
 
     @property
     def over(self) -> bool:
-        """The match has been played to its end."""
+        """Whether the match has been played to its end."""
         return self.state.phase is Phase.FULL_TIME
 
     def close(self) -> None:
@@ -119,10 +120,10 @@ class Simulation:
         send: Send = _discard_sight,
         silent: Container[str] = (),
     ) -> TickResult:
-        """One tick: apply commands, move the world, let the referee decide, let everyone perceive.
+        """One tick: apply commands, move the world, let the referee decide, make the sights.
 
-        `send` is given each robot's sight as soon as it is written: robots think while the rest is still done.
-        `silent` are robots whose program is gone, which the referee may take out.
+        `send` is called with each robot's sight as soon as it is encoded, so that robots think while the tick ends.
+        `silent` are robots whose agent is gone or does not answer; the referee may take them off the field.
         """
         changes = self._apply_pending()
         if changes.new_episode:
@@ -157,46 +158,16 @@ class Simulation:
         return self.now
 
     def handle_parameters(self, request: ParametersRequest) -> ParametersReply:
-        """List, read, set or reset live parameters; a change is in force from the next tick on, or refused whole."""
-        before = self.live_parameters
-        if self.over and request.operation in (ParameterOperation.SET, ParameterOperation.RESET):
-            return ParametersReply(accepted=False, reason="the match is over")
-        try:
-            self.live_parameters = before.after_request(request)
-            asked = tuple(request.values) or tuple(request.names)
-            described = self.live_parameters.describe(asked)
-        except TouchlineError as error:
-            self.live_parameters = before
-            return ParametersReply(accepted=False, reason=str(error))
-        changed = self.live_parameters.changes_since(before)
-        if changed:
-            if self._subsystems.set_live_parameters(self.live_parameters):
-                self._pending.rebuild_world = self._pending.checkpoint = True
-            self._pending.parameters.update(changed)
-            values = ", ".join(f"{name} = {_setting_text(value)}" for name, value in changed.items())
-            text = f"{request.source} sets {values}"
-            self._pending.events.append((EventKind.PARAMETERS, request.operation.value, text))
-        return ParametersReply(accepted=True, parameters=described)
+        """List, read, set or reset live parameters; a change applies from the next tick on, or is refused whole."""
+        return self._operator.handle_parameters(request, self.over)
 
     def handle_scene(self, request: SceneRequest) -> SceneReply:
-        """Load a scene, place, add or remove bodies, or begin anew: before the next tick, or refused whole."""
-        try:
-            if self.over:
-                raise TouchlineError("the match is over")
-            change, self._reset_scenes = apply_request(
-                self._current_layout(), request, self._reset_scenes, self._specs()
-            )
-        except TouchlineError as error:
-            return SceneReply(accepted=False, reason=str(error), episode=self.episode)
-        self._apply_layout_change(change)
-        follows = f"; episode {self.episode} begins" if change.game is not None else ""
-        self._pending.events.append(
-            (EventKind.SCENE, request.operation.value, f"{request.source} {change.summary}{follows}")
-        )
-        return SceneReply(accepted=True, episode=self.episode)
+        """Load a scene, place, add or remove bodies, or reset, before the next tick; or refuse all of it."""
+        reply, self.state = self._operator.handle_scene(request, self.state, self.world.snapshot())
+        return reply
 
     def setup(self) -> Setup:
-        """What agents and viewers must know before the first tick."""
+        """The setup of the match, which agents and viewers need before the first tick."""
         p, changed = self.profile, self.live_parameters.changes_since(self.live_parameters.at_start)
         setup = Setup.of(self.config, p, self.book, self._engine, changed)
         teams = {side: self._team_setup(side) for side in Side}
@@ -204,7 +175,7 @@ class Simulation:
         return setup.model_copy(update={"teams": teams, "orders": orders})
 
     def _team_setup(self, side: Side) -> TeamSetup:
-        robots = [entry for entry in self._layout.robots if entry.side is side]
+        robots = [entry for entry in self._operator.layout.robots if entry.side is side]
         return TeamSetup(
             name=self.config.team(side).name or side.value,
             robots=[entry.name for entry in robots],
@@ -213,7 +184,7 @@ class Simulation:
         )
 
     def _begin(self) -> TickResult:
-        """Tick 0: everybody has been set down, nobody has moved."""
+        """Tick 0: all bodies are at their places, and none has moved."""
         changes = self._apply_pending()
         changes.checkpoint = True
         snapshot = self.world.snapshot()
@@ -229,51 +200,17 @@ class Simulation:
         )
 
     def _apply_pending(self) -> PendingChanges:
-        """Apply what is pending, in this order: other numbers, bodies placed, a checkpoint; returns what was done."""
-        changes, self._pending = self._pending, PendingChanges()
+        """Apply the pending changes in this order: rebuild the world, place bodies, make a checkpoint; returns them."""
+        changes = self._operator.pop_pending()
         if changes.rebuild_world:
-            self.world.rebuild_with(self.profile, self.roster, self._layout.obstacles)
+            self.world.rebuild_with(self.profile, self.roster, self._operator.layout.obstacles)
         self.world.place(changes.placements)
         if changes.checkpoint:
             self.world.make_checkpoint()
         return changes
 
-    def _current_layout(self) -> Layout:
-        """The layout, with bodies where they are or are about to be set down."""
-        snapshot = self.world.snapshot()
-        ball = snapshot.ball
-        at = {BALL: Placement(body=BALL, x=ball.x, y=ball.y, z=ball.z)}
-        for name, robot in zip(snapshot.roster.names, snapshot.robots, strict=True):
-            at[name] = Placement(body=name, x=robot.x, y=robot.y, heading=robot.heading)
-        at.update({one.body: one for one in self._pending.placements})
-        return replace(self._layout, at=at)
-
-    def _apply_layout_change(self, change: LayoutChange) -> None:
-        """Let everybody take what an operator has done to the layout; the world does so before the next tick."""
-        before, self._layout, pending = self._layout, change.layout, self._pending
-        new_episode = change.game is not None
-        pending.add_placements(change.placements, [] if new_episode else self._layout.names)
-        pending.roster_changed = pending.roster_changed or self._layout.robots != before.robots
-        pending.obstacles_changed = pending.obstacles_changed or self._layout.obstacles != before.obstacles
-        pending.rebuild_world = (
-            pending.rebuild_world or pending.roster_changed or pending.obstacles_changed or new_episode
-        )
-        pending.new_episode = pending.new_episode or new_episode
-        self._subsystems.set_roster(self._layout.robots, new_episode=new_episode)
-        if change.game is not None:
-            self.episode += 1
-            self.state = self.referee.begin_at(change.game, change.ball)
-        elif change.placements or self._layout.robots != before.robots:
-            participation = self.state.participation.of_robots(self.roster.names)
-            self.state = self.state._replace(
-                participation=participation, evidence=NO_EVIDENCE
-            )  # nobody ran or dribbled there
-
-    def _specs(self) -> Specs:
-        return Specs(self.profile.field, self.profile.ball, self.live_parameters.types)
-
     def _change_events(self, changes: PendingChanges, snapshot: Snapshot) -> Iterator[GameEvent]:
-        """The events of what was done between the ticks."""
+        """The events of the changes made between two ticks."""
         for kind, rule, text in changes.events:
             yield GameEvent(
                 tick=snapshot.tick, time=snapshot.time, clock=self.state.clock, kind=kind, rule=rule, text=text
@@ -281,41 +218,39 @@ class Simulation:
 
     def _apply_ruling(self, ruling: Ruling) -> None:
         self.state = ruling.state
-        self._pending = PendingChanges(list(ruling.placements), ruling.checkpoint)
+        self._operator.pending = PendingChanges(list(ruling.placements), ruling.checkpoint)
 
     def _send_radio(
         self, snapshot: Snapshot, commands: Mapping[str, Command], refusals: dict[str, list[str]]
     ) -> list[tuple[Side, str, bytes]]:
-        """Send this tick's words on their way."""
+        """Send the radio messages of this tick; the beliefs to publish."""
         beliefs = []
-        for name in self.roster.names:  # not in the order of arrival, which no two runs share
+        for name in self.roster.names:  # the order of arrival differs between runs
             command = commands.get(name)
             if command is None or command.radio is None:
                 continue
-            word = command.radio
-            refusal = self._subsystems.radio.send(snapshot.tick, name, word)
+            message = command.radio
+            refusal = self._subsystems.radio.send(snapshot.tick, name, message)
             if refusal is not None:
                 refusals.setdefault(name, []).append(refusal)
                 continue
-            belief = {"version": VERSION, "tick": snapshot.tick, "time": snapshot.time, "robot": name, "radio": word}
+            belief = {"version": VERSION, "tick": snapshot.tick, "time": snapshot.time, "robot": name, "radio": message}
             beliefs.append((self.roster.side_of(name), name, encode(belief)))
         return beliefs
 
     def _applied(
         self, snapshot: Snapshot, inputs: Mapping[str, AppliedInput], changes: PendingChanges
     ) -> dict[str, Any]:
-        """The fields of a tick that tell what was applied."""
+        """The fields of a `TickResult` on what was applied."""
         fields: Fields = {"version": VERSION, "tick": snapshot.tick, "time": snapshot.time, **changes.applied_fields()}
         if changes.roster_changed:
-            fields["robots"] = self._layout.robots
+            fields["robots"] = self._operator.layout.robots
         if changes.obstacles_changed:
-            fields["obstacles"] = self._layout.obstacles
-        fields |= {"episode": self.episode, "inputs": inputs}
-        fields["chain"] = self.world.chain(chained_part(fields))
-        return {"applied": fields, "applied_encoded": encode(fields)}
-
-
-def _setting_text(value: Setting) -> str:
-    if value is None:
-        return "the standard robot's"
-    return f"{value:g}" if isinstance(value, float) else str(value)
+            fields["obstacles"] = self._operator.layout.obstacles
+        fields["episode"] = self.episode
+        message = {**fields, "inputs": Raw(encode(inputs))}  # encoded once, for the chain and for the bus
+        chain = self.world.chain(chained_part(message))
+        return {
+            "applied": {**fields, "inputs": inputs, "chain": chain},
+            "applied_encoded": encode({**message, "chain": chain}),
+        }

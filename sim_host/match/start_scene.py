@@ -1,4 +1,4 @@
-"""Where robots stand at the beginning of a half, in the field frame, for cyan attacking +x."""
+"""The start of a match as a scene, and the start poses of the robots, in the field frame with cyan attacking +x."""
 
 import math
 
@@ -15,11 +15,11 @@ from sim_host.snapshot import Roster
 from sim_host.staging.layout import LayoutChange, Specs, check_layout, scene_layout
 
 _ON_22_BY_14 = ((-10.5, 0.0), (-2.0, 1.0), (-2.0, -1.0), (-5.0, 2.0), (-5.0, -2.0))
-"""m; simatch's start poses on a pitch of 22 × 14, the goalkeeper first; scaled to other pitches."""
+"""m; start poses of nubot-nu's simatch on a pitch of 22 × 14, the goalkeeper first; scaled to other pitches."""
 _MARGIN = 0.05
-"""m beyond what the rules ask for at a kick-off: a robot that stands exactly there is as well a rounding nearer."""
+"""m beyond the distance that the rules demand at a kick-off, since rounding may bring a robot nearer to the ball."""
 _ROW = 9
-"""Robots beyond five stand beside each other in rows of so many, behind the others, every other row in the gaps."""
+"""Robots in each row behind the first five; every other row is shifted to the gaps of the row before."""
 
 
 def opening_layout(
@@ -28,7 +28,7 @@ def opening_layout(
     """The scene that a match begins with, and the layout that it makes.
 
     Raises:
-        TouchlineError: a body would begin in another, or outside the field.
+        TouchlineError: a body would overlap another, or lie outside the field.
     """
     profile = live_parameters.profile
     scene = config.scene if config.scene is not None else start_scene(config, profile, restarts)
@@ -38,7 +38,7 @@ def opening_layout(
 
 
 def start_scene(config: MatchConfig, profile: Profile, restarts: Restarts) -> Scene:
-    """The start of a match as a scene: everybody at the start poses, the ball at the centre mark."""
+    """The start of a match as a scene: robots at their start poses, the ball on the centre mark."""
     roster = Roster.of(config, profile)
     poses = start_poses(roster, profile.field, restarts)
     robots = [
@@ -64,10 +64,10 @@ def start_scene(config: MatchConfig, profile: Profile, restarts: Restarts) -> Sc
 
 
 def start_poses(roster: Roster, pitch: Pitch, restarts: Restarts) -> dict[str, Pose]:
-    """One pose for each robot: all in their own half, facing the goal they attack, magenta's cyan's turned by π.
+    """One pose for each robot, in its own half and facing the goal it attacks; magenta's are cyan's turned by π.
 
-    Whole robots stand as far from the centre mark as the rules ask of the side that does not kick off, which either
-    may be: who stood nearer moves out from the mark, as far as the own half lets it.
+    All robots keep the distance from the centre mark that the rules demand of the side that does not kick off, since
+    either side may. A robot that stood nearer is moved away from the mark, as far as its own half allows.
     """
     distance = max(restarts.opponent_distance, restarts.teammate_distance) + _MARGIN
     poses = {}
@@ -83,7 +83,7 @@ def start_poses(roster: Roster, pitch: Pitch, restarts: Restarts) -> dict[str, P
 
 
 def _start_position(number: int) -> tuple[float, float]:
-    """Where the robot of this number in its team's list stands on a pitch of 22 × 14, m."""
+    """Position of the robot with this index in its team's list, on a pitch of 22 × 14, in m."""
     if number < len(_ON_22_BY_14):
         return _ON_22_BY_14[number]
     row, column = divmod(number - len(_ON_22_BY_14), _ROW)
@@ -91,6 +91,6 @@ def _start_position(number: int) -> tuple[float, float]:
 
 
 def _clear_of_centre(x: float, y: float, distance: float, goal_line: float) -> tuple[float, float]:
-    """The place at least `distance` m from the centre mark, along its own radius, and not beyond the goal line."""
+    """The point moved along its radius to at least `distance` m from the centre mark, but not beyond the goal line."""
     out = max(1.0, min(distance / math.hypot(x, y), goal_line / abs(x)))
     return x * out, y * out

@@ -1,4 +1,4 @@
-"""Those who serve the robots of a match: referee, watchdog, radio and sensors, for the robots and numbers in force."""
+"""The subsystems of a match: referee, watchdog, radio and sensors, for the current roster and parameters."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -18,7 +18,7 @@ from sim_host.snapshot import Roster
 
 
 class Subsystems:
-    """They follow an operator who changes numbers or robots; what they know of those who stay, they keep."""
+    """Referee, latest commands, radio and sensors; a change of the roster keeps the memory of robots that remain."""
 
     def __init__(
         self, config: MatchConfig, book: RuleBook, live_parameters: LiveParameters, robots: Sequence[RosterEntry]
@@ -29,14 +29,14 @@ class Subsystems:
         self._live_parameters = live_parameters
         self._robots = robots
         self.roster = Roster.of_entries(robots, live_parameters.types)
-        """Who takes part from the next tick on."""
+        """The robots that take part from the next tick on."""
         self.referee = self._new_referee()
         self.commands = LatestCommands(self.roster.names, self._watchdog, self.roster.still)
         self.radio, self._perception = self._new_radio(), self._new_perception()
         self.sights = Sights(self.roster, self._perception, self.radio)
 
     def set_live_parameters(self, live_parameters: LiveParameters) -> bool:
-        """Work with these numbers from now on; whether the world has to be rebuilt for them."""
+        """Use these parameters from now on; returns whether the world has to be rebuilt for them."""
         before, self._live_parameters = self._live_parameters, live_parameters
         old, new = before.profile, live_parameters.profile
         if new.radio != old.radio:
@@ -50,7 +50,7 @@ class Subsystems:
         return concerns_world
 
     def set_roster(self, robots: Sequence[RosterEntry], *, new_episode: bool) -> None:
-        """Serve these robots from now on; in a `new_episode` nothing that was told, said or seen before counts."""
+        """Use this roster from now on; in a `new_episode`, no earlier command, radio message or percept counts."""
         before, self._robots = self._robots, robots
         self.roster = Roster.of_entries(robots, self._live_parameters.types)
         self.referee = self._new_referee()
@@ -65,23 +65,23 @@ class Subsystems:
 
     @property
     def _watchdog(self) -> float:
-        """Ticks."""
+        """Ticks after which an old command no longer counts."""
         profile = self._live_parameters.profile
         return profile.safety.watchdog / profile.time.tick
 
     def _new_radio(self) -> RadioAir:
-        """A radio on which nothing was said yet."""
+        """A radio without messages."""
         profile = self._live_parameters.profile
         return RadioAir(profile.radio, self.roster, profile.time.tick, self._streams)
 
     def _new_perception(self) -> Perception:
-        """Sensors that have seen nothing yet."""
+        """Sensors without memory."""
         return Perception(
             self._live_parameters.sensing, self.roster, self._streams, self._live_parameters.profile.time.tick
         )
 
     def _new_referee(self) -> Referee:
-        """A referee has no memory of its own: what happened so far is in the state that it is given."""
+        """A referee; it has no memory of its own, since its state is passed to every step."""
         profile, config = self._live_parameters.profile, self._config
         return Referee(
             self._book,

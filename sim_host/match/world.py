@@ -1,4 +1,4 @@
-"""The world over one control tick: inputs become motion, step by step, and a snapshot of what came of it."""
+"""The world over one control tick: moves bodies by the robots' inputs in physics steps, and takes a snapshot."""
 
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
@@ -13,24 +13,24 @@ from sim_host.actuation.chassis import Chassis
 from sim_host.physics.collision_candidates import CollisionCandidates
 from sim_host.physics.continuous_collision import ContinuousCollision
 from sim_host.physics.engine import Engine
-from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster, Snapshot
+from sim_host.snapshot import BALL, BallState, ObstacleState, RobotState, RobotStates, Roster, Snapshot
 
 _NOTHING = BallReport()
 
 
 @dataclass(frozen=True, slots=True)
 class WorldTick:
-    """What one tick brought."""
+    """The result of one tick."""
 
     snapshot: Snapshot
     refused: dict[str, str]
-    """Robot → why its kick could not be done."""
+    """Robot → why its kick could not be carried out."""
     stuck: list[bool]
-    """Per robot, in the order of the roster."""
+    """Per robot, in the order of the roster: it is stuck."""
 
 
 class World:
-    """All bodies of a match, and what moves them."""
+    """All bodies of a match, with the actuators that move them."""
 
     def __init__(self, profile: Profile, roster: Roster, engine: Engine | None = None) -> None:
         """`engine`, if given, was made of the same profile and roster, and has no obstacles yet."""
@@ -51,26 +51,26 @@ class World:
         self._engine.close()
 
     def place(self, placements: Sequence[Placement]) -> None:
-        """Set bodies down at rest, between two ticks."""
+        """Place bodies between two ticks, at rest unless the placement has a velocity."""
         if not placements:
             return
         self._ball.set_holder(None)
         for placement in placements:
             self._engine.place(placement)
         self._read_placed({placement.body for placement in placements})
-        if any(placement.body != "ball" for placement in placements):
+        if any(placement.body != BALL for placement in placements):
             self._chassis.reset()
 
     def put_obstacle(self, obstacle: StaticObstacle) -> None:
-        """Put an obstacle down, between two ticks; one of the same name goes."""
+        """Add an obstacle between two ticks, in place of one of the same name."""
         self._engine.put_obstacle(ObstacleState.of(obstacle))
         self._update_obstacles()
 
     def remove_obstacle(self, name: str) -> None:
-        """Take an obstacle away, between two ticks.
+        """Remove an obstacle between two ticks.
 
         Raises:
-            KeyError: none is named so.
+            KeyError: no obstacle has this name.
         """
         self._engine.remove_obstacle(name)
         self._update_obstacles()
@@ -80,7 +80,7 @@ class World:
         self._candidates.set_obstacles(self._obstacles)
 
     def make_checkpoint(self) -> None:
-        """Make a checkpoint: equal poses and velocities in a world that remembers nothing else."""
+        """Make a checkpoint: rebuild the world with the same poses and velocities and no other memory."""
         self._engine.rebuild(self._robots, self._ball_state)
         self._ball.reset(self._ball_state)
         self._engine.read()
@@ -88,9 +88,9 @@ class World:
         self._read_states()
 
     def rebuild_with(self, profile: Profile, roster: Roster, obstacles: Sequence[StaticObstacle]) -> None:
-        """Build the world anew with other numbers, robots or obstacles; makes a checkpoint.
+        """Rebuild the world with another profile, roster or obstacles; makes a checkpoint.
 
-        Who stays keeps its pose and velocity, and who is new stands aside until it is placed.
+        Robots that remain keep their pose and velocity. New robots stand aside until they are placed.
         """
         kept, ball = dict(zip(self._roster.names, self._robots, strict=True)), self._ball_state
         self._engine.close()
@@ -112,14 +112,14 @@ class World:
         self._read_states()
 
     def begin_at(self, tick: int, robots: Sequence[RobotState], ball: BallState, chain: bytes) -> None:
-        """Take up a history at a tick: robots in the order of the roster, and the chain so far.
+        """Continue a history after a tick, with its robots in the order of the roster and its chain.
 
-        A checkpoint has to be made before the next tick; what it is made of is given here, bit for bit.
+        A checkpoint has to be made before the next tick; it is made from the states given here, bit for bit.
         """
         self.tick, self._robots, self._ball_state, self._chain = tick, RobotStates(robots), ball, chain
 
     def advance(self, inputs: Mapping[str, AppliedInput]) -> WorldTick:
-        """One control tick."""
+        """Simulate one control tick."""
         engine, ball = self._engine, self._ball
         ordered = [inputs[name] for name in self._roster.names]
         report = ball.begin(self.tick, self._robots, self._ball_state, ordered)
@@ -146,7 +146,7 @@ class World:
         )
 
     def snapshot(self, report: BallReport = _NOTHING) -> Snapshot:
-        """Everything there is now; `touches` and `kicked` as the report of the tick tells them."""
+        """The present state of all bodies; `touches` and `kicked` come from the report of the tick."""
         names, holding = self._roster.names, self._ball.holder
         last_touches = dict.fromkeys(reversed(report.touches))  # each robot once, where it touched last
         return Snapshot(
@@ -165,15 +165,15 @@ class World:
         )
 
     def _read_states(self) -> None:
-        """Take the states that the engine has read."""
+        """Take over the states that the engine has read."""
         self._robots = self._engine.robot_states(self._ball.holder)
         self._ball_state = self._engine.ball_state()
 
     def _read_placed(self, placed: Container[str]) -> None:
-        """Take the states of the bodies that were placed; the others are where they were, and nobody holds the ball.
+        """Take over the states of the bodies that were placed; the others keep theirs, and no robot holds the ball.
 
-        They are not read again: what a checkpoint is made of is then the same whether they got there by themselves or
-        `begin_at` says so.
+        The others are not read again: a checkpoint is then made from the same numbers whether the bodies moved there
+        or `begin_at` set them.
         """
         states = self._engine.robot_states(None)
         self._robots = RobotStates(
@@ -182,13 +182,13 @@ class World:
                 for name, state, before in zip(self._roster.names, states, self._robots, strict=True)
             ]
         )
-        if "ball" in placed:
+        if BALL in placed:
             self._ball_state = self._engine.ball_state()
 
     def chain(self, unchained: bytes = b"") -> str:
-        """Lengthen the hash chain by this tick and return it, hex: equal chains, equal histories.
+        """Extend the hash chain by this tick and return it as hex: equal chains mean equal histories.
 
-        It takes in the state of all bodies, and what is noted of the inputs that led to it.
+        The chain covers the state of all bodies, and `unchained`, the recorded inputs that led to it.
         """
         self._chain = blake2b(self._engine.packed() + unchained, key=self._chain, digest_size=32).digest()
         return self._chain.hex()

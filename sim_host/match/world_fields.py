@@ -1,4 +1,4 @@
-"""The truth of one tick as the plain fields of `schemas.messages.world.World`."""
+"""The true state of one tick as the plain fields of `schemas.messages.world.World`."""
 
 from typing import Any
 
@@ -6,11 +6,11 @@ from sim_host.referee.game.referee_state import RefereeState
 from sim_host.snapshot import ObstacleState, Snapshot
 
 Fields = dict[str, Any]
-"""A message as plain fields, laid out as its model has them."""
+"""The fields of a message as plain values, as its model defines them."""
 
 
 def world_fields(snapshot: Snapshot, stuck: list[bool], state: RefereeState, episode: int) -> Fields:
-    """The whole message: the bodies, and what the referee and the operator made of them."""
+    """The whole message: the bodies, and the fields that the referee and the operator determine."""
     fields, away = bodies_fields(snapshot, stuck), state.participation.absences
     for name, robot in fields["robots"].items():
         robot["off_field"] = away[name].why if name in away else None
@@ -18,7 +18,7 @@ def world_fields(snapshot: Snapshot, stuck: list[bool], state: RefereeState, epi
 
 
 def bodies_fields(snapshot: Snapshot, stuck: list[bool]) -> Fields:
-    """What the world alone tells: everything but `clock`, `episode`, and each robot's `off_field`."""
+    """The fields that the world alone determines: all but `clock`, `episode`, and each robot's `off_field`."""
     fields = {
         "tick": snapshot.tick,
         "time": snapshot.time,

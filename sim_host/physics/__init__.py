@@ -1,1 +1,1 @@
-"""The engine, its bodies and the laws of motion of a free ball; the only package that knows PyBullet."""
+"""The physics engine, its bodies, collisions, and the motion of a free ball; the only package that imports PyBullet."""

@@ -1,4 +1,4 @@
-"""What the air does to a ball in flight: drag against its way, and the Magnus force across way and spin."""
+"""The forces of the air on a ball in flight: drag against its velocity, and the Magnus force across it."""
 
 import math
 from typing import NamedTuple
@@ -8,7 +8,7 @@ from sim_host.physics.vectors import Vector
 
 
 class Aerodynamics(NamedTuple):
-    """The air around one kind of ball."""
+    """The coefficients of the air for one kind of ball."""
 
     drag: float
     """1/m: deceleration over speed²; ½·ρ·c_d·π·r² / m."""
@@ -17,12 +17,12 @@ class Aerodynamics(NamedTuple):
 
     @classmethod
     def of_ball(cls, ball: Ball) -> "Aerodynamics":
-        """The air of a profile."""
+        """The coefficients for the ball and the air of a profile."""
         share = 0.5 * ball.air_density * math.pi * ball.radius**2 / ball.mass
         return cls(share * ball.drag_coefficient, share * ball.magnus_coefficient * ball.radius)
 
     def acceleration(self, velocity: Vector, spin: Vector) -> Vector:
-        """In m/s², from velocity in m/s and spin in rad/s."""
+        """Acceleration in m/s², from velocity in m/s and spin in rad/s."""
         vx, vy, vz = velocity
         wx, wy, wz = spin
         slowing, lift = -self.drag * math.sqrt(vx * vx + vy * vy + vz * vz), self.magnus

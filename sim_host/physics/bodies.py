@@ -1,8 +1,8 @@
-"""The bodies of a world: what shape, mass and surface each has in PyBullet.
+"""The bodies of a world: shape, mass and surface of each in PyBullet.
 
-Robots are upright cylinders, some with a frame across their front, that roll on wheels no ground contact could stand
-for: the engine does not collide them with the ground, their weight is carried, and what drives them is set as
-velocity. They collide with each other, the ball, the goals, the boundary and the obstacles.
+Robots are upright cylinders, some with a frame across their front. A ground contact cannot model their wheels, so the
+engine does not collide them with the ground: their weight is compensated, and their drive is set as a velocity. They
+collide with each other, the ball, the goals, the boundary and the obstacles.
 """
 
 import math
@@ -20,27 +20,27 @@ from sim_host.snapshot import ObstacleState
 
 _WALL_RESTITUTION = 0.5
 _NET_RESTITUTION = 0.0
-"""A net takes what speed the ball has against it, and gives no spin."""
+"""A net takes all speed that the ball has against it, and gives it no spin."""
 _CONTACT_DISTANCE = 1e-3
-"""m; nearer than this the ball is in contact. Bullet would brake it 2 cm before it touches, and spoil its bounce."""
+"""m; the ball is in contact from this gap on. Bullet's default brakes it 2 cm earlier, which spoils its bounce."""
 
 NO_TURN: Quaternion = (0.0, 0.0, 0.0, 1.0)
 
 
 def upright(heading: float) -> Quaternion:
-    """The orientation of a body that stands and looks along `heading`, rad."""
+    """The orientation of an upright body that faces `heading`, rad."""
     return (0.0, 0.0, math.sin(heading / 2.0), math.cos(heading / 2.0))
 
 
 class BodyMaker:
-    """Makes the bodies of one world; each is known by the number that PyBullet gives it."""
+    """Makes the bodies of one world; each method returns the number that PyBullet gives to the body."""
 
     def __init__(self, client: int, profile: Profile) -> None:
         self._client = client
         self._profile = profile
 
     def ground(self) -> int:
-        """The plane that everything stands on."""
+        """The plane of the ground."""
         body = self._fixed(pybullet.createCollisionShape(pybullet.GEOM_PLANE, physicsClientId=self._client), (0, 0, 0))
         self._surface(body, friction=1.0, restitution=0.0)
         return body
@@ -56,7 +56,7 @@ class BodyMaker:
                 yield self._box(box, 0.0, _NET_RESTITUTION)
 
     def robot(self, place: int, model: RobotModel, ground: int) -> int:
-        """A robot, out of everybody's way until it is placed."""
+        """A robot, far from the pitch until it is placed."""
         robot, client = model.body, self._client
         shape = self._hull(robot)
         aside = (3.0 * place, -1000.0, robot.height / 2)
@@ -74,7 +74,7 @@ class BodyMaker:
         return body
 
     def obstacle(self, obstacle: ObstacleState) -> int:
-        """A body that nothing moves, where it stands."""
+        """A fixed obstacle at its place."""
         client, half_z = self._client, obstacle.height / 2
         if obstacle.shape is Shape.CYLINDER:
             shape = pybullet.createCollisionShape(
@@ -109,7 +109,7 @@ class BodyMaker:
     def _hull(self, robot: RobotBody) -> int:
         """The cylinder, and the frame flush with its front, both cut into a lower and an upper half.
 
-        A push then meets the hull at two heights. At one, the solver lets the body tip rather than stop, and bodies
+        A push then acts on the hull at two heights. With one, the solver tips the body rather than stops it, and bodies
         sink into each other before they are upright again.
         """
         half, depth, width = robot.height / 2, robot.frame_depth / 2, robot.frame_width / 2
@@ -142,7 +142,7 @@ class BodyMaker:
         return body
 
     def _surface(self, body: int, friction: float, restitution: float) -> None:
-        """Bullet multiplies the coefficients of two bodies: where a body has 1, the ball's own counts."""
+        """Set friction and restitution. Bullet multiplies those of two bodies: against 1, the ball's own apply."""
         pybullet.changeDynamics(
             body, -1, lateralFriction=friction, restitution=restitution, physicsClientId=self._client
         )

@@ -1,8 +1,8 @@
-"""How a ball bounces off the ground: restitution upward, friction between slide and spin, as in a textbook.
+"""The bounce of a ball off the ground: restitution upward, and friction between slide and spin.
 
-The engine's own rebound depends on how deep the ball happens to be in the ground when a step begins, and gives back a
-fifth to a half of a drop of 1 m whatever the coefficient says. So the ground has no restitution in the engine, and the
-step in which a falling ball would reach the ground begins with the velocity and spin that it leaves the ground with.
+The engine's own rebound depends on how deep the ball is in the ground when a step begins: after a drop of 1 m the ball
+regains a fifth to a half of the height, whatever the coefficient. So the ground has no restitution in the engine.
+Instead, the step in which a falling ball would reach the ground begins with the velocity and spin after the bounce.
 """
 
 import math
@@ -12,15 +12,15 @@ from sim_host.physics.gravity import GRAVITY
 from sim_host.physics.vectors import Vector
 
 MIN_BOUNCE_SPEED = 0.2
-"""m/s; a slower impact does not bounce. Gravity alone brings 0.05 m/s in a step: below that a ball never rests."""
+"""m/s; a slower impact does not bounce. Gravity alone adds 0.05 m/s in a step: with less, a ball would never rest."""
 
 
 def bounce(ball: Ball, height: float, velocity: Vector, spin: Vector, step: float) -> tuple[Vector, Vector] | None:
-    """Velocity and spin with which to begin a step that ends in a bounce; nothing when the ball does not bounce in it.
+    """Velocity and spin at the beginning of a step in which the ball bounces; None if it does not bounce in this step.
 
-    `height`: of the ball's lowest point above the ground, m; `step`: s. In the engine's sum over steps a ball of speed
-    v has fallen v²/2g + v·step/2 before, and rises v²/2g + v·step/2 with the step that begins at v: so it comes to
-    restitution² of where it fell from, wherever in the step the impact lies.
+    `height`: of the ball's lowest point above the ground, m; `step`: s. In the engine's sum over steps, a ball with
+    speed v has fallen v²/2g + v·step/2, and one that begins a step with v rises by as much. The ball therefore regains
+    restitution² of the height that it fell from, at whatever moment of the step the impact occurs.
     """
     vx, vy, vz = velocity
     above, down, drop = max(height, 0.0), max(-vz, 0.0), GRAVITY * step
@@ -39,7 +39,7 @@ def bounce(ball: Ball, height: float, velocity: Vector, spin: Vector, step: floa
 def _after_friction(
     ball: Ball, velocity: tuple[float, float], spin: Vector, most: float
 ) -> tuple[tuple[float, float], Vector]:
-    """Velocity and spin after friction has taken the slide of the lowest point, or `most` m/s of the ball's speed."""
+    """Velocity and spin after friction has stopped the slide of the lowest point, or taken `most` m/s of speed."""
     r, (vx, vy), (wx, wy, wz) = ball.radius, velocity, spin
     slide_x, slide_y = vx - r * wy, vy + r * wx
     slide = math.hypot(slide_x, slide_y)

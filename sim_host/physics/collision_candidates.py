@@ -1,4 +1,4 @@
-"""Which robots could run so deep into another body in one physics step that they have to be brought to it first."""
+"""Finds robots that could sink too deep into another body in one physics step, for `continuous_collision`."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -9,36 +9,36 @@ from sim_host.physics.pitch import fixed_boxes
 from sim_host.snapshot import ObstacleState, RobotState
 
 MAX_DEPTH = 0.01
-"""m that a body may sink into another in one step: what the engine's contacts take away again in a few."""
+"""m that a body may sink into another in one step: the engine's contacts undo this depth in a few steps."""
 
 IndexPairs = list[tuple[int, int]]
 _Moving = tuple[float, float, float, float, float, float, int]
-"""x, y, vx, vy of a robot; what the tick may add to its speed, m/s; how far it may get, m; its place in the roster."""
+"""x, y, vx, vy of a robot; the speed it may gain in the tick, m/s; how far it may reach, m; its index in the roster."""
 
 
 class CollisionCandidates:
-    """Looks for robots that close in fast, once a tick; costs less the fewer there are."""
+    """Finds robots that approach another body fast, once a tick; the cost grows with their number."""
 
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel], pitch: Pitch) -> None:
         self._tick = time.tick
         self._fast = MAX_DEPTH / time.physics_step
         self._reaches = [model.body.reach for model in models]
         self._strikes = [model.body.reach if model.body.frame_width else 0.0 for model in models]
-        """m from the axis at which a turning hull strikes; a round one slides past."""
+        """m from the axis to where a turning hull can strike; 0 for a round hull, which slides past."""
         self._gains = [max(model.drive.acceleration, model.drive.deceleration) * time.tick for model in models]
         self._boxes = [(box.x, box.y, box.half_x, box.half_y) for box in fixed_boxes(pitch)]
         self._free_x, self._free_y = pitch.goal_line, pitch.touch_line + pitch.border
-        """m; inside these there is no box of the pitch."""
+        """m; no box of the pitch lies within these."""
         self._obstacles: list[tuple[float, float, float]] = []
 
     def set_obstacles(self, obstacles: Iterable[ObstacleState]) -> None:
-        """The obstacles on the pitch."""
+        """Set the obstacles on the pitch."""
         self._obstacles = [(obstacle.x, obstacle.y, obstacle.radius) for obstacle in obstacles]
 
     def find(self, robots: Sequence[RobotState]) -> tuple[IndexPairs, IndexPairs]:
         """Pairs of robots, and pairs of a robot and a fixed body, that may meet too fast within the tick.
 
-        Fixed bodies are counted through: the boxes of the pitch, then the obstacles.
+        Fixed bodies are numbered: first the boxes of the pitch, then the obstacles.
         """
         fast, tick = self._fast, self._tick
         moving, fixed = [], []

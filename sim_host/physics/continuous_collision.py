@@ -1,8 +1,8 @@
-"""Brings what closes in fast to where it touches, before the engine steps.
+"""Continuous collision: moves bodies that approach each other fast to where they touch, before the engine steps.
 
-The engine finds a contact at the beginning of a step only. Two robots that meet at 8 m/s would be 4 cm in each other
-before it does, and a ball of 20 m/s 10 cm in a hull; what is deep in something is pushed out again besides bouncing
-off, so that the rebound would depend on chance.
+The engine finds contacts at the beginning of a step only. Two robots that meet at 8 m/s would overlap by 4 cm before
+it does, and a ball of 20 m/s would be 10 cm inside a hull. A body that deep is pushed out as well as bounced off, so
+that the rebound would depend on chance.
 """
 
 import math
@@ -10,24 +10,25 @@ from collections.abc import Mapping, Sequence
 
 from schemas.config.profile import Profile
 from sim_host.physics.bodies import upright
+from sim_host.physics.body_state import BodyState
 from sim_host.physics.collision_candidates import MAX_DEPTH, IndexPairs
-from sim_host.physics.engine import BodyState, Engine
+from sim_host.physics.engine import Engine
 from sim_host.physics.vectors import FieldTwist, Vector
 
 _CONTACT_DEPTH = 0.001
-"""m by which bodies overlap that are brought together: enough for the engine to find the contact."""
+"""m by which bodies overlap after they were moved together: enough for the engine to find the contact."""
 _MAX_MOTION = 0.03
 """m that a robot may move in a step."""
 _ROUNDS = 6
-"""Rounds in which bodies come to touch that turn, or meet off their axes: where they are nearest changes on the way."""
+"""Iterations of the approach: the nearest points of bodies that turn, or meet off their axes, change on the way."""
 _TOP_SPEED = 60.0
-"""m/s; no two bodies close in faster: twice the most that a drive may have, and the turn of their frames."""
+"""m/s; no two bodies approach faster: twice the highest speed of a drive, and the turning of their frames."""
 
 _AT_REST: FieldTwist = (0.0, 0.0, 0.0)
 
 
 class ContinuousCollision:
-    """Moves bodies on within the step that is about to be done; their velocities stay what they are."""
+    """Moves bodies forward within the next step; their velocities do not change."""
 
     def __init__(self, profile: Profile, engine: Engine) -> None:
         self._engine = engine
@@ -38,8 +39,8 @@ class ContinuousCollision:
     def advance_robots(self, robots: IndexPairs, fixed: IndexPairs, twists: Sequence[FieldTwist]) -> None:
         """Move robots that would sink into another body in the next step to where they touch it.
 
-        `robots` are pairs of them, `fixed` robots and bodies of the pitch, its boxes first, then the obstacles;
-        `twists` the velocities that are about to be set.
+        `robots` are pairs of robots. `fixed` are pairs of a robot and a fixed body: first the boxes of the pitch, then
+        the obstacles. `twists` are the velocities of the robots in the next step.
         """
         bodies, fixed_bodies = self._engine.robots, self._engine.fixed_bodies() if fixed else []
         for one, other in robots:
@@ -48,7 +49,7 @@ class ContinuousCollision:
             self._advance_pair({bodies[one]: twists[one], fixed_bodies[other]: _AT_REST})
 
     def _advance_pair(self, twists: Mapping[int, FieldTwist]) -> None:
-        """Move two bodies with these velocities to where they touch, if the next step would bring them too deep."""
+        """Move two bodies with these velocities to where they touch, if they would overlap too far in the next step."""
         (one, twist), (other, other_twist) = twists.items()
         depth = MAX_DEPTH
         for _ in range(_ROUNDS):
@@ -58,10 +59,10 @@ class ContinuousCollision:
             for body, moving in twists.items():
                 if any(moving):
                     self._move_forward(body, moving, time)
-            depth = 0.0  # the engine finds no contact of two frames that a hair's breadth of air is left between
+            depth = 0.0  # the engine finds no contact of two frames while the smallest gap is left between them
 
     def _time_to_touch(self, one: int, other: int, twist: FieldTwist, other_twist: FieldTwist, depth: float) -> float:
-        """s after which two bodies touch, if the next step would bring them `depth` m into each other; else 0."""
+        """s after which two bodies touch, if they would overlap by `depth` m in the next step; otherwise 0."""
         gap = self._engine.gap(one, other, self._step * _TOP_SPEED)
         if gap is None or gap.width <= 0.0:
             return 0.0
@@ -75,7 +76,7 @@ class ContinuousCollision:
         return 0.0 if closing * self._step < gap.width + depth else (gap.width + _CONTACT_DEPTH) / closing
 
     def _move_forward(self, body: int, twist: FieldTwist, time: float) -> None:
-        """Move a robot on by `time` s."""
+        """Move a robot forward by `time` s."""
         now = self._engine.state(body)
         (x, y, z), (_, _, qz, qw), (vx, vy, omega) = now.position, now.orientation, twist
         turned = 2.0 * math.atan2(qz, qw) + omega * time
@@ -84,7 +85,7 @@ class ContinuousCollision:
         )
 
     def advance_ball(self, ball: BodyState) -> None:
-        """Move a fast ball, in this state, to where it touches a body that it would sink into in the next step."""
+        """Move a fast ball with this state to where it touches a body that it would sink into in the next step."""
         position, _, velocity, spin = ball
         if math.hypot(*velocity) < self._fast:
             return
@@ -109,9 +110,9 @@ class ContinuousCollision:
             self._engine.set_ball_state((x, y, z), velocity, spin)
 
     def _ball_time_to(self, body: int, velocity: Vector, left: float) -> float | None:
-        """s after which the ball may touch a body, 0 if it does already; nothing if not in the `left` s of a step.
+        """s after which the ball may touch a body, 0 if it touches already, None if not in the `left` s of a step.
 
-        Between round bodies it touches later, never earlier.
+        For round bodies this is a lower bound: they touch no earlier.
         """
         gap = self._engine.gap(self._engine.ball, body, left * _TOP_SPEED)
         if gap is None:

@@ -1,14 +1,13 @@
-"""The physics engine behind one door: poses, velocities, steps and contacts.
+"""The physics engine: poses, velocities, steps and contacts.
 
-With `bodies`, which makes what this moves, the only module that knows PyBullet.
+Only this module, `bodies` and `fingerprint` import PyBullet.
 """
 
-import importlib.metadata
 import math
 import struct
 from collections.abc import Sequence
 from itertools import chain
-from typing import Any, NamedTuple
+from typing import Any
 
 import pybullet
 
@@ -16,31 +15,23 @@ from schemas.config.profile import Profile
 from schemas.config.roster import Placement
 from schemas.frames import wrap
 from sim_host.physics.bodies import NO_TURN, BodyMaker, upright
+from sim_host.physics.body_state import NO_CONTACTS, BallContacts, BodyState, Gap
 from sim_host.physics.bounce import MIN_BOUNCE_SPEED
 from sim_host.physics.gravity import GRAVITY
-from sim_host.physics.vectors import FieldTwist, Quaternion, Vector
-from sim_host.snapshot import BallState, ObstacleState, RobotState, RobotStates, Roster
+from sim_host.physics.vectors import FieldTwist, Vector
+from sim_host.snapshot import BALL, BallState, ObstacleState, RobotState, RobotStates, Roster
 
 _ITERATIONS = 200
-"""At most; with Bullet's 50 two robots press a ball, a hundredth of their weight, deep into each other."""
+"""Maximum of the solver; with Bullet's 50, two robots press a ball, of a hundredth of their mass, into their hulls."""
 _UPRIGHT = 1e-3
-"""Half the sine of the tilt, and the m of lift, from which a robot is put upright again."""
+"""A robot is put upright again from this half sine of its tilt, or from this lift in m."""
 _TOUCHING = 0.001
-"""m of air between two robots that count as touching: the solver leaves less than that."""
+"""m; two robots count as touching up to this gap: the solver leaves a smaller one between bodies in contact."""
 _STATE_SIZE = 13
-"""In the state of a body."""
+"""Numbers in the state of a body."""
 _OBSTACLE = struct.Struct("<7d")
 
 _ZERO: Vector = (0.0, 0.0, 0.0)
-
-
-class BodyState(NamedTuple):
-    """What determines a body's future: position m, orientation quaternion xyzw, velocity m/s, spin rad/s."""
-
-    position: Vector
-    orientation: Quaternion
-    velocity: Vector
-    spin: Vector
 
 
 class Engine:
@@ -55,9 +46,9 @@ class Engine:
         self._make = BodyMaker(self.client, profile)
         self._lift = GRAVITY * profile.time.physics_step
         self._ball_now: BodyState | None = None
-        """The ball, as far as it was read since something moved it."""
+        """The state of the ball; None when it has to be read again."""
         self._obstacles: dict[str, tuple[ObstacleState, int]] = {}
-        """Name → the obstacle and its body, in the order in which they were put down."""
+        """Name → the obstacle and its body, in the order in which they were added."""
         self._build()
 
     def close(self) -> None:
@@ -89,28 +80,28 @@ class Engine:
 
     @property
     def obstacles(self) -> tuple[ObstacleState, ...]:
-        """All obstacles, in the order in which they were put down."""
+        """All obstacles, in the order in which they were added."""
         return tuple([obstacle for obstacle, _ in self._obstacles.values()])
 
     def put_obstacle(self, obstacle: ObstacleState) -> None:
-        """Put an obstacle down, in place of one of the same name."""
+        """Add an obstacle, in place of one of the same name."""
         if obstacle.name in self._obstacles:
             self.remove_obstacle(obstacle.name)
         self._obstacles[obstacle.name] = obstacle, self._make.obstacle(obstacle)
 
     def remove_obstacle(self, name: str) -> None:
-        """Take an obstacle away.
+        """Remove an obstacle.
 
         Raises:
-            KeyError: none is named so.
+            KeyError: no obstacle has this name.
         """
         _, body = self._obstacles.pop(name)
         pybullet.removeBody(body, physicsClientId=self.client)
 
     def rebuild(self, robots: Sequence[RobotState], ball: BallState) -> None:
-        """Build the world anew with these poses and velocities: robots upright, the ball without spin, held by nobody.
+        """Rebuild the world with these poses and velocities: robots upright, the ball without spin and not held.
 
-        Its future then depends on these numbers alone: contact caches and warm starts are gone.
+        Its future then depends on these numbers alone: contact caches and warm starts are cleared.
         """
         self._build()
         for body, height, robot in zip(self.robots, self._heights, robots, strict=True):
@@ -121,20 +112,20 @@ class Engine:
         self.read()
 
     def state(self, body: int) -> BodyState:
-        """A body between two steps."""
+        """The state of a body between two steps."""
         position, orientation = pybullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
         velocity, spin = pybullet.getBaseVelocity(body, physicsClientId=self.client)
         return BodyState(position, orientation, velocity, spin)
 
     def set_state(self, body: int, state: BodyState) -> None:
-        """Set a body's state; what was read of it stays as it is."""
+        """Set the state of a body, without updating the states that were read."""
         self._ball_now = None
         pybullet.resetBasePositionAndOrientation(body, state.position, state.orientation, physicsClientId=self.client)
         pybullet.resetBaseVelocity(body, state.velocity, state.spin, physicsClientId=self.client)
 
     def place(self, placement: Placement) -> None:
-        """Set a robot or the ball down, at rest or with a velocity, and take in its state."""
-        if placement.body == "ball":
+        """Place a robot or the ball, at rest or with a velocity, and read its state."""
+        if placement.body == BALL:
             height = self._profile.ball.radius if placement.z is None else placement.z
             velocity = (placement.vx, placement.vy, placement.vz)
             self.set_state(self.ball, BodyState((placement.x, placement.y, height), NO_TURN, velocity, _ZERO))
@@ -147,7 +138,7 @@ class Engine:
         self._states[place] = self.state(self.robots[place])
 
     def read(self) -> None:
-        """Take in the state of all bodies; a robot that was lifted or tipped is put upright first."""
+        """Read the state of all bodies; a robot that was lifted or tipped is put upright first."""
         self._states = [self.state(body) for body in (*self.robots, self.ball)]
         self._ball_now = self._states[-1]
         self.robot_contacts = self._robot_contacts()
@@ -159,10 +150,10 @@ class Engine:
                 self._states[place] = self.state(body)
 
     def _upright_centre(self, place: int) -> Vector:
-        """The centre of a tipped robot once it is upright: where it is, or as the ball sees it if it can be its doing.
+        """The centre of a tipped robot once it is upright: where it is, or near a ball as seen at the ball's height.
 
-        A pressed ball is light and touches a hull at its foot, or in the air near its top, so the solver tips the
-        robot rather than stops it. Put upright about its centre, the robot would come down into the ball.
+        A pressed ball is light and touches a hull near its foot or near its top, so that the solver tips the robot
+        rather than stops it. A robot put upright about its centre would then come down into the ball.
         """
         (x, y, _), (qx, qy, qz, qw), *_ = self._states[place]
         (ball_x, ball_y, ball_z), height = self._states[-1].position, self._heights[place]
@@ -172,30 +163,30 @@ class Engine:
         return x, y, height
 
     def robot_states(self, holding: int | None) -> RobotStates:
-        """All robots, as they were read."""
+        """The states of all robots, as last read."""
         return RobotStates([_robot_state(state, place == holding) for place, state in enumerate(self._states[:-1])])
 
     def ball_state(self) -> BallState:
-        """The ball, as it was read."""
+        """The state of the ball, as last read."""
         position, _, velocity, _ = self._states[-1]
         return BallState(*position, *velocity)
 
     def ball_spin(self) -> tuple[float, float]:
-        """The ball's spin about x and y in rad/s, as it was read."""
+        """The ball's spin about x and y in rad/s, as last read."""
         return self._states[-1].spin[:2]
 
     def packed(self) -> bytes:
-        """What was read, robots, ball and obstacles, as little-endian doubles: equal bytes, equal worlds."""
+        """Robots, ball and obstacles, as last read, as little-endian doubles: equal bytes mean equal worlds."""
         numbers = chain.from_iterable(chain.from_iterable(self._states))
         bodies = struct.pack(f"<{_STATE_SIZE * len(self._states)}d", *numbers)
         return b"".join([bodies, *[_pack(obstacle) for obstacle, _ in self._obstacles.values()]])
 
     def robot_now(self, place: int) -> RobotState:
-        """One robot between two steps."""
+        """The state of a robot between two steps, as one that holds the ball."""
         return _robot_state(self.state(self.robots[place]), True)
 
     def ball_now(self) -> BodyState:
-        """The ball between two steps."""
+        """The state of the ball between two steps."""
         if self._ball_now is None:
             self._ball_now = self.state(self.ball)
         return self._ball_now
@@ -207,11 +198,11 @@ class Engine:
             reset(body, (vx, vy, lift), (0.0, 0.0, omega), physicsClientId=client)
 
     def fixed_bodies(self) -> list[int]:
-        """Bodies that nothing moves beside the ground: the boxes of the pitch, then the obstacles."""
+        """Fixed bodies other than the ground: the boxes of the pitch, then the obstacles."""
         return self._boxes + [body for _, body in self._obstacles.values()]
 
-    def gap(self, one: int, other: int, within: float) -> "Gap | None":
-        """What lies between two bodies that are at most `within` m apart, where they are nearest to each other."""
+    def gap(self, one: int, other: int, within: float) -> Gap | None:
+        """The gap between the nearest points of two bodies; None if they are more than `within` m apart."""
         near = pybullet.getClosestPoints(one, other, within, physicsClientId=self.client)
         if not near:
             return None
@@ -219,7 +210,7 @@ class Engine:
         return Gap(point[5], point[6], point[7], point[8])
 
     def bodies_near_ball(self, low: Sequence[float], high: Sequence[float]) -> list[int]:
-        """Bodies that may reach into a box between two corners and collide with the ball, beside the ground."""
+        """Bodies, other than the ground, that may reach into the box between two corners and collide with the ball."""
         found = pybullet.getOverlappingObjects(low, high, physicsClientId=self.client) or ()
         passes = {self.ball, self._ground, None if self._ball_ignores is None else self.robots[self._ball_ignores]}
         return sorted({body for body, _ in found} - passes)
@@ -230,15 +221,15 @@ class Engine:
         pybullet.resetBaseVelocity(self.ball, velocity, spin, physicsClientId=self.client)
 
     def set_ball_state(self, position: Vector, velocity: Vector, spin: Vector) -> None:
-        """Set the ball's place, velocity and spin."""
+        """Set the ball's position, velocity and spin."""
         self.set_state(self.ball, BodyState(position, NO_TURN, velocity, spin))
 
     def push_ball(self, force: Vector, at: Vector) -> None:
-        """Apply a force, N, to the ball's centre `at` for the next step."""
+        """Apply a force in N at the ball's centre `at`, for the next step."""
         pybullet.applyExternalForce(self.ball, -1, force, at, pybullet.WORLD_FRAME, physicsClientId=self.client)
 
     def ignore_ball_contacts(self, robot: int | None) -> None:
-        """Let the ball not collide with this one robot, or collide with all: a held ball lies a little in the hull."""
+        """Let the ball not collide with this robot, or collide with all: a held ball lies a little inside the hull."""
         if robot == self._ball_ignores:
             return
         for place, collide in ((self._ball_ignores, 1), (robot, 0)):
@@ -249,15 +240,15 @@ class Engine:
         self._ball_ignores = robot
 
     def step(self) -> None:
-        """One physics step."""
+        """Simulate one physics step."""
         self._ball_now = None
         pybullet.stepSimulation(physicsClientId=self.client)
 
-    def ball_contacts(self, holder: int | None) -> "BallContacts":
-        """What the ball touched in the last step, beside the ground; against its holder it is never pressed."""
+    def ball_contacts(self, holder: int | None) -> BallContacts:
+        """The ball's contacts in the last step, other than with the ground; depth in its holder does not count."""
         contacts = pybullet.getContactPoints(self.ball, physicsClientId=self.client)
         if len(contacts) < 2 and (not contacts or contacts[0][2] == self._ground):
-            return _NO_CONTACTS
+            return NO_CONTACTS
         depth = {contact[2]: -contact[8] for contact in contacts if contact[2] != self._ground}
         robots = [place for place, body in enumerate(self.robots) if body in depth]
         if holder is not None:
@@ -288,33 +279,3 @@ def _robot_state(state: BodyState, holding: bool) -> RobotState:
 def _distance_of(point: tuple[Any, ...]) -> float:
     distance: float = point[8]
     return distance
-
-
-class Gap(NamedTuple):
-    """Two bodies where they are nearest."""
-
-    on_one: Vector
-    """m."""
-    on_other: Vector
-    """m."""
-    normal: Vector
-    """From the other to the one, of unit length."""
-    width: float
-    """m; negative where they overlap."""
-
-
-class BallContacts(NamedTuple):
-    """Robots that touch the ball, in roster order, and how deep it is pressed into others than ground and holder, m."""
-
-    robots: list[int]
-    depth: float
-
-
-_NO_CONTACTS = BallContacts([], 0.0)
-
-
-def fingerprint() -> dict[str, str]:
-    """What two machines must share to compute the same world: the engine, and the maths library's answers."""
-    answers = (math.sin(1e5), math.cos(2.5), math.exp(1.1), math.atan2(0.3, -0.7), math.pow(1.1, 7.3), math.log(3.3))
-    version = importlib.metadata.version("pybullet")
-    return {"engine": f"pybullet {version}, api {pybullet.getAPIVersion()}", "libm": struct.pack("<6d", *answers).hex()}

@@ -1,4 +1,4 @@
-"""The one number that the engine, the kicks and the wheels share."""
+"""Gravity, as the engine, the kicks and the wheels use it."""
 
 GRAVITY = 9.81
-"""m/s², simatch world file."""
+"""m/s², as in the world file of nubot-nu's simatch."""

@@ -1,1 +1,1 @@
-"""The referee: a pure core that knows no network, no clock, no screen and no physics engine."""
+"""The referee: a pure core without network, wall clock, screen or physics engine."""

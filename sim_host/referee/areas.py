@@ -1,10 +1,10 @@
-"""The penalty and goal areas; `end` is the sign of the x of the goal they lie before."""
+"""The penalty and goal areas; `end` is the sign of the x of the goal that an area belongs to."""
 
 from schemas.config.sections import Pitch
 
 
 def in_penalty_area(pitch: Pitch, end: int, x: float, y: float, margin: float = 0.0) -> bool:
-    """Whether a point in m lies in the penalty area of that end, grown by `margin` in m, or in the goal behind it."""
+    """Whether a point in m is in the penalty area of that end, extended by `margin` in m, or in the goal behind it."""
     depth, width = pitch.penalty_area_depth, pitch.penalty_area_width
     far = x * end
     return (
@@ -15,7 +15,7 @@ def in_penalty_area(pitch: Pitch, end: int, x: float, y: float, margin: float = 
 
 
 def in_goal_area(pitch: Pitch, end: int, x: float, y: float) -> bool:
-    """Whether a point in m lies in the goal area of that end, or in the goal behind it."""
+    """Whether a point in m is in the goal area of that end, or in the goal behind it."""
     far = x * end
     return (
         far > pitch.goal_line - pitch.goal_area_depth
@@ -25,10 +25,10 @@ def in_goal_area(pitch: Pitch, end: int, x: float, y: float) -> bool:
 
 
 def _in_goal(pitch: Pitch, far: float, y: float) -> bool:
-    """Whether a point lies behind the goal line between the posts; `far` is its x toward that goal."""
+    """Whether a point is behind the goal line between the posts; `far` is its x toward that goal."""
     return pitch.goal_line < far <= pitch.goal_line + pitch.goal_depth and abs(y) < pitch.goal_width / 2
 
 
 def in_a_penalty_area(pitch: Pitch, x: float, y: float) -> bool:
-    """Whether a point in m lies in either penalty area."""
+    """Whether a point in m is in either penalty area."""
     return in_penalty_area(pitch, 1 if x > 0 else -1, x, y)

@@ -1,10 +1,11 @@
-"""Authority: the referee decides, or proposes and people may overrule it, or people decide alone; and what is undone.
+"""Authority: the referee decides alone, or proposes decisions that people may overrule, or leaves them to people.
 
-In `automatic` officiating every decision is carried out in its tick. In `mixed` it is an event of its own, and carried
-out when it is confirmed or the match file's time is up; meanwhile the game goes on, nothing else is judged, and nobody
-is shown a card for standing wrong. In `manual` the referee keeps the clocks and places the ball; people decide, and
-give START. `undo` brings back the state before the last decision, score and cards with it, while the clocks go on: a
-restart that was signalled is signalled again, and where play was on the ball is dropped.
+In `automatic` officiating every decision is carried out in its tick. In `mixed` officiating a decision is first an
+event of its own, a proposal. It is carried out when it is confirmed, or when the time that the match file sets is up.
+Meanwhile the game goes on, nothing else is judged, and no robot is shown a card for a wrong position. In `manual`
+officiating the referee keeps the clocks and places the ball; people decide, and give START. `undo` restores the state
+before the last decision, with its score and cards, while the clocks go on. A restart that was signalled is signalled
+again; if play was on, the ball is dropped.
 
 Section: ours.
 Measures: nothing of its own.
@@ -19,13 +20,14 @@ from sim_host.referee.game.restart import Restart
 from sim_host.referee.game.timing import reached
 from sim_host.referee.placement.bench import bench_pose, entry_pose
 from sim_host.referee.placement.spots import restart_at
-from sim_host.referee.procedures import penalties, periods, restart
+from sim_host.referee.procedures import penalties, restart
+from sim_host.referee.procedures.decision import carry_out
 from sim_host.referee.rules import Rule
 from sim_host.referee.ruling_draft import RulingDraft
 
 
 def judge(draft: RulingDraft, found: tuple[Rule, Decision] | None) -> None:
-    """Carry out what a rule has found, or propose it; carry out a proposal that nobody overruled in time."""
+    """Carry out or propose a decision of a rule; carry out a proposal that was not overruled in time."""
     proposal = draft.state.proposal
     if proposal is not None and is_due(proposal):
         decide(draft, proposal.rule, proposal.decision)
@@ -38,20 +40,20 @@ def judge(draft: RulingDraft, found: tuple[Rule, Decision] | None) -> None:
 
 
 def decide(draft: RulingDraft, rule: str, decision: Decision) -> None:
-    """Carry a decision out, and remember how it was before."""
+    """Carry out a decision, and keep the state before it for `undo`."""
     save_for_undo(draft)
     draft.state = draft.state._replace(proposal=None)
-    periods.carry_out(draft, rule, decision)
+    carry_out(draft, rule, decision)
 
 
 def propose(draft: RulingDraft, rule: str, decision: Decision) -> None:
-    """Say what is decided unless people overrule it; the game goes on meanwhile, and nothing else is judged."""
+    """Report a decision that people may overrule; meanwhile the game goes on, and nothing else is judged."""
     proposal = Proposal(rule, decision, draft.match.proposal)
     draft.state = draft.state._replace(proposal=proposal)
     draft.add_event(
         EventKind.PROPOSAL,
         rule,
-        f"proposed, in {proposal.left:g} s it is decided: {decision.text}",
+        f"proposed, decided in {proposal.left:g} s: {decision.text}",
         side=decision.side,
         robot=decision.robot,
         robots=decision.robots,
@@ -64,31 +66,31 @@ def propose(draft: RulingDraft, rule: str, decision: Decision) -> None:
 
 
 def is_due(proposal: Proposal | None) -> bool:
-    """Whether nobody has overruled a proposal in time."""
+    """Whether the time to overrule a proposal is up."""
     return proposal is not None and reached(0.0, proposal.left)
 
 
 def save_for_undo(draft: RulingDraft) -> None:
-    """Keep the state as it is for `undo`; one decision can be undone, not those before it."""
+    """Keep the present state for `undo`; only the last decision can be undone."""
     state = draft.state
     draft.state = state._replace(before=state._replace(before=None, proposal=None))
 
 
 def why_not_undo(draft: RulingDraft) -> str | None:
-    """A reason against undoing the last decision, or nothing."""
+    """Why the last decision cannot be undone, or None."""
     before = draft.state.before
     if before is None:
-        return "no decision can be undone: there was none since this half began, or it was undone"
+        return "no decision can be undone: there was none in this half, or it was undone already"
     if before.timing.runs and reached(draft.state.clock, before.timing.limit):
         return "the half's time is up"
     return None
 
 
 def undo(draft: RulingDraft) -> None:
-    """Bring back the state before the last decision; the clocks go on, and what was in play is dropped.
+    """Restore the state before the last decision, except the clocks.
 
-    Score, cards, people and the half are as they were. A restart that was signalled is signalled again; play that was
-    on is halted, and the ball is dropped where it was, in a shoot-out the penalty is taken again.
+    Score, cards, absences and the half are restored. A restart that was signalled is signalled again. If play was on,
+    it is halted, and the ball is dropped where it was; in a shoot-out, the penalty is taken again.
     """
     now, before = draft.state, draft.state.before
     if before is None:
@@ -106,7 +108,7 @@ def undo(draft: RulingDraft) -> None:
 
 
 def _restart_after_undo(draft: RulingDraft, before: RefereeState) -> Restart:
-    """How the game goes on that was running."""
+    """The restart after a decision is undone that had stopped the running game."""
     if before.stage is GameStage.SHOOT_OUT and before.side is not None:
         return penalties.penalty_for(draft, before.side)
     x, y = before.ball[:2] if before.ball is not None else draft.ball_spot
@@ -114,7 +116,7 @@ def _restart_after_undo(draft: RulingDraft, before: RefereeState) -> Restart:
 
 
 def _undo_absences(draft: RulingDraft, now: RefereeState) -> None:
-    """Robots that the decision sent off stand on the field again, those that it brought back are off it."""
+    """Place robots that the decision sent off on the field again, and those that it brought back on the bench."""
     was, is_now = draft.state.participation.absences, now.participation.absences
     for name in draft.match.roster.names:
         if name in was and name not in is_now:

@@ -1,4 +1,4 @@
-"""The referee: (state, snapshot, actions, dt) → ruling; it remembers nothing and sees nothing else."""
+"""The referee: a function (state, snapshot, actions, dt) → ruling, without memory or other input."""
 
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
@@ -25,21 +25,21 @@ from sim_host.snapshot import Roster, Snapshot
 
 
 class Ruling(NamedTuple):
-    """What the referee made of one tick."""
+    """The result of the referee's step in one tick."""
 
     state: RefereeState
     events: tuple[GameEvent, ...] = ()
     """In order of time."""
     placements: tuple[Placement, ...] = ()
-    """Bodies to set down at rest before the next tick."""
+    """Bodies to place at rest before the next tick."""
     replies: tuple[ActionReply, ...] = ()
     """One for each action, in their order."""
     checkpoint: bool = False
-    """START of a kick-off was given in this tick."""
+    """START of a kick-off was given in this tick: a checkpoint is made before the next one."""
 
 
 class Referee:
-    """One match's referee; holds its constants and no state."""
+    """The referee of one match; holds the constants of the match and no state."""
 
     def __init__(
         self,
@@ -59,13 +59,13 @@ class Referee:
         """The constants of a match.
 
         Args:
-            duration: playing time of all halves in s; the rule book's when not given.
-            kick_off: who kicks off the first half.
+            duration: playing time of all halves in s; the rule book's if None.
+            kick_off: the side that kicks off the first half.
             automatic: the match begins at the first step; otherwise it waits for an action.
             starts: start pose of each robot in the field frame, for cyan attacking +x.
-            mode: who decides.
+            mode: whether the referee, people, or both decide.
             proposal: s that people have to overrule a decision, in mixed officiating.
-            winner: whether a level match goes on until somebody wins; as the rule book says when not given.
+            winner: whether a level match goes on until a side wins; the rule book's choice if None.
 
         Raises:
             TouchlineError: a robot of the roster has no start pose.
@@ -82,7 +82,7 @@ class Referee:
         return RefereeState(Phase.PRE_GAME, Timing(self._match.half_duration), self._match.kick_off)
 
     def begin_at(self, game: SceneGame, ball: Spot) -> RefereeState:
-        """The state with which a scene begins: in the first half, a restart to be taken from where the ball lies."""
+        """The state with which a scene begins, in the first half; a restart is taken from where the ball lies."""
         is_restart = game.phase in RESTARTS
         running = game.running or game.phase is Phase.PLAY
         return self.begin()._replace(
@@ -100,7 +100,7 @@ class Referee:
         )
 
     def step(self, state: RefereeState, snapshot: Snapshot, actions: Sequence[RefereeAction], dt: float) -> Ruling:
-        """Judge one tick of `dt` in s: the rules on what happened, then the actions, then what time brings."""
+        """Judge one tick of `dt` in s: first the rules, then the actions, then the procedures."""
         match = self._match
         situation = situation_after(match, state, snapshot, dt)
         now = situation.state
@@ -119,7 +119,7 @@ class Referee:
 
 
 def is_quiet(state: RefereeState) -> bool:
-    """Whether time alone brings nothing about: the ball is in play, and nobody waits for anything."""
+    """Whether no procedure has anything to do: the ball is in play, and no timer is pending."""
     return (
         state.phase is Phase.PLAY
         and state.set_piece is None

@@ -1,4 +1,4 @@
-"""The game as each team sees it: both teams are told in every tick."""
+"""The game as each team sees it, which both teams receive in every tick."""
 
 from schemas.game import GameView, Phase, Point, TeamPhase
 from schemas.side import Side
@@ -15,15 +15,16 @@ TEAM_PHASES: dict[tuple[Phase, Side | None, Side], TeamPhase] = {
 
 
 def game_views(state: RefereeState, roster: Roster, episode: int = 1) -> dict[Side, GameView]:
-    """Side → the game as it sees it; `spot` in m, in the side's team frame."""
+    """Side → the game from its point of view; `spot` in m, in the side's team frame."""
     score, timing, participation, spot = state.score, state.timing, state.participation, state.spot
+    booked = bool(participation.cards or participation.absences)
     views = {}
     for side, ours, theirs in (
         (Side.CYAN, score.cyan, score.magenta),
         (Side.MAGENTA, score.magenta, score.cyan),
     ):
         attack = state.attack(side)
-        mine = [name for name, its in zip(roster.names, roster.sides, strict=True) if its is side]
+        mine = [name for name, its in zip(roster.names, roster.sides, strict=True) if its is side] if booked else []
         views[side] = GameView(
             phase=TEAM_PHASES[state.phase, state.side, side],
             running=state.running,

@@ -1,4 +1,4 @@
-"""What stays the same through one match: rule book, pitch, bodies, who plays, and how it begins."""
+"""The constants of one match: rule book, pitch, bodies, roster, and the conditions of its start."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
@@ -24,35 +24,35 @@ class MatchConstants:
     half_duration: float
     """Playing time of one half in s."""
     kick_off: Side
-    """Who kicks off the first half."""
+    """The side that kicks off the first half."""
     automatic: bool
     """The match begins by itself; otherwise it waits for the action `start`."""
     starts: Mapping[str, Pose]
     """Start pose of each robot in the field frame, for cyan attacking +x."""
     mode: OfficiatingMode = OfficiatingMode.AUTOMATIC
-    """Who decides."""
+    """Whether the referee, people, or both decide."""
     proposal: float = 0.0
     """s that people have to overrule a decision, in mixed officiating."""
     needs_winner: bool = False
     """A level match goes on with extra time and a shoot-out."""
     reaches: tuple[float, ...] = field(init=False)
-    """m; how far each robot of the roster reaches from its centre."""
+    """m; distance from the centre of each robot of the roster to the farthest point of its hull."""
     out_x: float = field(init=False)
     """m; a ball whose centre is beyond this |x| is wholly over the goal line."""
     out_y: float = field(init=False)
     """m; a ball whose centre is beyond this |y| is wholly over the touch line."""
     deep_x: float = field(init=False)
-    """m; beyond this |x| lie the penalty areas."""
+    """m; the penalty areas are beyond this |x|."""
     near_squared: tuple[float, ...] = field(init=False)
-    """m²; how far the centres of ball and robot may be apart, squared, for it to be at the ball; in roster order."""
+    """m²; squared distance of the centres within which each robot is at the ball, in the order of the roster."""
     widest_near: float = field(init=False)
-    """m; a robot farther from the ball than this along x is not at it, whichever it is."""
+    """m; no robot is at the ball if it is farther from it along x."""
     all_keepers: tuple[bool, ...] = field(init=False)
-    """Whether each robot of the roster keeps its side's goal while everybody is on the field."""
+    """Whether each robot of the roster keeps its side's goal while all robots are on the field."""
 
     @property
     def extra_half_duration(self) -> float:
-        """Playing time of one half of extra time in s: as much shorter or longer than its book says as the halves."""
+        """Playing time of one half of extra time in s: the book's, scaled as the regular halves are."""
         periods = self.book.periods
         return periods.extra_half_duration * self.half_duration / periods.half_duration
 
@@ -70,7 +70,7 @@ class MatchConstants:
         object.__setattr__(self, "all_keepers", self._keepers(()))
 
     def keepers(self, away: Collection[str]) -> tuple[bool, ...]:
-        """Whether each robot of the roster keeps its side's goal, while these are off the field."""
+        """Whether each robot of the roster keeps its side's goal while the robots in `away` are off the field."""
         return self._keepers(away) if away else self.all_keepers
 
     def _keepers(self, away: Collection[str]) -> tuple[bool, ...]:

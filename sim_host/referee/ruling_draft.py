@@ -1,4 +1,4 @@
-"""One tick in which something happens: what has been decided in it so far."""
+"""The ruling of one tick while it is being made."""
 
 from dataclasses import dataclass, field
 
@@ -10,12 +10,12 @@ from schemas.side import Side
 from sim_host.referee.game.referee_state import RefereeState, point
 from sim_host.referee.game.restart import Spot
 from sim_host.referee.match_constants import MatchConstants
-from sim_host.snapshot import Snapshot
+from sim_host.snapshot import BALL, Snapshot
 
 
 @dataclass(slots=True)
 class RulingDraft:
-    """Collects what one tick brings; lives no longer than the call of `Referee.step`."""
+    """Collects state changes, events and placements of one tick, within one call of `Referee.step`."""
 
     match: MatchConstants
     snapshot: Snapshot
@@ -40,9 +40,9 @@ class RulingDraft:
         unit: str = "",
         card: Card | None = None,
     ) -> None:
-        """Add an event of this tick; `rule` is the file name of the rule or action that decided.
+        """Add an event of this tick; `rule` is the module name of the rule or action that decided.
 
-        `measured` is the quantity that broke the rule and `limit` what it allows or asks, both in `unit`.
+        `measured` is the quantity that broke the rule, and `limit` the bound that it allows or requires, in `unit`.
         """
         event = GameEvent(
             tick=self.snapshot.tick,
@@ -64,20 +64,20 @@ class RulingDraft:
         self.events.append(event)
 
     def place_ball(self, spot: Spot) -> None:
-        """Have the ball set down at rest."""
-        self.placements.append(Placement(body="ball", x=spot[0], y=spot[1]))
+        """Place the ball at rest before the next tick."""
+        self.placements.append(Placement(body=BALL, x=spot[0], y=spot[1]))
 
     @property
     def ball_spot(self) -> Spot:
-        """Where the ball lies: where it was set down in this tick, or where it was seen."""
-        down = [(placement.x, placement.y) for placement in self.placements if placement.body == "ball"]
+        """Position of the ball: where it was placed in this tick, or where the snapshot has it."""
+        down = [(placement.x, placement.y) for placement in self.placements if placement.body == BALL]
         return down[-1] if down else (self.snapshot.ball.x, self.snapshot.ball.y)
 
     @property
     def book(self) -> RuleBook:
-        """The numbers that this match is refereed by."""
+        """The rule book of the match."""
         return self.match.book
 
     def place_robot(self, name: str, pose: Pose) -> None:
-        """Have a robot set down at rest."""
+        """Place a robot at rest before the next tick."""
         self.placements.append(Placement(body=name, x=pose.x, y=pose.y, heading=pose.heading))

@@ -1,4 +1,4 @@
-"""What the rules look at in one tick: the state with timers moved on, the snapshot, and the line that was crossed."""
+"""The input of the rules in one tick: the state with advanced timers, the snapshot, and the line that was crossed."""
 
 import dataclasses
 from enum import Enum
@@ -14,14 +14,14 @@ from sim_host.snapshot import BallState, Snapshot
 
 
 class Line(Enum):
-    """A line that bounds the field."""
+    """A boundary line of the field."""
 
     TOUCH = "touch line"
     GOAL = "goal line"
 
 
 class Crossing(NamedTuple):
-    """The ball's centre, in m, at the moment when the whole ball had passed a line."""
+    """The position of the ball's centre, in m, at the moment when the whole ball had passed a line."""
 
     line: Line
     x: float
@@ -30,7 +30,7 @@ class Crossing(NamedTuple):
 
 
 class Situation(NamedTuple):
-    """One tick as the rules see it."""
+    """The input of the rules in one tick."""
 
     match: MatchConstants
     state: RefereeState
@@ -39,7 +39,7 @@ class Situation(NamedTuple):
 
 
 def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapshot, dt: float) -> Situation:
-    """The situation of this tick: clock and timers moved on by `dt` s, touches and stillness of the ball taken in."""
+    """The situation of this tick: the state after `dt` s more, with the evidence of this snapshot."""
     ball = snapshot.ball
     now = ball[:3]
     in_play = state.phase is Phase.PLAY
@@ -49,23 +49,11 @@ def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapsh
         seen = evidence_after(
             match, state.evidence, match.keepers(state.participation.absences), state.cyan_attacks, snapshot, dt
         )
-    now_state = RefereeState(  # `_replace` takes half as long again, in every tick
-        phase=state.phase,
+    now_state = state._replace(
         timing=state.timing.after(dt, in_play),
-        kick_off=state.kick_off,
-        side=state.side,
-        spot=state.spot,
-        running=state.running,
-        half=state.half,
-        stage=state.stage,
-        score=state.score,
-        cyan_attacks=state.cyan_attacks,
-        pending=state.pending,
         set_piece=set_piece_after(state.set_piece, snapshot, in_play, dt),
         participation=state.participation.after(snapshot.silent, dt, state.timing.runs),
-        shoot_out=state.shoot_out,
         proposal=None if state.proposal is None else state.proposal.after(dt),
-        before=state.before,
         still=state.still + dt if slow else 0.0,
         ball=now,
         evidence=seen,
@@ -80,7 +68,7 @@ def situation_after(match: MatchConstants, state: RefereeState, snapshot: Snapsh
 def crossed(
     match: MatchConstants, before: tuple[float, float, float], now: tuple[float, float, float]
 ) -> Crossing | None:
-    """The first line that the ball passed on the straight way from `before` to `now`; nothing if it was out before."""
+    """The first line that the ball crossed on the straight way from `before` to `now`; None if it was out before."""
     first: tuple[float, Line] | None = None
     for axis, limit, line in ((0, match.out_x, Line.GOAL), (1, match.out_y, Line.TOUCH)):
         if abs(before[axis]) > limit:
@@ -99,7 +87,7 @@ def crossed(
 
 
 def _with_nearest_ball(match: MatchConstants, state: RefereeState, snapshot: Snapshot, out: ShootOut) -> ShootOut:
-    """The shoot-out with how near the ball has come to the goal in the hold of its taker."""
+    """The shoot-out with the nearest distance between the goal line and the ball while its taker held it."""
     holder, side = snapshot.possession, state.side
     if holder is None or side is None or snapshot.roster.side_of(holder) is not side:
         return out

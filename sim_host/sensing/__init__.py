@@ -1,1 +1,1 @@
-"""What robots perceive: truth, plus counter-based noise."""
+"""The sensors of the robots: the true state of the world with counter-based noise."""

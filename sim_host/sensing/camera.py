@@ -1,4 +1,4 @@
-"""One picture: what the cameras of all robots find of the ball and of what stands in the way, at one tick."""
+"""The cameras of all robots: one picture shows the ball and the obstacles that each robot sees at one tick."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -6,6 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from schemas.config.sections import Sensing
+from schemas.messages.sight import Obstacle
+from sim_host.sensing.digits import DIGITS
 from sim_host.sensing.hulls import Hulls
 from sim_host.sensing.random_streams import (
     SMALL_BATCH,
@@ -19,37 +21,35 @@ from sim_host.sensing.random_streams import (
 from sim_host.sensing.shutter import Shutter
 from sim_host.sensing.sight_lines import Flags
 from sim_host.sensing.team_frames import TeamFrames
-from sim_host.snapshot import BallState, ObstacleState, RobotMotions, Roster, Snapshot
+from sim_host.snapshot import BALL, BallState, ObstacleState, RobotMotions, Roster, Snapshot
 
-BALL = "ball"
-"""No robot and no obstacle has this name."""
 _NO_DISTANCE = np.array(1e-9)
-"""m; in what direction from itself a robot is, nobody asks."""
+"""m; avoids a division by zero for the distance of a robot from itself, which is not used."""
 _NOWHERE = np.array(np.inf)
-"""m; how far away what was not found is."""
-PER_OBSTACLE = 3
-"""Numbers that a picture has of each obstacle."""
+"""m; distance of a body that was not found, to sort it last."""
+_PER_OBSTACLE = 3
+"""x, y, radius."""
 
 
 class Picture(NamedTuple):
-    """What was found, in each robot's team frame as that robot believes it to lie."""
+    """The bodies that were found, in each robot's team frame as that robot believes it to lie."""
 
     tick: int
-    """When it was taken."""
+    """The tick at which it was taken."""
     ball: list[list[float]]
-    """Per robot: x, y, z in m and vx, vy in m/s; meaningless where it was not found."""
+    """Per robot: x, y, z in m and vx, vy in m/s; meaningless where the ball was not found."""
     found: list[bool]
-    """Per robot: whether the ball was."""
-    obstacles: list[list[float]]
-    """Per robot: x, y, radius in m of each obstacle, one after the other, the nearest first."""
+    """Per robot: whether the ball was found."""
+    obstacles: list[list[Obstacle]]
+    """Per robot: the obstacles, the nearest first."""
 
     @classmethod
     def nothing(cls, robots: int) -> "Picture":
-        """What is known before the first picture."""
+        """An empty picture, for the time before the first one."""
         return cls(0, [], [False] * robots, [[] for _ in range(robots)])
 
     def for_robots(self, places: Sequence[int | None]) -> "Picture":
-        """The same picture of other robots, each with its place in this one; one that has none sees nothing in it."""
+        """The same picture for other robots, by their indices in this one; a robot without an index sees nothing."""
         seen = [None if place is None or not self.ball else place for place in places]
         return Picture(
             self.tick,
@@ -59,22 +59,19 @@ class Picture(NamedTuple):
         )
 
     def rotated(self) -> "Picture":
-        """The same picture in team frames that have turned by π since."""
-        obstacles = [
-            [-number if place % PER_OBSTACLE < 2 else number for place, number in enumerate(numbers)]
-            for numbers in self.obstacles
-        ]
+        """The same picture in team frames turned by π."""
+        obstacles = [[Obstacle(x=-one.x, y=-one.y, radius=one.radius) for one in seen] for seen in self.obstacles]
         return Picture(self.tick, [rotated_ball(ball) for ball in self.ball], self.found, obstacles)
 
 
 def rotated_ball(ball: list[float]) -> list[float]:
-    """x, y, z, vx, vy in a frame that has turned by π."""
+    """x, y, z, vx, vy in a frame turned by π."""
     x, y, z, vx, vy = ball
     return [-x, -y, z, -vx, -vy]
 
 
 class Camera:
-    """Things are the ball and then the bodies: robots, and static obstacles. Arrays are robots × things."""
+    """Takes pictures. Things are the ball and then the bodies, robots and obstacles. Arrays are robots × things."""
 
     def __init__(self, sensing: Sensing, roster: Roster, streams: RandomStreams, shutter: Shutter) -> None:
         self._sensing = sensing
@@ -89,7 +86,7 @@ class Camera:
         self._prepare(())
 
     def _prepare(self, obstacles: tuple[ObstacleState, ...]) -> None:
-        """What is the same in every picture of the same bodies."""
+        """Compute everything that is the same in all pictures of the same bodies."""
         s, roster = self._sensing, self._roster
         self._obstacles = obstacles
         self._hulls = Hulls(roster.models, obstacles)
@@ -103,12 +100,12 @@ class Camera:
         robots = len(roster.names)
         self._blur = np.empty((robots, 1 + bodies), dtype=complex)
         self._blur_parts = np.moveaxis(self._blur.view(float).reshape(robots, 1 + bodies, 2), 2, 0)
-        self._bodies = np.empty((robots, bodies, PER_OBSTACLE))
+        self._bodies = np.empty((robots, bodies, _PER_OBSTACLE))
         self._bodies[..., 2] = self._hulls.reach
         self._first_body = bodies * self._rows
 
     def take_picture(self, snapshot: Snapshot, robots: RobotMotions, frames: TeamFrames) -> Picture:
-        """A picture, in a tick in which one is taken."""
+        """Take a picture, in a tick in which one is due."""
         if snapshot.obstacles != self._obstacles:
             self._prepare(snapshot.obstacles)
         number, ball = self._shutter.number(snapshot.tick), snapshot.ball
@@ -132,7 +129,7 @@ class Camera:
         )
 
     def _blur_by(self, distance: Floats, draws: Floats) -> None:
-        """The noise along the line of sight and across it, as a share of the way from the eye: along + i·across."""
+        """Set the noise along and across the line of sight, as a share of the distance: along + i·across."""
         share = self._growth * distance
         share *= distance
         share += self._near
@@ -143,7 +140,7 @@ class Camera:
     def _ball(
         self, ball: BallState, place: Vectors, distance: Floats, turn: Vectors, draws: Floats
     ) -> list[list[float]]:
-        """The ball of each robot that sees it at this place: with its height and velocity, and their noise."""
+        """The ball as each robot sees it: its place, its height and velocity with their noise."""
         sigma = self._ball_growth * distance
         sigma *= sigma
         sigma += self._ball_velocity
@@ -155,30 +152,36 @@ class Camera:
         np.multiply(draws[1:], sigma, out=seen[3:])
         seen[3] += velocity.real
         seen[4] += velocity.imag
-        numbers: list[list[float]] = seen.T.tolist()
+        numbers: list[list[float]] = seen.T.round(DIGITS).tolist()
         return numbers
 
-    def _nearest_first(self, away: Floats, places: Vectors, found: Flags) -> list[list[float]]:
-        """The bodies that were found, in the order of their distance: it tells nobody's name."""
+    def _nearest_first(self, away: Floats, places: Vectors, found: Flags) -> list[list[Obstacle]]:
+        """The bodies that were found, in the order of their distance, which does not reveal their names."""
         order = away.argsort(axis=1, kind="stable")
         order += self._first_body
         numbers = self._bodies
         numbers[..., 0], numbers[..., 1] = places.real, places.imag
-        rows = numbers.reshape(-1, PER_OBSTACLE).take(order, axis=0).reshape(len(away), -1).tolist()
-        return [row[: PER_OBSTACLE * them.count(True)] for row, them in zip(rows, found.tolist(), strict=True)]
+        rows = numbers.reshape(-1, _PER_OBSTACLE).take(order, axis=0).round(DIGITS).tolist()
+        return [
+            [Obstacle(x=x, y=y, radius=radius) for x, y, radius in row[:count]]
+            for row, count in zip(rows, found.sum(axis=1).tolist(), strict=True)
+        ]
 
     def _ticks(self, numbers: range) -> list[int]:
         return [self._shutter.tick_of(number) for number in numbers]
 
     def _draw(self, numbers: range) -> list[tuple[Floats, Flags]]:
-        """Per picture: noise along and across the line of sight, (2, robots, things), and what luck lets be noticed."""
+        """Per picture: noise along and across the line of sight, (2, robots, things), and which things are detected."""
         drawn = self._streams.pairwise_uniforms(StreamId.SEEN, self._roster.names, self._names, self._ticks(numbers))
         noise = normal_pairs(drawn[..., :2]) * (drawn[..., 3:] < self._sensing.noise_rate)
         is_detected = (drawn[..., 2] >= self._dropout) & self._is_other
         return list(zip(np.ascontiguousarray(np.moveaxis(noise, -1, 1)), is_detected, strict=True))
 
     def _draw_ball(self, numbers: range) -> list[Floats]:
-        """Per picture: noise of the ball's height in m, of vx and vy as drawn, noisy when its place is; (3, robots)."""
+        """Per picture, (3, robots): noise of the ball's height in m, and of vx and vy in units of their deviation.
+
+        The ball has noise in these whenever it has noise in its place.
+        """
         ticks, s = self._ticks(numbers), self._streams
         robots = self._roster.names
         is_noisy = s.pairwise_uniforms(StreamId.SEEN, robots, (BALL,), ticks)[:, :, 0, 3:] < self._sensing.noise_rate

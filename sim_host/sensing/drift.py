@@ -1,8 +1,8 @@
-"""Drift: how far a robot's idea of where the team frame lies is from the truth, and wanders.
+"""Drift: the wandering error of a robot's estimate of its team frame.
 
-There is no state in it. At every multiple of the drift time stands a knot, a draw of its own; between two knots the
-drift goes from one to the other with weights cos and sin of a quarter turn, whose squares sum to 1: the drift has the
-same standard deviation at all times.
+Drift has no state. There is a knot, an independent draw, at every multiple of the drift time. Between two knots the
+drift is their sum with weights cos and sin of a quarter turn, whose squares sum to 1, so that it has the same standard
+deviation at all times.
 """
 
 import numpy as np
@@ -16,7 +16,7 @@ _PARTS = 3
 
 
 class Drift:
-    """That of all robots of a match."""
+    """The drift of all robots of a match."""
 
     def __init__(self, sensing: Sensing, roster: Roster, streams: RandomStreams, tick: float) -> None:
         self._names = roster.names
@@ -25,14 +25,14 @@ class Drift:
         self._ticks = sensing.drift_time / tick
 
     def frames(self, ticks: range, sign: Vectors) -> list[TeamFrames]:
-        """Where each robot believes its team frame to lie at each of these ticks; `sign` is that of the frames."""
+        """The believed team frames of all robots at each of these ticks; `sign` is that of `TeamFrames`."""
         drift = self._drift(ticks)
         shift, turn = drift[:, 0], sign * drift[:, 1]
         angle = np.arctan2(turn.imag, turn.real)
         return [TeamFrames(sign, *arrays) for arrays in zip(shift, turn, angle, strict=True)]
 
     def _drift(self, ticks: range) -> Vectors:
-        """In the team frame of each robot: x + iy in m, and the turn of heading θ as e^iθ; shape (ticks, 2, robots)."""
+        """In the team frame of each robot: x + iy in m, and the turn by θ as e^iθ; shape (ticks, 2, robots)."""
         way = np.array(ticks) / self._ticks
         before = way.astype(int)
         first, last = int(before[0]), int(before[-1]) + 1

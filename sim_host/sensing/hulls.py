@@ -1,4 +1,4 @@
-"""What stands on the pitch as cameras see it from above: robots and obstacles, round and square, and what they hide."""
+"""The hulls of robots and obstacles, seen from above as circles and boxes, and the things that they hide."""
 
 from bisect import bisect_left
 from collections.abc import Sequence
@@ -30,7 +30,7 @@ class Hulls:
         self._lay_out_heights(len(robots))
 
     def _lay_out_boxes(self, models: Sequence[RobotModel], obstacles: Sequence[ObstacleState]) -> None:
-        """Frames of robots, and square obstacles: whose they are, how far before its middle, half depth and width."""
+        """Boxes of frames and square obstacles: owner, distance ahead of the owner's centre, half depth and width."""
         boxes = [
             (place, model.body.radius - model.body.frame_depth / 2, model.body.frame_depth, model.body.frame_width)
             for place, model in enumerate(models)
@@ -45,7 +45,7 @@ class Hulls:
         self._owner, self._ahead, self._halves = numbers[0].astype(int), numbers[1], numbers[2:] / 2.0
 
     def _lay_out_heights(self, eyes: int) -> None:
-        """Hull × eye × thing: whether it is another's hull, and high enough to hide the thing."""
+        """Hull × eye × thing: whether the hull is not the eye's own, and high enough to hide the thing."""
         bodies = np.arange(len(self._height))
         self._is_others = bodies[:, None] != np.arange(eyes)
         is_tall = np.concatenate((self._height[:, None] > 0.0, self._height[:, None] >= self._height), axis=1)
@@ -53,26 +53,26 @@ class Hulls:
         self._may_hide = is_tall[:, None, :] & self._is_others[:, :, None]
         self._sorted_heights: list[float] = sorted(self._height.tolist())
         self._lower: int | None = None
-        """How many hulls are lower than the ball, which hides behind none of these; nothing before the first look."""
+        """Number of hulls that are lower than the ball, and cannot hide it; None before the first picture."""
 
     def _update_ball_height(self, height: float) -> None:
-        """Take in which hulls are high enough to hide a ball at this height: most of the time those of before."""
+        """Update which hulls are high enough to hide a ball at this height; they rarely change."""
         lower = bisect_left(self._sorted_heights, height)
         if lower != self._lower:
             self._lower = lower
             self._may_hide[:, :, 0] = (self._height >= height)[:, None] & self._is_others
 
     def places(self, ball: complex, robots: Vectors) -> Vectors:
-        """Where all things are, m, ball and robots being there; holds until the next call."""
+        """The places of all things, m, for these places of ball and robots; valid until the next call."""
         places = self._places
         places[0], places[1 : 1 + len(robots)] = ball, robots
         return places
 
     def hidden(self, places: Vectors, distance: Floats, headings: Floats, ball_height: float) -> Flags:
-        """Whether a hull stands before a thing and is as high, shape (robots, things).
+        """Whether a hull hides a thing from a robot, shape (robots, things).
 
         `places` of the things as seen from each robot, m, shape (robots, things), and their `distance`. A thing is
-        hidden when the line to its middle passes through a hull that does not stand farther away.
+        hidden when the line to its centre passes through a hull that is at least as high and not farther away.
         """
         self._update_ball_height(ball_height)
         hides = through_circles(places, distance, places[:, 1:], self._radius)

@@ -1,19 +1,20 @@
-"""How a robot perceives its own pose and twist: at once, with noise, and where it believes the team frame to lie."""
+"""A robot's percept of its own pose and twist: without delay, with noise, in the believed team frame."""
 
 import numpy as np
 
 from schemas.config.sections import Sensing
+from sim_host.sensing.digits import DIGITS
 from sim_host.sensing.random_streams import BatchedDraws, Floats, RandomStreams, StreamId
 from sim_host.sensing.team_frames import TeamFrames
 from sim_host.snapshot import RobotMotions, Roster
 
 _PARTS = 6
 _PI, _TAU = np.array(np.pi), np.array(2.0 * np.pi)
-"""Arrays, which numpy need not make of them first."""
+"""As arrays, which saves numpy a conversion in every call."""
 
 
 class OwnMotion:
-    """That of all robots of a match."""
+    """The own motion of all robots of a match, as they perceive it."""
 
     def __init__(self, sensing: Sensing, roster: Roster, streams: RandomStreams) -> None:
         s = sensing
@@ -35,11 +36,11 @@ class OwnMotion:
         self._heading[...], self._omega[...] = robots.heading, robots.omega
         seen += self._noise.at(tick)
         _rotate(self._heading, frames.angle)
-        numbers: list[list[float]] = seen.tolist()
+        numbers: list[list[float]] = seen.round(DIGITS).tolist()
         return numbers
 
     def _draw(self, ticks: range) -> list[Floats]:
-        """The noise of each of these ticks, shape (robots, 6); a reading that has none is 0 throughout."""
+        """The noise of each of these ticks, shape (robots, 6); all 0 for a reading without noise."""
         noise: Floats = self._streams.normals(StreamId.OWN, self._names, ticks, _PARTS) * self._sigma
         if self._rate < 1.0:
             noise *= self._streams.uniforms(StreamId.OWN_LUCK, self._names, ticks, 1) < self._rate
@@ -47,7 +48,7 @@ class OwnMotion:
 
 
 def _rotate(directions: Floats, angle: Floats) -> None:
-    """Turn directions by an angle, in place; they lie in (−π, π] then."""
+    """Turn directions by an angle, in place; the results are in (−π, π]."""
     directions += angle
     np.subtract(_PI, directions, out=directions)
     directions %= _TAU

@@ -1,8 +1,8 @@
-"""What each robot perceives of the truth, in its team frame; never touches the truth.
+"""The percepts of all robots, in their team frames; reads the true state and never changes it.
 
-Its own motion it perceives in every tick, the ball and the obstacles in the pictures of its camera, which come late and
-not in every tick. All of it lies in the team frame as the robot believes it to lie: drift moves and turns everything
-that a robot perceives about itself, so that what is near stays where it is from the robot's own point of view.
+A robot perceives its own motion in every tick. It sees the ball and the obstacles in the pictures of its camera, which
+arrive late and not in every tick. All percepts are in the team frame as the robot believes it to lie: drift moves and
+turns the whole frame, so that bodies keep their places relative to the robot.
 """
 
 from collections import deque
@@ -12,7 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from schemas.config.sections import Sensing
+from schemas.messages.sight import Obstacle
 from sim_host.sensing.camera import Camera, Picture, rotated_ball
+from sim_host.sensing.digits import DIGITS
 from sim_host.sensing.drift import Drift
 from sim_host.sensing.own_motion import OwnMotion
 from sim_host.sensing.random_streams import BatchedDraws, RandomStreams
@@ -27,15 +29,15 @@ class Percept(NamedTuple):
     own: list[float]
     """x, y, heading, vx, vy, omega: m, rad, m/s, rad/s."""
     ball: list[float] | None
-    """x, y, z, vx, vy, in m and m/s, as seen last; nothing when it was never seen."""
+    """x, y, z, vx, vy, in m and m/s, as last seen; None if the robot has never seen the ball."""
     ball_age: float
-    """s since the picture that the ball was seen in."""
+    """s since the picture in which the ball was last seen."""
     visible: bool
     """The ball is in the newest picture."""
-    obstacles: list[float]
-    """x, y, radius in m of each obstacle, the nearest first."""
+    obstacles: list[Obstacle]
+    """The nearest first; the same list in every tick until the next picture."""
     obstacles_age: float
-    """s since the picture that they were seen in."""
+    """s since the picture that shows them."""
 
 
 class LastSeen(NamedTuple):
@@ -46,7 +48,7 @@ class LastSeen(NamedTuple):
 
 
 class Perception:
-    """The sensors of all robots of a match, all robots at once."""
+    """The sensors of all robots of a match, computed for all robots at once."""
 
     def __init__(self, sensing: Sensing, roster: Roster, streams: RandomStreams, tick: float) -> None:
         self._roster = roster
@@ -54,15 +56,15 @@ class Perception:
         self._tick_s = tick
         self._cyan_attacks: int | None = None
         self._under_way: deque[Picture] = deque()
-        """Pictures that were taken and are not known yet."""
+        """Pictures that were taken and are not available to the robots yet."""
         self._undeveloped: tuple[Snapshot, RobotMotions, TeamFrames] | None = None
-        """What the newest picture shows, while it is not developed."""
+        """The input of the newest picture until it is developed."""
         self._known = Picture.nothing(len(roster.names))
         self._balls: list[LastSeen | None] = [None] * len(roster.names)
         self.change(sensing)
 
     def change(self, sensing: Sensing) -> None:
-        """Other sensors from the next tick on; what was seen before stays known."""
+        """Use other sensors from the next tick on; earlier percepts are kept."""
         self.develop()
         roster, streams = self._roster, self._streams
         self._shutter = Shutter.of(sensing, self._tick_s)
@@ -77,7 +79,7 @@ class Perception:
         self._camera = Camera(sensing, roster, streams, self._shutter)
 
     def with_roster(self, sensing: Sensing, roster: Roster) -> "Perception":
-        """For other robots: who stays on its side has seen what it saw."""
+        """The sensors of another roster; robots that remain on their side keep their percepts."""
         self.develop()
         successor, before = Perception(sensing, roster, self._streams, self._tick_s), self._roster
         places = [
@@ -91,7 +93,7 @@ class Perception:
         return successor
 
     def at(self, snapshot: Snapshot, cyan_attacks: int) -> list[Percept]:
-        """Everyone's percept, in the order of the roster; to be asked for once in every tick, in order."""
+        """The percepts of all robots, in the order of the roster; call once in every tick, in order."""
         self.develop()
         if cyan_attacks != self._cyan_attacks:
             self._change_sides()
@@ -105,31 +107,35 @@ class Perception:
         while self._under_way and self._under_way[0].tick <= tick - self._shutter.latency:
             self._receive(self._under_way.popleft())
         own = self._own.at(tick, robots, frames)
-        known, tick_s = self._known, self._tick_s
-        age = (tick - known.tick) * tick_s
+        known = self._known
+        age = self._age(known.tick, tick)
         return [
             Percept(me, None, 0.0, False, obstacles, age)
             if ball is None
-            else Percept(me, ball.place, (tick - ball.tick) * tick_s, ball.tick == known.tick, obstacles, age)
+            else Percept(me, ball.place, self._age(ball.tick, tick), ball.tick == known.tick, obstacles, age)
             for me, ball, obstacles in zip(own, self._balls, known.obstacles, strict=True)
         ]
 
+    def _age(self, since: int, now: int) -> float:
+        """s between two ticks."""
+        return round((now - since) * self._tick_s, DIGITS)
+
     def develop(self) -> None:
-        """Work out a picture that was taken and is not known before a later tick; robots can think meanwhile."""
+        """Compute a picture that was taken and is not needed before a later tick; robots can think meanwhile."""
         if self._undeveloped is not None:
             snapshot, robots, frames = self._undeveloped
             self._undeveloped = None
             self._under_way.append(self._camera.take_picture(snapshot, robots, frames))
 
     def _receive(self, picture: Picture) -> None:
-        """A picture becomes known."""
+        """Make a picture available to the robots."""
         self._known = picture
         for place, found in enumerate(picture.found):
             if found:
                 self._balls[place] = LastSeen(picture.tick, picture.ball[place])
 
     def _change_sides(self) -> None:
-        """Team frames have turned: what was seen before lies on their other side now."""
+        """Turn all earlier percepts into the team frames of the other direction of play."""
         self._known = self._known.rotated()
         self._under_way = deque(picture.rotated() for picture in self._under_way)
         self._balls = [None if ball is None else LastSeen(ball.tick, rotated_ball(ball.place)) for ball in self._balls]

@@ -1,7 +1,7 @@
-"""Counter-based random streams: a number depends on (seed, what, robot, tick, index) and on nothing else.
+"""Counter-based random streams: a number depends on (seed, stream, robot, tick, index) alone.
 
 Philox4x32-10 (Salmon, Moraes, Dror and Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11), vectorised.
-There is no state: a draw that is left out shifts no other, any tick can be drawn first, and many at once.
+There is no state: draws do not affect each other, and can be made in any order and many at once.
 """
 
 from collections.abc import Callable, Sequence
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 Words = NDArray[np.uint64]
 Floats = NDArray[np.float64]
 Vectors = NDArray[np.complex128]
-"""Planar vectors, x + iy: turning is multiplying."""
+"""Planar vectors, x + iy, which are turned by multiplication."""
 Draws = TypeVar("Draws")
 
 _M0, _M1 = np.uint64(0xD2511F53), np.uint64(0xCD9E8D57)
@@ -27,10 +27,7 @@ _NORMALS_PER_BLOCK = 4
 
 
 class StreamId(IntEnum):
-    """What a stream is for; the numbers are part of every recording's meaning and never change.
-
-    2, 3 and 4 were the ball, the obstacles and the radio, drawn by place in the roster.
-    """
+    """The use of a stream. The numbers never change, since recorded matches depend on them; 2, 3 and 4 are unused."""
 
     OWN = 1
     DRIFT = 5
@@ -41,10 +38,10 @@ class StreamId(IntEnum):
 
 
 def philox(counter: tuple[Words, Words, Words, Words], key: tuple[int, int]) -> tuple[Words, Words, Words, Words]:
-    """Four 32-bit words of randomness for each counter, whose arrays are broadcast; 32-bit values in 64-bit words.
+    """Four random 32-bit words, in 64-bit integers, for each counter; the arrays of the counters are broadcast.
 
-    Counters that are made of few words each way cost less than as many that are written out: the first rounds mix one
-    axis with the next, and only then is every word another.
+    Counters that are broadcast cost less than the same counters written out: the first rounds work on the small arrays,
+    until every word differs.
     """
     c0, c1, c2, c3 = counter
     k0, k1 = key
@@ -61,19 +58,19 @@ def philox(counter: tuple[Words, Words, Words, Words], key: tuple[int, int]) -> 
 
 
 def _xor(high: Words, word: Words) -> Words:
-    """Both, exclusively or; in place where that is possible: a new array costs as much as what is done to it."""
+    """Exclusive or, in place where the shapes allow it: a new array costs as much as the operation."""
     return np.bitwise_xor(high, word, out=high if high.shape == word.shape else None)
 
 
 BATCH = 256
-"""Draws are made for this many ticks or pictures at a time, where one takes dozens of numbers. The numbers are the
-same, the cost of each is not: with 64 it is half as much again, with more it falls no further."""
+"""Ticks or pictures for which draws are made at a time, where each takes dozens of numbers. The numbers do not depend
+on it, but their cost does: each costs half as much again with 64, and no less with more than 256."""
 SMALL_BATCH = 64
-"""The same where one takes hundreds: more at once cost as much, and all of it in one tick."""
+"""The same where each takes hundreds of numbers: a larger batch costs no less, and all of it falls into one tick."""
 
 
 class BatchedDraws(Generic[Draws]):
-    """Draws of one kind for every tick or picture, made for many at once when the first of them is asked for."""
+    """Draws for every tick or picture, made for a whole batch when the first of it is needed."""
 
     def __init__(self, draw: Callable[[range], Sequence[Draws]], size: int = BATCH) -> None:
         self._draw = draw
@@ -82,7 +79,7 @@ class BatchedDraws(Generic[Draws]):
         self._rows: Sequence[Draws] = ()
 
     def at(self, number: int) -> Draws:
-        """The draws of one, of those that `draw` makes for each."""
+        """The draws for one tick or picture."""
         batch, row = divmod(number, self._size)
         if batch != self._batch:
             self._rows = self._draw(range(batch * self._size, (batch + 1) * self._size))
@@ -91,7 +88,7 @@ class BatchedDraws(Generic[Draws]):
 
 
 class RandomStreams:
-    """All randomness of a match."""
+    """All random numbers of a match."""
 
     def __init__(self, seed: int) -> None:
         self._key = (seed & 0xFFFFFFFF, seed >> 32 & 0xFFFFFFFF)
@@ -127,7 +124,7 @@ class RandomStreams:
 
 
 def normal_pairs(uniform: Floats) -> Floats:
-    """Standard normal numbers from as many uniform ones in (0, 1), two by two on the last axis (Box and Muller)."""
+    """Standard normal numbers from uniform numbers in (0, 1), in pairs on the last axis (Box–Muller transform)."""
     radius = np.sqrt(-2.0 * np.log(uniform[..., 0]))
     angle = 2.0 * np.pi * uniform[..., 1]
     pairs = np.empty(uniform.shape)

@@ -1,4 +1,4 @@
-"""When a camera takes pictures, and which of them is known at a tick."""
+"""The ticks at which cameras take pictures, and the latency of the pictures."""
 
 from dataclasses import dataclass
 from fractions import Fraction
@@ -6,12 +6,12 @@ from fractions import Fraction
 from schemas.config.sections import Sensing
 
 _FINEST = 1_000_000
-"""Pictures in a tick are a fraction with no larger a denominator: 0.1 + 0.2 ticks are three tenths again."""
+"""Largest denominator of the pictures in a tick as a fraction, so that a rounded 0.1 + 0.2 is three tenths again."""
 
 
 @dataclass(frozen=True, slots=True)
 class Shutter:
-    """Pictures are numbered from 0, taken at tick 0; all cameras of a match take theirs in the same ticks."""
+    """Pictures are numbered from 0, taken at tick 0; all cameras of a match take pictures in the same ticks."""
 
     pictures: int
     ticks: int
@@ -21,7 +21,7 @@ class Shutter:
 
     @classmethod
     def of(cls, sensing: Sensing, tick: float) -> "Shutter":
-        """That of a match whose control tick is `tick` s."""
+        """The shutter of a match whose control tick is `tick` s."""
         each = min(Fraction(1), Fraction(sensing.camera_rate * tick).limit_denominator(_FINEST))
         return cls(each.numerator, each.denominator, round(sensing.latency / tick))
 
@@ -30,7 +30,7 @@ class Shutter:
         return tick * self.pictures // self.ticks
 
     def tick_of(self, number: int) -> int:
-        """When a picture is taken."""
+        """The tick at which a picture is taken."""
         return -(-number * self.ticks // self.pictures)
 
     def takes(self, tick: int) -> bool:

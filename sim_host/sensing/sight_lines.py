@@ -1,4 +1,4 @@
-"""What stands in a line of sight: segments in the plane, from every eye to every thing, against hulls seen from above.
+"""Intersections of lines of sight, from every eye to every thing, with hulls seen from above.
 
 Arrays are (hulls, eyes, things). All places are relative to the eye, x + iy in m.
 """
@@ -13,11 +13,11 @@ Flags = NDArray[np.bool_]
 _EYE = np.array(0.0)
 """m; along a line."""
 _LEAST = 1e-9
-"""m; a line that is more nearly parallel to the side of a box is taken to lean by as much."""
+"""m; the smallest component of a line along a side of a box, to avoid a division by zero."""
 
 
 def through_circles(places: Vectors, distance: Floats, centres: Vectors, radius: Floats) -> Flags:
-    """Which lines pass through which circles that stand before the thing, beyond the eye.
+    """Which lines pass through which circles between the eye and the thing.
 
     `places` of the things, shape (eyes, things), with their `distance`; `centres`, shape (eyes, hulls).
     """
@@ -25,7 +25,7 @@ def through_circles(places: Vectors, distance: Floats, centres: Vectors, radius:
     line = centres.T.repeat(things, axis=1)
     np.conjugate(line, out=line)
     line *= places.reshape(-1)
-    along, beside = line.real, line.imag  # of the circle's middle, times the length of the line
+    along, beside = line.real, line.imag  # of the circle's centre, times the length of the line
     flat = distance.reshape(-1)
     hides: Flags = along > _EYE
     hides &= along < flat * flat

@@ -1,4 +1,4 @@
-"""Where each robot believes its team frame to lie."""
+"""The team frame of each robot as the robot believes it to lie."""
 
 from typing import NamedTuple
 
@@ -6,16 +6,16 @@ from sim_host.sensing.random_streams import Floats, Vectors
 
 
 class TeamFrames(NamedTuple):
-    """The team frame of each robot as that robot believes it to lie: a place of the field is `sign · place + shift`.
+    """The believed team frames: a robot at a place in the field frame believes itself at `sign · place + shift`.
 
-    Things near a robot lie about its own place as they do in truth, turned by `turn` with everything else.
+    Vectors from the robot to other things are true, but turned by `turn`.
     """
 
     sign: Vectors
-    """1, or −1 for who attacks −x; complex as what it is multiplied with."""
+    """1, or −1 for robots that attack −x; complex, as the numbers that it is multiplied with."""
     shift: Vectors
     """m."""
     turn: Vectors
-    """Of unit length; turns what is seen of the field into the frame."""
+    """Of unit length; turns vectors of the field into the frame."""
     angle: Floats
-    """rad; by which `turn` turns."""
+    """rad; the angle of `turn`."""

@@ -1,4 +1,4 @@
-"""Tells each coach which robots have taken in the order that stands."""
+"""Publishes the active order of each side, with the robots that have acknowledged it."""
 
 from collections.abc import Mapping
 
@@ -6,15 +6,15 @@ from schemas.bus.batch_publisher import BatchPublisher
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER
-from sim_host.server.inbox import AgentStats
+from sim_host.server.agent_stats import AgentStats
 from sim_host.snapshot import Roster
 
 _PERIOD_S = 1.0
-"""Simulated time after which what has not changed is said again, for a coach who has come meanwhile."""
+"""Simulated time after which an unchanged order is published again, for coaches that have connected since."""
 
 
 class ActiveOrderPublisher:
-    """The active order of each side as it is published."""
+    """Publishes the active orders when they or their acknowledgements change."""
 
     def __init__(
         self,
@@ -23,7 +23,7 @@ class ActiveOrderPublisher:
         agent_stats: Mapping[str, AgentStats],
         tick_s: float,
     ) -> None:
-        """`orders` are those that stand, kept up to date by somebody else, as the `agent_stats` are."""
+        """`orders` and `agent_stats` are live: the caller keeps both up to date."""
         self._orders = orders
         self._agent_stats = agent_stats
         self._writers = {side: batches.publisher(ACTIVE_ORDER, side=side.value) for side in Side}
@@ -31,7 +31,7 @@ class ActiveOrderPublisher:
         self._published: dict[Side, tuple[int, dict[str, bool]]] = {}
 
     def publish(self, tick: int, time: float, roster: Roster) -> None:
-        """Say what has changed, and once a second what has not; nothing of a side that no order was given."""
+        """Publish what has changed, and once a second what has not. A side without an order has nothing to publish."""
         for side, order in self._orders.items():
             acknowledged = {
                 name: self._agent_stats[name].acknowledged == order.sequence

@@ -1,4 +1,4 @@
-"""How the host is doing, measured against wall time."""
+"""Health of the host: its speed and tick times in wall time."""
 
 from collections import deque
 
@@ -25,7 +25,7 @@ class HealthReporter:
         self._next = 0.0
 
     def end_tick(self, time: float) -> bool:
-        """A tick has ended at this simulated time, s; whether a report is due."""
+        """Record the end of a tick at this simulated time in s; returns whether a report is due."""
         now = self._clock.now()
         self._worst.append((now, now - self._last_tick))
         self._last_tick = now
@@ -40,7 +40,7 @@ class HealthReporter:
         return True
 
     def report(self, tick: int, time: float, late: int, inbox: Inbox, presence: PresenceTracker) -> Health:
-        """The report that is due."""
+        """The report on the last second; `late` counts ticks that began late."""
         (began, then), (now, until) = self._marks[0], self._marks[-1]
         return Health(
             tick=tick,

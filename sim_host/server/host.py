@@ -1,12 +1,13 @@
-"""The host of one match: the simulation on the bus, tick by tick, at its pace."""
+"""The host of one match: steps the simulation on the bus, tick by tick, at the pace of the match."""
 
 from collections.abc import Callable
 
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus
+from schemas.bus.contract import HEARTBEAT_S, Bus, PresenceKind
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.game import EventKind, GameEvent
+from schemas.recovery_window import PARTING_S
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.server.active_order_publisher import ActiveOrderPublisher
 from sim_host.server.health_reporter import HealthReporter
@@ -18,20 +19,18 @@ from sim_host.server.pace import Lockstep, Pace, Realtime
 from sim_host.server.presence_tracker import PresenceTracker
 from sim_host.server.services import Services
 
-_FULL_TIME_GRACE_S = 0.75
+_FULL_TIME_GRACE_S = 1.5 * HEARTBEAT_S
 """Wall time that the host stays after full time for those who watch: what they missed of the end shows with the bus's
 next heartbeat, half a second after it, and can be fetched again as long as the host is there."""
-_RECORDER_GRACE_S = 5.0
-"""Wall time that the host waits at the end for its recorders to take in the last tick."""
 
 
 class Host:
-    """A match that agents, coaches and recorders meet in."""
+    """Connects a simulation to agents, coaches, recorders and watchers."""
 
     def __init__(self, config: MatchConfig, bus: Bus) -> None:
         self.simulation = Simulation(config)
         self._invalid_log = InvalidLog()
-        self._batches = BatchPublisher(bus)
+        self._batches = BatchPublisher(bus, self._invalid_log.add)
         self.inbox = Inbox(bus, self.simulation.roster, self._invalid_log, self._batches)
         self.presence = PresenceTracker(bus, self.inbox.agent_stats, config.patience.recorder)
         self._manual = ManualControl(bus, self._invalid_log)
@@ -40,7 +39,7 @@ class Host:
         self._services = Services(bus, self.simulation, self._invalid_log, self._batches, self.presence.has_referee_box)
         self.pace = _pace(config, bus, self.inbox, self.presence, self._while_waiting, self.simulation.profile)
         tick_s = self.simulation.profile.time.tick
-        self._outbox = Outbox(self._batches, self.simulation.roster, tick_s, sights_kept=config.record.sights)
+        self._outbox = Outbox(self._batches, self.simulation.roster, tick_s)
         self._active_orders = ActiveOrderPublisher(
             self._batches, self.simulation.orders, self.inbox.agent_stats, tick_s
         )
@@ -48,12 +47,12 @@ class Host:
         self._roster = self.simulation.roster
         self._silent = dict.fromkeys(self._roster.names, False)
         self.stopping = False
-        """Somebody has told the host to end the match."""
+        """The host was asked to end the match."""
         self._set_sim_time(0)
-        bus.declare_alive("host", "host")
+        bus.declare_alive(PresenceKind.HOST, "host")
 
     def run(self) -> None:
-        """Play the match to its end, or until somebody tells the host to leave."""
+        """Play the match to its end, or until `stop` is called."""
         self.wait_for_all()
         self.begin()
         while not (self.simulation.over or self.stopping):
@@ -61,12 +60,12 @@ class Host:
         self.wait_for_recorders()
 
     def stop(self) -> None:
-        """End the match soon, but no tick in its middle: what was recorded of the last one is whole."""
+        """End the match after the tick that is under way, so that the recording of its last tick is complete."""
         self.stopping = True
         self.pace.stop_waiting()
 
     def wait_for_all(self) -> None:
-        """Wait until every robot has an agent, as long as patience lasts; a referee action ends the waiting too."""
+        """Wait until every robot has an agent, until patience runs out, or until a referee action is requested."""
         deadline = self._clock.now() + self._config.patience.attendance
         while not self.presence.all_present(self._config.record.wait) and self._clock.now() < deadline:
             if self.stopping:
@@ -79,7 +78,8 @@ class Host:
                 return
 
     def begin(self) -> None:
-        """Tell everyone of tick 0."""
+        """Publish tick 0."""
+        self._look_for_sight_recorders()
         first = self.simulation.now
         for robot, sight in first.sights.items():
             self._send_sight(robot, sight)
@@ -88,10 +88,11 @@ class Host:
         self.pace.begin()
 
     def tick(self) -> TickResult:
-        """One tick: hear the robots, move the world, tell everyone."""
+        """One tick: collect commands, step the simulation, publish the result."""
         commands = self.pace.gather(self.simulation.now.tick, self._outbox.resend_sight)
         self.presence.update()
         self._process_requests()
+        self._look_for_sight_recorders()
         self._set_sim_time(self.simulation.now.tick + 1)
         commands = self._manual.override(self.simulation.now.tick, self._roster.names, commands)
         silent = {name for name, is_silent in self._silent.items() if is_silent and name not in commands}
@@ -105,10 +106,10 @@ class Host:
         return tick
 
     def wait_for_recorders(self) -> None:
-        """Give the recorders time to take in the last tick, and after full time those who watch to hear of it."""
+        """Give the recorders time to write the last tick, and after full time the watchers time to receive it."""
         last = self.simulation.now.tick
         self._batches.send()
-        deadline = self._clock.now() + _RECORDER_GRACE_S
+        deadline = self._clock.now() + PARTING_S
         while self._clock.now() < deadline:
             self.presence.update(timeout=0.005)
             self._services.process()
@@ -120,14 +121,14 @@ class Host:
             self._linger(self._clock.now() + _FULL_TIME_GRACE_S)
 
     def _linger(self, until: float) -> None:
-        """Answer that the match is over until this wall time, or until somebody tells the host to leave."""
+        """Refuse requests, since the match is over, until this wall time or until `stop` is called."""
         while self._clock.now() < until and not self.stopping:
             self._clock.sleep_until(min(until, self._clock.now() + 0.05))
             self._services.process()
             self._services.refuse("the match is over")
 
     def _process_requests(self) -> None:
-        """Answer who asks, and follow an operator who lets other robots take part."""
+        """Process requests, and apply a roster that an operator has changed."""
         self._services.process()
         roster = self.simulation.roster
         if (roster.names, roster.sides, roster.still) != (self._roster.names, self._roster.sides, self._roster.still):
@@ -138,26 +139,30 @@ class Host:
         self._roster = roster
 
     def _while_waiting(self) -> None:
-        """While answers are missing: whoever joins must know the match, and what was said must not wait as long."""
-        self._services.answer_setup()
+        """While robots or recorders are waited for: what was published must not wait as long to be recorded."""
+        self._services.attend_meanwhile()
         self._batches.send_if_due()
 
     def _send_sight(self, robot: str, sight: bytes) -> None:
-        """Sights go out before anything else: robots wait for them, watchers do not."""
+        """Send a sight, before any other message of its tick: robots wait for sights, watchers do not."""
         if robot == self.simulation.roster.names[0]:
             self.inbox.sights_sent(self.simulation.world.tick, self._clock.unix_ns())
         self._outbox.publish_sight(robot, sight)
 
+    def _look_for_sight_recorders(self) -> None:
+        """Sights are recorded if the match file says so, or while a recorder asks for them."""
+        self._outbox.sights_recorded = self._config.record.sights or self.presence.wants_sights
+
     def _set_sim_time(self, tick: int) -> None:
-        """What is sent from now on belongs to this tick."""
+        """Messages that are sent from now on belong to this tick."""
         self._clock.sim_ns = round(tick * self.simulation.profile.time.tick * 1e9)
 
     def _update_stats(self, tick: TickResult) -> None:
-        """Note what was refused, and say when a robot falls silent or is heard again."""
+        """Count refusals; publish an event when an agent falls silent or answers, and when manual control changes."""
         for name, count in tick.refused.items():
             self.inbox.agent_stats[name].refused += count
         for name, driven in self._manual.changes():
-            text = f"{name} is driven by hand" if driven else f"{name} is given back to its brain"
+            text = f"{name} is under manual control" if driven else f"{name} is given back to its brain"
             self._publish_agent_event(tick, name, "hand", text)
         for name, was_silent in self._silent.items():
             stats = self.inbox.agent_stats[name]
@@ -168,7 +173,7 @@ class Host:
             if silent == was_silent:
                 continue
             self._silent[name] = silent
-            text = f"{name} does not answer, its robot rests" if silent else f"{name} answers"
+            text = f"{name} does not answer, its robot stops" if silent else f"{name} answers"
             self._publish_agent_event(tick, name, "attendance", text)
 
     def _publish_agent_event(self, tick: TickResult, name: str, rule: str, text: str) -> None:
@@ -188,7 +193,7 @@ class Host:
         )
 
     def _report(self, tick: TickResult) -> None:
-        """Say how the host is doing, when it is time to, and of one invalid payload at most: a flood is not echoed."""
+        """Publish the host's health when a report is due, and at most one invalid payload: a flood is not echoed."""
         invalid = self._invalid_log.pop(tick.tick, tick.time)
         if invalid is not None:
             self._outbox.publish_invalid(invalid)

@@ -1,94 +1,26 @@
-"""What robots say to the host: commands are taken in, checked and counted; nothing they send can stop the host."""
+"""Receives, validates and counts the robots' commands; nothing that a robot sends can stop the host."""
 
 from collections import deque
 from collections.abc import Container
-from dataclasses import dataclass, field
 from itertools import chain, repeat
-from statistics import median
 
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, ReceivedMessage
 from schemas.message import BadMessageError
 from schemas.messages.command import Command
-from schemas.messages.host import RobotHealth
 from schemas.topics import COMMAND
+from sim_host.server.agent_stats import LATENCY_SAMPLES, AgentStats
 from sim_host.server.invalid_log import InvalidLog
 from sim_host.snapshot import Roster
 
-SILENT_TICKS = 3
-"""A robot that missed this many ticks in a row is not waited for until it is heard again."""
 _MAX_STRANGERS = 100
-"""Keys of strangers that are counted by name; a flood of invented names must not fill the memory."""
+"""Keys of unknown robots that are counted one by one; a flood of invented names must not fill the memory."""
 _MAX_INVALID_IN_A_ROW = 1000
-"""Useless messages taken in before the host goes on with its work: a flood must not hold it."""
-_LATENCY_SAMPLES = 50
-"""Answers that the median latency is taken over: one second of ticks."""
-
-
-@dataclass(slots=True)
-class AgentStats:
-    """The account of one robot's agent: what it answered, missed, sent twice or wrongly."""
-
-    alive: bool = False
-    answering: bool = False
-    answers: int = 0
-    missed: int = 0
-    duplicates: int = 0
-    invalid: int = 0
-    refused: int = 0
-    silent: int = 0
-    """Ticks missed in a row."""
-    removed: bool = False
-    """Its robot was taken off the pitch."""
-    still: bool = False
-    """Its robot stands still, whatever it says."""
-    newest: int = -1
-    """Tick of the newest sight it has answered."""
-    acknowledged: int | None = None
-    """Number of the coach's order that its newest command acknowledges."""
-    latencies: deque[float] = field(default_factory=lambda: deque(maxlen=_LATENCY_SAMPLES))
-
-    @property
-    def is_silent(self) -> bool:
-        """Not worth waiting for: idle, gone, or without an answer to several ticks."""
-        return self.idle or not self.alive or self.silent >= SILENT_TICKS
-
-    @property
-    def idle(self) -> bool:
-        """There is nothing for it to do."""
-        return self.removed or self.still
-
-    def end_tick(self, answered: bool) -> None:
-        """A tick went by, with its answer or without."""
-        self.answering = answered
-        if answered:
-            self.silent = 0
-        elif not self.idle:
-            self.missed += 1
-            self.silent += 1
-
-    def mark_received(self) -> None:
-        """Something valid came from it, be it too late: one that was given up gets another tick of waiting."""
-        self.silent = min(self.silent, SILENT_TICKS - 1)
-
-    def health(self) -> RobotHealth:
-        """The account as it is published."""
-        return RobotHealth(
-            alive=self.alive,
-            answering=self.answering,
-            answers=self.answers,
-            missed=self.missed,
-            duplicates=self.duplicates,
-            invalid=self.invalid,
-            refused=self.refused,
-            removed=self.removed,
-            still=self.still,
-            latency_ms=round(median(self.latencies) * 1e3, 3) if self.latencies else None,
-        )
+"""Invalid messages read in one call before the host goes on with its work: a flood must not block it."""
 
 
 class Inbox:
-    """The commands of all robots."""
+    """Receives the commands of all robots."""
 
     def __init__(self, bus: Bus, roster: Roster, invalid_log: InvalidLog, batches: BatchPublisher) -> None:
         """`batches` gets everything that comes, for the record."""
@@ -97,11 +29,11 @@ class Inbox:
         self._batches = batches
         self.agent_stats: dict[str, AgentStats] = {}
         self.strangers: dict[str, int] = {}
-        self._sent_at: deque[tuple[int, int]] = deque(maxlen=_LATENCY_SAMPLES)
+        self._sent_at: deque[tuple[int, int]] = deque(maxlen=LATENCY_SAMPLES)
         self.set_roster(roster)
 
     def set_roster(self, roster: Roster) -> None:
-        """Hear these robots from now on; the accounts of those that were removed are kept."""
+        """Receive from these robots from now on; the statistics of removed robots are kept."""
         for name, stats in self.agent_stats.items():
             stats.removed = name not in roster.names
         for name in roster.names:
@@ -110,13 +42,13 @@ class Inbox:
             stats.silent = 0
 
     def sights_sent(self, tick: int, unix_ns: int) -> None:
-        """Remember when the sights of a tick went out, for the latency of their answers."""
+        """Note when the sights of a tick were sent, to measure the latency of the commands that answer them."""
         self._sent_at.append((tick, unix_ns))
 
     def receive_command(self, tick: int, timeout: float) -> tuple[str, Command] | None:
-        """The next valid command that answers this tick or an earlier one not answered yet; nothing after `timeout` s.
+        """The next valid command that answers this tick, or an earlier one not answered yet; None after `timeout` s.
 
-        Everything else is counted on its sender's account and forgotten.
+        All other messages are counted in the statistics of their sender and dropped.
         """
         for wait in chain((timeout,), repeat(0.0, _MAX_INVALID_IN_A_ROW)):
             received = self._commands.receive(wait)
@@ -129,7 +61,7 @@ class Inbox:
         return None
 
     def end_tick(self, answered: Container[str]) -> None:
-        """A tick went by with the answers of these robots."""
+        """Count a tick that ended with the commands of these robots."""
         for name, stats in self.agent_stats.items():
             stats.end_tick(name in answered)
 
@@ -140,7 +72,7 @@ class Inbox:
             self._count_stranger(received)
             return None
         if stats.removed:
-            return None  # it answers what it saw before it was removed
+            return None  # it answers a sight from before it was removed
         try:
             command = Command.decode(received.payload)
             if command.answers_tick > tick:

@@ -1,25 +1,25 @@
-"""Payloads that were no valid message: kept until they are published, a few at most, so that a flood is not echoed."""
+"""A bounded queue of invalid payloads to be reported: a flood of them is not echoed on the bus."""
 
 from collections import deque
 
 from schemas.messages.host import Invalid
 
 _CAPACITY = 100
-"""Entries that wait to be published; of a flood the newest are kept."""
+"""Entries that wait to be published; the oldest are dropped first."""
 
 
 class InvalidLog:
-    """What was wrong with what came in, oldest first."""
+    """Reasons why received payloads were invalid, oldest first."""
 
     def __init__(self) -> None:
         self._entries: deque[tuple[str, str, int]] = deque(maxlen=_CAPACITY)
 
     def add(self, key: str, reason: str, payload: bytes) -> None:
-        """A payload that was no valid message came on this key."""
+        """Add an invalid payload that was received on this key."""
         self._entries.append((key, reason, len(payload)))
 
     def pop(self, tick: int, time: float) -> Invalid | None:
-        """The oldest entry that has not been published yet, as it is published at this tick."""
+        """Remove the oldest entry; the message that reports it at this tick, or None if there is no entry."""
         if not self._entries:
             return None
         key, reason, size = self._entries.popleft()

@@ -1,4 +1,4 @@
-"""Robots that people drive: their commands replace those of the robots' brains."""
+"""Manual control: the commands of a person replace those of a robot's brain."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -6,12 +6,9 @@ from dataclasses import dataclass
 from schemas.bus.contract import Bus
 from schemas.message import BadMessageError
 from schemas.messages.command import Command, Kick
-from schemas.messages.manual import ManualDrive
+from schemas.messages.manual import TIMEOUT_S, ManualDrive
 from schemas.topics import MANUAL
 from sim_host.server.invalid_log import InvalidLog
-
-TIMEOUT_S = 0.5
-"""Wall time without a word after which a robot is given back."""
 
 
 @dataclass(slots=True)
@@ -20,11 +17,11 @@ class _DrivenRobot:
     received_at: float
     """Wall time."""
     kick: Kick | None
-    """Asked for and not handed on yet."""
+    """Requested, and not yet part of a command."""
 
 
 class ManualControl:
-    """All robots that are driven manually."""
+    """Manual control of all robots."""
 
     def __init__(self, bus: Bus, invalid_log: InvalidLog) -> None:
         self._subscription = bus.subscribe(MANUAL)
@@ -34,9 +31,9 @@ class ManualControl:
         self._reported: dict[str, bool] = {}
 
     def override(self, tick: int, names: tuple[str, ...], commands: Mapping[str, Command]) -> dict[str, Command]:
-        """The commands that answer `tick`, those of driven robots in place of their brains'.
+        """The commands that answer `tick`, with those of manually driven robots in place of their brains'.
 
-        What the brain of a driven robot says on the radio is still said.
+        Radio messages from the brain of a driven robot are still sent.
         """
         self._receive(names)
         overridden = dict(commands)
@@ -53,7 +50,7 @@ class ManualControl:
         return overridden
 
     def changes(self) -> Iterator[tuple[str, bool]]:
-        """Robots that came under manual control or were given back since this was last asked."""
+        """Robots that came under manual control, or were given back, since the last call."""
         for name in sorted({*self._driven, *self._reported}):
             is_driven = name in self._driven
             if is_driven != (name in self._reported):
@@ -61,7 +58,7 @@ class ManualControl:
         self._reported = dict.fromkeys(self._driven, True)
 
     def _receive(self, names: tuple[str, ...]) -> None:
-        """Take in what has come, and let those go that are silent or not there."""
+        """Process messages that have arrived, and release robots that are silent or not in the match."""
         now = self._clock.now()
         while (received := self._subscription.receive()) is not None:
             name = received.chunks["robot"]

@@ -1,6 +1,5 @@
-"""What the host says: one writer per key, each message encoded once."""
+"""The host's publishers: one for each key; each message is encoded once."""
 
-from dataclasses import replace
 from typing import Any
 
 from schemas.bus.batch_publisher import BatchPublisher
@@ -8,24 +7,23 @@ from schemas.bus.contract import Publisher
 from schemas.game import GameEvent
 from schemas.messages.host import Health, Invalid
 from schemas.side import Side
-from schemas.topic import Delivery
 from schemas.topics import APPLIED, BELIEF, EVENT, HEALTH, INVALID, SIGHT, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
 from sim_host.match.simulation import TickResult
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.snapshot import Roster
 
 _LISTENER_CHECK_TICKS = 50
-"""Ticks between two looks for listeners of single bodies."""
+"""Ticks between two checks for subscribers to single bodies."""
 _STATE_PERIOD_S = 1.0
-"""Simulated time after which the state of the game is said again."""
+"""Simulated time after which the state of the game is published again."""
 
 
 class Outbox:
-    """All writers of the host."""
+    """All publishers of the host."""
 
-    def __init__(self, batches: BatchPublisher, roster: Roster, tick_s: float, *, sights_kept: bool = False) -> None:
-        """`sights_kept`: a recorder can fetch sights again, which costs some 30 MB of memory for ten robots."""
-        self._sight_topic = replace(SIGHT, delivery=Delivery.RECOVERED) if sights_kept else SIGHT
+    def __init__(self, batches: BatchPublisher, roster: Roster, tick_s: float) -> None:
+        self.sights_recorded = False
+        """Sights are recorded, too: ten robots' are four times as much as all the rest."""
         self._batches = batches
         self._world = batches.publisher(WORLD)
         self._applied = batches.publisher(APPLIED)
@@ -44,29 +42,29 @@ class Outbox:
         self._state_every = round(_STATE_PERIOD_S / tick_s)
 
     def set_roster(self, roster: Roster) -> None:
-        """Speak to and of these robots from now on; a writer that was there before counts on."""
+        """Publish for these robots from now on; an existing publisher goes on with its sequence numbers."""
         self._roster = roster
         for name, side in zip(roster.names, roster.sides, strict=True):
             if name not in self._sights:
-                self._sights[name] = self._batches.publisher(self._sight_topic, robot=name)
+                self._sights[name] = self._batches.publisher(SIGHT, robot=name)
                 self._robots[name] = self._batches.publisher(WORLD_ROBOT, robot=name)
             if (name, side) not in self._beliefs:
                 self._beliefs[name, side] = self._batches.publisher(BELIEF, side=side.value, robot=name)
         self._listeners = []
 
     def publish_sight(self, robot: str, sight: bytes) -> None:
-        """Send a robot what it perceives."""
-        self._sights[robot].put_payload(sight)
+        """Send a robot its sight."""
+        self._put_sight(robot, sight)
         self._last_sights[robot] = sight
 
     def resend_sight(self, robot: str) -> None:
-        """Send one robot that plays its newest sight once more."""
+        """Send a robot its newest sight again, if it takes part and has one."""
         if robot not in self._roster.names or robot not in self._last_sights:
             return
-        self._sights[robot].put_payload(self._last_sights[robot])
+        self._put_sight(robot, self._last_sights[robot])
 
     def publish_tick(self, tick: TickResult, state: RefereeState) -> None:
-        """Send world, inputs, words, events, and the game's state when it changed, was acted on, or once a second."""
+        """Publish world, inputs, beliefs and events; the game's state on a change, after an action, and each second."""
         for event in tick.events:
             self._event.put(event)
         episode = tick.world["episode"]
@@ -93,19 +91,25 @@ class Outbox:
         self._publish_bodies(tick)
 
     def publish_event(self, event: GameEvent) -> None:
-        """Send an event that is not the referee's."""
+        """Publish an event that is not the referee's."""
         self._event.put(event)
 
     def publish_health(self, health: Health) -> None:
-        """Send how the host is doing."""
+        """Publish the health of the host."""
         self._health.put(health)
 
     def publish_invalid(self, invalid: Invalid) -> None:
-        """Send word of a payload that was no valid message."""
+        """Publish a report on an invalid payload."""
         self._invalid.put(invalid)
 
+    def _put_sight(self, robot: str, sight: bytes) -> None:
+        writer = self._sights[robot]
+        stamp = writer.put_payload(sight)
+        if self.sights_recorded:
+            self._batches.add_own(writer.key, sight, stamp)
+
     def _publish_bodies(self, tick: TickResult) -> None:
-        """Send single bodies to those who listen for them."""
+        """Publish single bodies on those topics that have subscribers."""
         if tick.tick % _LISTENER_CHECK_TICKS == 0:
             pairs = [(self._ball, None), *((self._robots[name], name) for name in self._roster.names)]
             self._listeners = [(writer, name) for writer, name in pairs if writer.has_subscribers()]

@@ -1,4 +1,4 @@
-"""How the host waits for its robots between two ticks: not at all and on time, or for every answer."""
+"""The pace of a match: how the host waits between two ticks, for its time alone or for every robot's command."""
 
 import math
 from collections.abc import Callable
@@ -7,13 +7,15 @@ from typing import Protocol
 from schemas.config.match_config import Patience
 from schemas.messages.command import Command
 from schemas.process.clock import Clock
-from sim_host.server.inbox import SILENT_TICKS, Inbox
-from sim_host.server.presence_tracker import MAX_RECORDER_LAG, PresenceTracker
+from schemas.recovery_window import RUN_AHEAD_TICKS
+from sim_host.server.agent_stats import SILENT_TICKS
+from sim_host.server.inbox import Inbox
+from sim_host.server.presence_tracker import PresenceTracker
 
 _RESEND_S = 0.05
 """Wall time after which an unanswered sight is sent again: a lost message is not waited for."""
 _PRESENCE_CHECK_S = 0.005
-"""Wall time between two looks for robots that came or went."""
+"""Wall time between two checks for agents that have joined or left."""
 
 Resend = Callable[[str], None]
 """Sends the newest sight of one robot again."""
@@ -23,22 +25,22 @@ class Pace(Protocol):
     """A way of waiting."""
 
     late_ticks: int
-    """Ticks that began later than they should have."""
+    """Ticks that began later than planned."""
     silent_ticks: int
-    """A robot without an answer to this many ticks in a row is said to be silent."""
+    """A robot without a command for this many ticks in a row is reported as silent."""
 
     def begin(self) -> None:
-        """The first sights go out now."""
+        """Note that the first sights are being sent."""
 
     def stop_waiting(self) -> None:
-        """Wait for nobody any more: the host is about to leave."""
+        """Stop waiting for agents: the host is about to exit."""
 
     def gather(self, tick: int, resend: Resend) -> dict[str, Command]:
-        """Wait as this pace does after the sights of `tick` went out; the commands to apply in the next tick."""
+        """Wait for commands after the sights of `tick` were sent; returns those to apply in the next tick."""
 
 
 class Realtime:
-    """Never waits for anyone: the next tick begins when its time has come, and the newest commands count."""
+    """Waits for wall time alone: each tick begins when it is due, with the newest command of each robot."""
 
     def __init__(self, clock: Clock, inbox: Inbox, tick_s: float, speed: float, watchdog_s: float) -> None:
         self._clock = clock
@@ -53,16 +55,16 @@ class Realtime:
         self._next = self._clock.now()
 
     def stop_waiting(self) -> None:
-        """Nothing to do: this pace waits for its next tick alone."""
+        """Do nothing: this pace waits for no agent."""
 
     def gather(self, tick: int, resend: Resend) -> dict[str, Command]:
-        """Sleep to the next tick, then take in what has come."""
+        """Sleep until the next tick is due, then collect the commands that have arrived."""
         del resend  # a robot that missed this sight gets the next one soon enough
         self._next += self._period
         now = self._clock.now()
         if now > self._next:
             self.late_ticks += 1
-            self._next = now  # the field does not hurry to make up for lost time
+            self._next = now  # later ticks do not make up for lost time
         self._clock.sleep_until(self._next)
         commands: dict[str, Command] = {}
         while (answer := self._inbox.receive_command(tick, 0.0)) is not None:
@@ -72,7 +74,7 @@ class Realtime:
 
 
 class Lockstep:
-    """Waits for every living agent's answer to each tick, and for nothing else."""
+    """Waits for a command from every live agent in each tick, and never for wall time."""
 
     def __init__(
         self,
@@ -82,7 +84,7 @@ class Lockstep:
         patience: Patience,
         while_waiting: Callable[[], None] = lambda: None,
     ) -> None:
-        """`while_waiting` is done now and then while answers are missing."""
+        """`while_waiting` is done now and then while robots or recorders are waited for."""
         self._clock = clock
         self._while_waiting = while_waiting
         self._inbox = inbox
@@ -94,17 +96,17 @@ class Lockstep:
         self.silent_ticks = SILENT_TICKS
         self.late_ticks = 0
         self.step_agents: Callable[[], None] | None = None
-        """Called while answers are missing, in place of waiting: within one process the agents answer here."""
+        """Called in place of waiting while commands are missing: agents in the same process act here."""
 
     def begin(self) -> None:
-        """Nothing to do: the first tick begins with the last answer."""
+        """Do nothing: the first tick begins with the last command."""
 
     def stop_waiting(self) -> None:
-        """Take what is there from now on."""
+        """From now on, take only commands that have already arrived."""
         self._stopped_waiting = True
 
     def gather(self, tick: int, resend: Resend) -> dict[str, Command]:
-        """Wait for all answers; a robot that gives none within the limit is silent for this tick."""
+        """Wait for all commands; a robot that sends none within the limit misses this tick."""
         self._wait_for_recorders(tick)
         commands: dict[str, Command] = {}
         start = self._clock.now()
@@ -139,18 +141,18 @@ class Lockstep:
         return commands
 
     def _wait_for_answer(self, tick: int) -> tuple[str, Command] | None:
-        """The next answer, or nothing after a while."""
+        """The next command, or None after a short while."""
         if self.step_agents is not None:
             self.step_agents()
         return self._inbox.receive_command(tick, 0.0 if self.step_agents else min(_RESEND_S, self._patience))
 
     def _missing(self, tick: int) -> dict[str, None]:
-        """Robots whose answer is worth waiting for, in the order of the roster."""
+        """Robots whose command is missing and waited for, in the order of the roster."""
         agent_stats = self._inbox.agent_stats.items()
         return {name: None for name, stats in agent_stats if stats.newest < tick and not stats.is_silent}
 
     def _wait_for_recorders(self, tick: int) -> None:
-        """Let no recorder fall further behind than what can be recovered; one that stands still is left behind."""
+        """Wait while a recorder lags further behind than can be recovered; one that makes no progress is given up."""
         late: dict[str, int] = {}
         deadline = 0.0
         while True:
@@ -164,15 +166,16 @@ class Lockstep:
             elif now > deadline:
                 self._stalled.update(late)
                 return
+            self._while_waiting()
             if self.step_agents is not None:
                 self.step_agents()
             else:
                 self._presence.receive_progress(0.01)
 
     def _far_behind(self, tick: int) -> dict[str, int]:
-        """Recorders that are too far behind, and where they are; without those that stand where they were given up."""
+        """Recorder → its newest tick, of recorders that lag too far and are not still where they were given up."""
         return {
             name: newest
             for name, newest in self._presence.recorders.items()
-            if tick - newest > MAX_RECORDER_LAG and self._stalled.get(name) != newest
+            if tick - newest > RUN_AHEAD_TICKS and self._stalled.get(name) != newest
         }

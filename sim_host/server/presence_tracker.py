@@ -1,16 +1,13 @@
 """Who is there: agents, recorders and referee boxes by their liveliness tokens; recorders tell how far they are."""
 
-from schemas.bus.contract import Bus, Presence
-from schemas.game import REFBOX
+from schemas.bus.contract import Bus, Presence, PresenceKind
 from schemas.message import BadMessageError
 from schemas.topics import RECORDER_PROGRESS
-from sim_host.server.inbox import AgentStats
+from sim_host.server.agent_stats import AgentStats
 
-MAX_RECORDER_LAG = 250
-"""Ticks; a lockstep host runs this far ahead of a recorder at most, well within what its writers keep for recovery."""
-
-_MAX_NAMES = 100
-"""Agents that are remembered by name; a flood of invented names must not fill the memory."""
+_REMEMBERED = (PresenceKind.AGENT, PresenceKind.REFBOX, PresenceKind.COACH)
+_MOST = 100
+"""Processes of a kind that are remembered by name; a flood of invented names must not fill the memory."""
 
 
 class PresenceTracker:
@@ -23,14 +20,12 @@ class PresenceTracker:
         self._watch = bus.watch_alive()
         self._progress = bus.subscribe(RECORDER_PROGRESS)
         self._agent_stats = agent_stats
-        self._agents: dict[str, bool] = {}
-        """Everyone who came as an agent, also for a robot that does not play yet: whether it is there."""
-        self._refboxes: dict[str, bool] = {}
-        """Everyone who came to speak for a league's referee box: whether it is there."""
+        self._known: dict[PresenceKind, dict[str, bool]] = {kind: {} for kind in _REMEMBERED}
+        """Name → whether the process is there, for all that ever came; agents also of robots that do not play yet."""
         self.recorders: dict[str, int] = {}
         """Recorder → the newest tick it has taken in; one whose link broke is in here until it is given up."""
-        self._watchers: dict[str, bool] = {}
-        """Everyone who came to watch, by page or terminal: whether it is there."""
+        self._of_sights: set[str] = set()
+        """Recorders that record sights, too."""
         self._lost: dict[str, float] = {}
         """Recorder → when it is given up, wall time."""
 
@@ -39,18 +34,13 @@ class PresenceTracker:
         changed = []
         presence = self._watch.receive(timeout)
         while presence is not None:
-            if presence.kind == "agent" and (presence.name in self._agents or len(self._agents) < _MAX_NAMES):
-                self._agents[presence.name] = presence.alive
-            if presence.kind == "agent" and presence.name in self._agent_stats:
-                self._agent_stats[presence.name].alive = presence.alive
-                self._agent_stats[presence.name].silent = 0
-                changed.append(presence)
-            elif presence.kind == "recorder":
+            self._remember(presence)
+            stats = self._agent_stats.get(presence.name)
+            if presence.kind is PresenceKind.RECORDER:
                 self._recorder(presence)
-            elif presence.kind == REFBOX and (presence.name in self._refboxes or len(self._refboxes) < _MAX_NAMES):
-                self._refboxes[presence.name] = presence.alive
-            elif presence.kind == "coach" and (presence.name in self._watchers or len(self._watchers) < _MAX_NAMES):
-                self._watchers[presence.name] = presence.alive
+            elif presence.kind is PresenceKind.AGENT and stats is not None:
+                stats.alive, stats.silent = presence.alive, 0
+                changed.append(presence)
             presence = self._watch.receive(0.0)
         self.receive_progress(0.0)
         self._drop_lost_recorders()
@@ -59,7 +49,7 @@ class PresenceTracker:
     def refresh_agents(self) -> None:
         """Other robots take part: some of their agents may have come before them."""
         for name, stats in self._agent_stats.items():
-            stats.alive = self._agents.get(name, stats.alive)
+            stats.alive = self._known[PresenceKind.AGENT].get(name, stats.alive)
 
     def receive_progress(self, timeout: float) -> None:
         """Take in how far the recorders are, waiting up to `timeout` s for word of it."""
@@ -74,7 +64,14 @@ class PresenceTracker:
                 self._forget(name)
             elif progress is not None and name in self.recorders:
                 self.recorders[name] = max(self.recorders[name], progress.tick)
+                if progress.sights:
+                    self._of_sights.add(name)
             received = self._progress.receive(0.0)
+
+    def _remember(self, presence: Presence) -> None:
+        known = self._known.get(presence.kind)
+        if known is not None and (presence.name in known or len(known) < _MOST):
+            known[presence.name] = presence.alive
 
     def _recorder(self, presence: Presence) -> None:
         """A recorder that is frozen loses its link, and comes back: it is waited for like one that is there."""
@@ -94,14 +91,20 @@ class PresenceTracker:
     def _forget(self, name: str) -> None:
         self.recorders.pop(name, None)
         self._lost.pop(name, None)
+        self._of_sights.discard(name)
+
+    @property
+    def wants_sights(self) -> bool:
+        """Whether a recorder records sights."""
+        return bool(self._of_sights)
 
     def has_referee_box(self) -> bool:
         """Whether a league's referee box is connected: nobody else officiates meanwhile."""
-        return any(self._refboxes.values())
+        return any(self._known[PresenceKind.REFBOX].values())
 
     def has_watchers(self) -> bool:
         """Whether a page or a terminal shows the match."""
-        return any(self._watchers.values())
+        return any(self._known[PresenceKind.COACH].values())
 
     def all_present(self, wait_for_recorder: bool) -> bool:
         """Every robot's agent is there, and a recorder where one is waited for."""

@@ -1,1 +1,1 @@
-"""Operations on the pitch between two ticks: pure decisions, which the simulation carries out."""
+"""Operations on the layout between two ticks: pure functions, whose results the simulation applies."""

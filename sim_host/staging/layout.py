@@ -1,4 +1,4 @@
-"""The layout: who takes part, what stands on the pitch, and where; every operation makes a new one."""
+"""The layout of a match: its robots, its obstacles, and the places of all bodies; every operation makes a new one."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -10,19 +10,18 @@ from schemas.config.scene import Scene, SceneGame, check_names, check_sides
 from schemas.config.sections import Ball, Pitch
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.side import Side
+from sim_host.snapshot import BALL
 from sim_host.staging.overlap import Block, Body, Disc, goal_blocks, why_outside, why_overlapping
-
-BALL = "ball"
 
 
 @dataclass(frozen=True, slots=True)
 class Specs:
-    """What of a match does not change by a operation, and what bodies look like."""
+    """The properties of a match that no operation changes: pitch, ball, and the robot types."""
 
     pitch: Pitch
     ball: Ball
     types: Mapping[str, RobotModel]
-    """Every type that a robot may have."""
+    """All robot types by name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +32,7 @@ class Layout:
     """In the order of the roster."""
     obstacles: tuple[StaticObstacle, ...]
     at: Mapping[str, Placement]
-    """Robot or ball → where it is, or is going to be set down."""
+    """Robot or ball → where it is, or is about to be placed."""
 
     @property
     def names(self) -> list[str]:
@@ -43,30 +42,30 @@ class Layout:
 
 @dataclass(frozen=True, slots=True)
 class LayoutChange:
-    """What a operation comes to."""
+    """The result of an operation."""
 
     layout: Layout
     summary: str
-    """What is done, as the end of a sentence."""
+    """What the operation does, as the predicate of a sentence."""
     placements: list[Placement] = field(default_factory=list)
     game: SceneGame | None = None
-    """What the game becomes; nothing where it goes on. The world begins anew, and nothing of before counts."""
+    """The game with which a new episode begins; None if the game goes on."""
 
     @property
     def ball(self) -> tuple[float, float]:
-        """Where the ball is on the ground, m."""
+        """Position of the ball on the ground, m."""
         at = self.layout.at[BALL]
         return at.x, at.y
 
 
 def in_roster_order(robots: Sequence[RosterEntry]) -> tuple[RosterEntry, ...]:
-    """In the order of a roster: cyan's, then magenta's, each side's goalkeeper first."""
+    """The robots in the order of a roster: cyan's, then magenta's, each side's goalkeeper first."""
     sides = list(Side)
     return tuple(sorted(robots, key=lambda entry: (sides.index(entry.side), not entry.keeper)))
 
 
 def scene_layout(scene: Scene, summary: str) -> LayoutChange:
-    """A scene from its beginning, possible or not."""
+    """The change that begins a scene; the layout is not checked."""
     placements = [*(robot.placement for robot in scene.robots), scene.ball.placement]
     robots = in_roster_order([robot.entry for robot in scene.robots])
     layout = Layout(robots, tuple(scene.obstacles), {one.body: one for one in placements})
@@ -74,10 +73,10 @@ def scene_layout(scene: Scene, summary: str) -> LayoutChange:
 
 
 def check_layout(layout: Layout, specs: Specs, new: Sequence[str]) -> None:
-    """Make sure that a layout is possible; of bodies, those that are `new` are looked at.
+    """Check that a layout is possible; places are checked for the bodies in `new` only.
 
     Raises:
-        TouchlineError: it is not, in one sentence.
+        TouchlineError: the layout is impossible, with the reason.
     """
     try:
         check_names([name for name in layout.names if name != BALL])
@@ -85,7 +84,7 @@ def check_layout(layout: Layout, specs: Specs, new: Sequence[str]) -> None:
     except ValueError as error:
         raise TouchlineError(str(error)) from None
     if not layout.robots:
-        raise TouchlineError("nobody would be left; a match has one robot at least")
+        raise TouchlineError("no robot would be left; a match has at least one")
     for entry in layout.robots:
         if entry.type not in specs.types:
             raise TouchlineError(f'{entry.name} has the type "{entry.type}"; {did_you_mean(entry.type, specs.types)}')
@@ -97,7 +96,7 @@ def check_layout(layout: Layout, specs: Specs, new: Sequence[str]) -> None:
         if name in layout.at and isinstance(body, Disc):
             others = [other for other in bodies.values() if other is not body]
             fault = why_outside(specs.pitch, body) or why_overlapping(body, [*others, *goals])
-        else:  # obstacles may stand in each other
+        else:  # obstacles may overlap each other
             fault = next(filter(None, [why_overlapping(other, [body]) for other in movable]), None)
         if fault is not None:
             raise TouchlineError(fault)
@@ -124,5 +123,5 @@ def _obstacle(one: StaticObstacle) -> Body:
 
 
 def with_placements(layout: Layout, placements: Sequence[Placement]) -> Layout:
-    """The layout with bodies set down."""
+    """The layout with bodies moved to these placements."""
     return replace(layout, at={**layout.at, **{one.body: one for one in placements}})

@@ -1,4 +1,4 @@
-"""The operations on the pitch, one function each: (layout, request, what was begun with) → what it comes to."""
+"""The operations on the layout, one function each: (layout, request, scenes, specs) → (change, scenes)."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -7,8 +7,8 @@ from typing import NamedTuple
 from schemas.config.roster import Placement
 from schemas.config.scene import Scene, SceneOperation, SceneRequest, load_scene
 from schemas.errors import TouchlineError, did_you_mean
+from sim_host.snapshot import BALL
 from sim_host.staging.layout import (
-    BALL,
     Layout,
     LayoutChange,
     Specs,
@@ -20,10 +20,10 @@ from sim_host.staging.layout import (
 
 
 class ResetScenes(NamedTuple):
-    """What can be gone back to."""
+    """The scenes that a reset can return to."""
 
     start: Scene
-    """The match's own start."""
+    """The start of the match."""
     loaded: Scene
     """The scene loaded last, or the start."""
 
@@ -31,10 +31,10 @@ class ResetScenes(NamedTuple):
 def apply_request(
     layout: Layout, request: SceneRequest, scenes: ResetScenes, specs: Specs
 ) -> tuple[LayoutChange, ResetScenes]:
-    """What a request comes to.
+    """The change that a request asks for, and the scenes for later resets.
 
     Raises:
-        TouchlineError: it cannot be done, and why.
+        TouchlineError: the request is impossible, with the reason.
     """
     return OPERATIONS[request.operation](layout, request, scenes, specs)
 
@@ -45,7 +45,7 @@ def _load(
     if (request.load is None) == (request.scene is None):
         raise TouchlineError("load takes the name of a scene or the scene itself; give one of them")
     if request.load is not None and request.load.endswith(".toml"):
-        raise TouchlineError(f'scene is "{request.load}"; the host reads no files: send what is in it')
+        raise TouchlineError(f'scene is "{request.load}"; the host reads no files: send the scene itself')
     scene = request.scene or load_scene(str(request.load))
     change = scene_layout(scene, f"loads the scene {scene.name}")
     check_layout(change.layout, specs, change.layout.names)
@@ -66,11 +66,11 @@ def _place(
     layout: Layout, request: SceneRequest, scenes: ResetScenes, specs: Specs
 ) -> tuple[LayoutChange, ResetScenes]:
     if not request.place:
-        raise TouchlineError("nothing is named to be placed; name a robot or the ball")
+        raise TouchlineError("no body to place is named; name a robot or the ball")
     movable = [*(entry.name for entry in layout.robots), BALL]
     for one in request.place:
         if one.body not in movable:
-            raise TouchlineError(f"{one.body} is no robot and not the ball; {did_you_mean(one.body, movable)}")
+            raise TouchlineError(f"{one.body} is neither a robot nor the ball; {did_you_mean(one.body, movable)}")
         if one.body != BALL and (one.z is not None or one.vz):
             raise TouchlineError(f"{one.body} stands on the ground; z and vz are for the ball")
         if one.body == BALL and one.z is not None and one.z < specs.ball.radius:
@@ -83,7 +83,7 @@ def _place(
 
 def _add(layout: Layout, request: SceneRequest, scenes: ResetScenes, specs: Specs) -> tuple[LayoutChange, ResetScenes]:
     if not request.robots and not request.obstacles:
-        raise TouchlineError("nothing is named to be added; name a robot or an obstacle")
+        raise TouchlineError("no body to add is named; name a robot or an obstacle")
     placements = [robot.placement for robot in request.robots]
     robots = in_roster_order([*layout.robots, *(robot.entry for robot in request.robots)])
     after = replace(
@@ -98,11 +98,11 @@ def _remove(
     layout: Layout, request: SceneRequest, scenes: ResetScenes, specs: Specs
 ) -> tuple[LayoutChange, ResetScenes]:
     if not request.remove:
-        raise TouchlineError("nothing is named to be removed; name a robot or an obstacle")
+        raise TouchlineError("no body to remove is named; name a robot or an obstacle")
     known = [name for name in layout.names if name != BALL]
     for name in request.remove:
         if name not in known:
-            raise TouchlineError(f"{name} is no robot and no obstacle; {did_you_mean(name, known)}")
+            raise TouchlineError(f"{name} is neither a robot nor an obstacle; {did_you_mean(name, known)}")
     after = Layout(
         tuple(entry for entry in layout.robots if entry.name not in request.remove),
         tuple(one for one in layout.obstacles if one.name not in request.remove),
@@ -126,4 +126,4 @@ OPERATIONS: Mapping[
     SceneOperation.REMOVE: _remove,
     SceneOperation.RESET: _reset,
 }
-"""Operation → what it comes to."""
+"""Operation → its function."""

@@ -1,4 +1,4 @@
-"""Whether there is room: bodies as discs and blocks on the ground, with the heights between which they stand."""
+"""Overlap of bodies: discs and blocks on the ground, each with the heights between which it extends."""
 
 import math
 from collections.abc import Iterable
@@ -9,7 +9,7 @@ from schemas.frames import rotate
 from sim_host.physics.pitch import Box, goals
 
 MAX_OVERLAP = 0.02
-"""m; bodies that are set down this deep in each other are pushed apart gently, and a held ball lies a little deep."""
+"""m; the engine pushes bodies apart gently from this depth, and a held ball lies a little inside the hull."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +23,7 @@ class Disc:
     bottom: float
     top: float
     core: float | None = None
-    """How near the ball may come to the axis of a robot whose frame reaches farther than that."""
+    """m; radius of a robot's hull without its frame: the ball may come this near to its axis."""
     is_ball: bool = False
 
 
@@ -55,7 +55,7 @@ def _block(box: Box) -> Block:
 
 
 def why_outside(pitch: Pitch, body: Disc) -> str | None:
-    """Why a body is not within the boundary, or nothing."""
+    """Why a body is not within the boundary, or None."""
     x, y = (pitch.goal_line + pitch.border - body.radius, pitch.touch_line + pitch.border - body.radius)
     if abs(body.x) <= x + MAX_OVERLAP and abs(body.y) <= y + MAX_OVERLAP:
         return None
@@ -66,7 +66,7 @@ def why_outside(pitch: Pitch, body: Disc) -> str | None:
 
 
 def why_overlapping(body: Disc, others: Iterable[Body]) -> str | None:
-    """Why there is no room for a body among others, or nothing."""
+    """Why a body overlaps one of the others, or None."""
     for other in others:
         depth = overlap(body, other)
         if depth > MAX_OVERLAP:
@@ -76,7 +76,7 @@ def why_overlapping(body: Disc, others: Iterable[Body]) -> str | None:
 
 
 def overlap(body: Disc, other: Body) -> float:
-    """How deep a body is in another on the ground, m; negative for the gap between them, or if one is above."""
+    """Depth in m to which a body overlaps another on the ground; negative if there is a gap, or if one is above."""
     if body.bottom >= other.top or other.bottom >= body.top:
         return -math.inf
     if isinstance(other, Disc):
@@ -91,5 +91,5 @@ def overlap(body: Disc, other: Body) -> float:
 
 
 def _hull_distance(body: Disc, other: Disc) -> float:
-    """m from the axis of a body to its hull, as another meets it."""
+    """m from the axis of a body to its hull on the side of the other body."""
     return body.radius if body.core is None or not other.is_ball else body.core

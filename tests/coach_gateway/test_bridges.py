@@ -11,17 +11,20 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from pydantic import ValidationError
 
-from coach_gateway.__main__ import log, main
+from coach_gateway import run
 from coach_gateway.bridges import Bridges, bridges_of
+from coach_gateway.process import say as log
 from coach_gateway.refbox.client import BoxAddress
-from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.refbox.server import ServerAddress
+from coach_gateway.settings import BridgeOptions, GatewaySettings
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_host
 from schemas.errors import TouchlineError
 from schemas.game import GameState, Phase
 from schemas.process.clock import WallClock
+from schemas.process.settings_file import write_settings
 from schemas.side import Side
 from schemas.topics import SETUP, STATE
 from support.messages import make_setup
@@ -31,81 +34,79 @@ LIMIT_S = 60.0
 
 
 def asked(**words: Any) -> Bridges:
-    nothing: dict[str, Any] = {
-        "udp": None,
-        "refbox_at": None,
-        "teams": [],
-        "protocol": BoxProtocol.AUTO,
-        "server_addresses": [],
-    }
-    return bridges_of(**{**nothing, "audience": [], "listen": "127.0.0.1", **words})
+    return bridges_of(BridgeOptions(**words))
 
 
 def test_no_words_ask_for_nothing() -> None:
+    assert not BridgeOptions().wanted
     assert not asked().wanted
+
+
+@pytest.mark.parametrize("port", [70000, -1])
+def test_a_udp_port_has_its_limits(port: int) -> None:
+    with pytest.raises(ValidationError, match="udp"):
+        BridgeOptions(udp=port)
 
 
 def test_words_are_addresses_and_doors() -> None:
     wanted = asked(
         udp=0,
-        refbox_at="box.local",
-        teams=list(Side),
-        server_addresses=["28097", "magenta:28098"],
+        refbox="box.local",
+        team=list(Side),
+        refbox_server=["28097", "magenta:28098"],
         audience=["127.0.0.1:12345", "[::1]:9"],
     )
     assert wanted.boxes == (BoxAddress(Side.CYAN, "box.local", 28097), BoxAddress(Side.MAGENTA, "box.local", 28097))
     assert wanted.server_addresses == (ServerAddress(28097), ServerAddress(28098, Side.MAGENTA))
     assert wanted.audience == (("127.0.0.1", 12345), ("::1", 9))
-    assert asked(refbox_at="10.0.0.2:9000", teams=[Side.CYAN]).boxes[0].port == 9000
+    assert asked(refbox="10.0.0.2:9000", team=[Side.CYAN]).boxes[0].port == 9000
 
 
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        ({"refbox_at": "box"}, "--refbox needs the team"),
-        ({"teams": [Side.CYAN]}, "--team is for --refbox"),
-        ({"refbox_at": "box:0", "teams": [Side.CYAN]}, '--refbox is "box:0"; it is HOST or HOST:PORT'),
-        ({"refbox_at": "box:port", "teams": [Side.CYAN]}, "HOST or HOST:PORT"),
+        ({"refbox": "box"}, "--refbox needs the team"),
+        ({"team": [Side.CYAN]}, "--team is for --refbox"),
+        ({"refbox": "box:0", "team": [Side.CYAN]}, '--refbox is "box:0"; it is HOST or HOST:PORT'),
+        ({"refbox": "box:port", "team": [Side.CYAN]}, "HOST or HOST:PORT"),
         ({"audience": ["12345"]}, '--audience is "12345"; it is HOST:PORT'),
-        ({"server_addresses": ["blue:28097"]}, '--refbox-server is "blue:28097"'),
-        ({"server_addresses": ["99999"]}, "--refbox-server"),
-        ({"server_addresses": ["-1"]}, "--refbox-server"),
-        ({"udp": 70000}, "--udp is 70000; a port is 0 to 65535"),
-        ({"udp": -1}, "--udp is -1"),
-        ({"refbox_at": "box..local", "teams": [Side.CYAN]}, '--refbox is "box..local"'),
-        ({"refbox_at": "::1", "teams": [Side.CYAN]}, '--refbox is "::1"'),
+        ({"refbox_server": ["blue:28097"]}, '--refbox-server is "blue:28097"'),
+        ({"refbox_server": ["99999"]}, "--refbox-server"),
+        ({"refbox_server": ["-1"]}, "--refbox-server"),
+        ({"refbox": "box..local", "team": [Side.CYAN]}, '--refbox is "box..local"'),
+        ({"refbox": "::1", "team": [Side.CYAN]}, '--refbox is "::1"'),
     ],
 )
-def test_words_that_cannot_be_meant_are_told(words: dict[str, Any], says: str) -> None:
+def test_invalid_options_are_errors_with_the_reason(words: dict[str, Any], says: str) -> None:
     with pytest.raises(TouchlineError, match=says.replace("(", r"\(")):
         asked(**words)
 
 
-def test_a_port_that_is_taken_is_told_before_there_is_a_host(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_taken_port_is_reported_before_there_is_a_host() -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         taken.bind(("127.0.0.1", 0))
         port = taken.getsockname()[1]
-        assert main(["--connect", "tcp/127.0.0.1:1", "--udp", str(port)]) == 2
-    said = capsys.readouterr()
-    (line,) = said.err.splitlines()
-    assert line.startswith(f"touchline: --udp {port} cannot be listened on at 127.0.0.1 (Address already in use)")
+        with pytest.raises(
+            TouchlineError, match=rf"--udp {port} cannot be listened on at 127.0.0.1 \(Address already in use\)"
+        ):
+            run(GatewaySettings(connect="tcp/127.0.0.1:1", bridges=BridgeOptions(udp=port)))
 
 
-def test_a_port_that_is_asked_for_twice_is_told_too() -> None:
+def test_a_port_that_is_given_twice_is_reported() -> None:
     port = with_free_port("tcp/127.0.0.1:0").rpartition(":")[2]
     with pytest.raises(TouchlineError, match=rf"--refbox-server {port} cannot be listened on"):
-        asked(server_addresses=[port, f"cyan:{port}"]).try_ports()
-    asked(server_addresses=[port]).try_ports()
-    asked(server_addresses=["0", "0"]).try_ports()
+        asked(refbox_server=[port, f"cyan:{port}"]).try_ports()
+    asked(refbox_server=[port]).try_ports()
+    asked(refbox_server=["0", "0"]).try_ports()
 
 
 @pytest.mark.parametrize("address", ["192.0.2.1", "a..b"])
-def test_an_address_that_is_not_this_machines_is_told_as_such(address: str) -> None:
-    with pytest.raises(TouchlineError, match=f"--listen-bridges {address} is no address of this machine"):
-        asked(udp=0, listen=address).try_ports()
+def test_an_address_of_another_machine_is_reported(address: str) -> None:
+    with pytest.raises(TouchlineError, match=f"--listen-bridges {address} is not an address of this machine"):
+        asked(udp=0, listen_bridges=address).try_ports()
 
 
-def test_what_strangers_say_does_not_speak_to_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
+def test_texts_from_the_network_cannot_control_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
     log("base station 1: \x1b[2J, \ud800\n, Zoë")
     assert capsys.readouterr().out == "base station 1: \ufffd[2J, \ufffd\ufffd, Zoë\n"
 
@@ -114,18 +115,19 @@ def test_bridges_need_no_web_server() -> None:
     """The base installation has neither starlette nor uvicorn."""
     script = (
         "import sys; sys.modules.update(dict.fromkeys(('starlette', 'uvicorn', 'websockets')));"
-        "import coach_gateway.bridges, coach_gateway.__main__"
+        "import coach_gateway.bridges, coach_gateway.process"
     )
     assert subprocess.run([sys.executable, "-c", script], env=os.environ, check=False).returncode == 0
 
 
 @pytest.mark.processes
-def test_one_process_has_all_bridges_and_ends_when_it_is_told(tmp_path: Path) -> None:
+def test_one_process_has_all_bridges_and_ends_on_a_signal(tmp_path: Path) -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
     setup = make_setup()
     tokens = tmp_path / "tokens.json"
-    command = [sys.executable, "-m", "coach_gateway", "--connect", endpoint, "--tokens", str(tokens), "--udp", "0"]
-    command += ["--refbox-server", "0", "--audience", "127.0.0.1:9"]
+    bridges = BridgeOptions(udp=0, refbox_server=["0"], audience=["127.0.0.1:9"])
+    write_settings(GatewaySettings(connect=endpoint, tokens=tokens, bridges=bridges), tmp_path / "bridges.json")
+    command = [sys.executable, "-m", "coach_gateway", "--settings", str(tmp_path / "bridges.json")]
     with open_host("friendly", WallClock(), endpoint) as bus:
         setups, states = bus.serve(SETUP), bus.publisher(STATE)
         bus.declare_alive("host", "host")
@@ -149,7 +151,7 @@ def test_one_process_has_all_bridges_and_ends_when_it_is_told(tmp_path: Path) ->
 
 
 async def _meet(ports: dict[str, int], token: str, states: Any) -> None:
-    """A base station hears a corner, and a coach program is welcomed."""
+    """A base station receives a corner, and a coach program is welcomed."""
     reader, writer = await asyncio.open_connection("127.0.0.1", ports["referee box for base stations"])
     writer.write(json.dumps({"type": "hello", "team": "magenta"}).encode() + b"\x00")
     assert json.loads((await reader.readuntil(b"\x00"))[:-1])["command"] == "WELCOME"

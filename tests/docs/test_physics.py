@@ -76,7 +76,7 @@ def test_slow_plots_are_drawn_from_less(drawing: ModuleType) -> None:
 
 @pytest.mark.parametrize("drive", ["msl", "omni"])
 def test_the_benchmark_steps_more_robots_than_a_match_file_allows(drive: str, root: Path) -> None:
-    """Reference 13, row 23; the benchmark measures what this steps once."""
+    """The benchmark measures what this steps once."""
     spec = importlib.util.spec_from_file_location("bench_physics", root / "benchmarks" / "bench_physics.py")
     assert spec is not None and spec.loader is not None
     bench = importlib.util.module_from_spec(spec)

@@ -7,7 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from schemas.bus.contract import LEASE_S
+from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.zenoh import sample, session
+from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.message import BadMessageError, Message
 from schemas.messages.command import Command
@@ -15,8 +18,8 @@ from schemas.protocol.examples import examples
 from schemas.protocol.fields import is_part, parts_of, rows, type_text
 from schemas.protocol.page import page
 from schemas.topics import TOPICS
-from sim_host.server import inbox, pace
-from touchline.launch.processes import PROCESSES, ProcessKind
+from sim_host.server import agent_stats, pace
+from touchline.launch.processes import MatchPlan, ProcessKind, processes_of
 from touchline.launch.supervisor import AFTER_THE_MATCH
 
 MESSAGES = list(dict.fromkeys(kind for row in TOPICS.values() for kind in (row.message, row.reply) if kind is not None))
@@ -68,22 +71,25 @@ def test_limits_and_choices_are_said_in_words() -> None:
 
 
 def test_the_environment_is_the_one_that_a_robot_is_launched_with(text: str) -> None:
-    row = PROCESSES[ProcessKind.AGENT]
+    config = load_match(None, {"teams.cyan.command": ["./robot"]})
+    robot = next(
+        one for one in processes_of(MatchPlan(config, DEFAULT_ENDPOINT, Path(), None)) if one.kind is ProcessKind.AGENT
+    )
     said = set(re.findall(r"^\| `(TOUCHLINE_\w+)` \|", text, re.MULTILINE))
-    assert said == {name for name in row.environment if name.startswith("TOUCHLINE_")}
-    assert row.restarts == 3 and "three times at most" in text
+    assert said == {name for name in robot.environment if name.startswith("TOUCHLINE_")}
+    assert robot.restarts == 3 and "at most three times" in text
 
 
 def test_the_attachment_is_the_one_that_is_sent(text: str) -> None:
     assert (sample.STAMP.format, sample.STAMP.size) == ("<QQq", 24)
-    assert "carries 24 bytes" in text and "| 16–23 | signed |" in text
+    assert "sends 24 bytes" in text and "| 16–23 | signed |" in text
 
 
 def test_the_settings_are_those_of_a_client(text: str, fenced: Callable[[str, str], list[str]]) -> None:
     (settings,) = fenced(text, "json5")
     for name, value in session._RETRY.items():
         assert f"{name}: {value}" in settings
-    assert f"lease: {session._LEASE_MS}" in settings
+    assert f"lease: {round(LEASE_S * 1000)}" in settings
 
 
 def test_the_times_that_it_names_are_those_of_the_host(text: str) -> None:
@@ -94,6 +100,6 @@ def test_the_times_that_it_names_are_those_of_the_host(text: str) -> None:
     )
     assert watchdog == {0.2} and "(0.2 s of simulated time)" in said
     assert f"SIGKILL {kill:g} s later" in said
-    assert f"anew every {pace._RESEND_S * 1000:g} ms" in said
-    assert f"after {inbox.SILENT_TICKS} silent ticks in a row" in said
+    assert f"every {pace._RESEND_S * 1000:g} ms" in said
+    assert f"After {agent_stats.SILENT_TICKS} silent ticks in a row" in said
     assert f"longer than {Command.max_bytes} bytes" in said

@@ -12,10 +12,10 @@ def readme(root: Path) -> str:
     return (root / "README.md").read_text("utf-8")
 
 
-def test_it_says_what_this_is_by_line_3_and_the_first_command_by_line_10(readme: str) -> None:
+def test_its_first_ten_lines_say_what_this_is_for_whom_and_how_to_begin(readme: str) -> None:
     lines = readme.splitlines()
     assert len(lines) <= 120
-    assert "testbed" in lines[2]
+    assert "testbed for developing and comparing strategies" in lines[2]
     assert any(line.startswith("make match") for line in lines[:10])
 
 

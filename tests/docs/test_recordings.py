@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from recordings.container.header import make_attachments, make_manifest
-from recordings.container.manifest import EndReason, Result, to_metadata
+from recordings.container.attachments import make_attachments
+from recordings.container.manifest import EndReason, Result, make_manifest
+from recordings.container.sealed_metadata import to_metadata
 from recordings.recorder.recording_writer import RecordingWriter
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.config.match_config import load_match

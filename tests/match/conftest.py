@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from schemas.bus.endpoint import with_free_port
+from schemas.config.settings import Settings
+from schemas.process.settings_file import write_settings
 from support.process_story import Listener, Program, is_running
 
 NO_PYBULLET = """
@@ -22,7 +24,12 @@ def start(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[..., Pr
     """Starts Python programs, each in its folder, and ends those that are left."""
     running: list[Program] = []
 
-    def start(*arguments: str, folder: Path, name: str = "touchline", **environment: str) -> Program:
+    def start(
+        *arguments: str, folder: Path, name: str = "touchline", settings: Settings | None = None, **environment: str
+    ) -> Program:
+        if settings is not None:
+            write_settings(settings, folder / f"{name}.json")
+            arguments = (*arguments, "--settings", f"{name}.json")
         running.append(Program(list(arguments), folder, name, environment))
         return running[-1]
 

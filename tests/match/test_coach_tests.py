@@ -1,6 +1,6 @@
 """Test mode in the simulated world: each test does what its name says, in every team that ships.
 
-Reference 13, row 31: the test modes of section 5, by name. The robots of the paper's first scene show them, with the
+The test modes are those of the NuBot coach, by name. The robots of the paper's first scene show them, with the
 noise of their profile, beside rivals that stand still.
 """
 

@@ -11,7 +11,7 @@ from recordings.reading.recording import open_recording
 from schemas.message import BadMessageError
 from schemas.messages.command import Command, Drive
 from schemas.topics import key_prefix
-from sim_host.server.inbox import SILENT_TICKS
+from sim_host.server.agent_stats import SILENT_TICKS
 from support.process_story import MessageLog
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
@@ -84,7 +84,7 @@ class Story:
     def killed(self):
         self.heard.update()
         before = self.heard.robot("cyan3").answers
-        os.kill(self.program.child("--robot", "cyan3"), signal.SIGKILL)
+        os.kill(self.program.process("cyan3"), signal.SIGKILL)
         self.heard.until(lambda heard: not heard.robot("cyan3").answering, "cyan3 falling silent")
         self.program.says("cyan3 was ended by SIGKILL; started again (1 of 3)")
         self.heard.until(
@@ -93,7 +93,7 @@ class Story:
         )
 
     def stopped(self):
-        pid = self.program.child("--robot", "magenta1")
+        pid = self.program.process("magenta1")
         os.kill(pid, signal.SIGSTOP)
         self.heard.until(lambda heard: not heard.robot("magenta1").answering, "magenta1 falling silent")
         self.heard.for_ticks(300)
@@ -103,15 +103,15 @@ class Story:
         self.heard.for_ticks(50)
 
     def recorder_stops(self):
-        pid = self.program.child("recordings")
+        pid = self.program.process("recorder")
         os.kill(pid, signal.SIGSTOP)
         self.heard.for_ticks(100)
         os.kill(pid, signal.SIGCONT)
         self.heard.for_ticks(300)
 
     def interrupted(self):
-        self.children = list(self.program.children())
-        self.policies = {os.sched_getscheduler(pid) for pid in self.children}
+        self.processes = list(self.program.processes().values())
+        self.policies = {os.sched_getscheduler(pid) for pid in self.processes}
         self.heard.update()
         self.last_tick = self.heard.tick
         began = time.monotonic()
@@ -166,8 +166,8 @@ def test_ctrl_c_ends_everything_soon_with_status_130_and_leaves_nobody(story, is
     assert story.exit_status == 128 + signal.SIGINT
     assert story.took < 25.0  # not the half minute that a recorder has after a match; a busy machine took 6.5 s
     assert story.program.out == ""
-    assert len(story.children) == 5  # host, recorder, three agents
-    assert [pid for pid in story.children if is_running(pid)] == []
+    assert len(story.processes) == 5  # host, recorder, three agents
+    assert [pid for pid in story.processes if is_running(pid)] == []
 
 
 def test_ctrl_c_leaves_a_finished_recording_and_says_where(recording, story, folder):

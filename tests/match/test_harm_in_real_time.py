@@ -81,8 +81,8 @@ class Story:
         self.heard.until(lambda heard: heard.healths[-1].time > self.before_pause.time + 1.0, "reports after the pause")
 
     def stopped(self):
-        pid = self.program.child("--robot", "cyan2")
-        self.policies = {os.sched_getscheduler(one) for one in (pid, self.program.child("sim_host"))}
+        pid = self.program.process("cyan2")
+        self.policies = {os.sched_getscheduler(one) for one in (pid, self.program.process("host"))}
         self.heard.until(lambda heard: turns(heard, "cyan2"), "cyan2 driving")
         self.before_stop = self.heard.tick
         os.kill(pid, signal.SIGSTOP)
@@ -97,7 +97,7 @@ class Story:
 
     def killed(self):
         before = self.heard.robot("magenta1").answers
-        os.kill(self.program.child("--robot", "magenta1"), signal.SIGKILL)
+        os.kill(self.program.process("magenta1"), signal.SIGKILL)
         self.heard.until(lambda heard: not heard.robot("magenta1").alive, "magenta1 leaving")
         self.without = self.heard.tick
         self.program.says("magenta1 was ended by SIGKILL; started again (1 of 3)")
@@ -105,7 +105,7 @@ class Story:
 
     def recorder_killed(self):
         self.heard.until(lambda heard: 0 <= heard.healths[-1].recorders.get("recorder", -1) < 50, "the recorder")
-        os.kill(self.program.child("recordings"), signal.SIGKILL)
+        os.kill(self.program.process("recorder"), signal.SIGKILL)
         self.heard.update()
         self.killed_recorder_at = self.heard.tick
         self.heard.for_ticks(60)
@@ -193,7 +193,7 @@ def test_health_and_status_line_name_a_stopped_robot(story):
     silent = [health for health in story.heard.healths if not health.robots["cyan2"].answering and health.tick > 60]
     assert silent
     assert any("robots 2/3 (silent: cyan2)" in line for line in story.program.err.splitlines())
-    assert "agent: cyan2 does not answer, its robot rests" in story.program.err
+    assert "agent: cyan2 does not answer, its robot stops" in story.program.err
     assert "agent: cyan2 answers" in story.program.err
 
 
@@ -204,7 +204,7 @@ def test_the_others_play_on_meanwhile(inputs, story):
 
 def test_a_killed_agent_is_started_again_and_its_robot_rests_meanwhile(inputs, story):
     assert "magenta1 was ended by SIGKILL; started again (1 of 3)" in story.program.err
-    assert "agent: magenta1 does not answer, its robot rests" in story.program.err
+    assert "agent: magenta1 does not answer, its robot stops" in story.program.err
     assert any(inputs[tick]["magenta1"].drive == Drive() for tick in range(story.without, max(inputs)))
     assert story.heard.robot("magenta1").alive
 

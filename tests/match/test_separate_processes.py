@@ -7,7 +7,10 @@ import pytest
 
 from recordings.container.manifest import EndReason
 from recordings.reading.recording import open_recording
+from recordings.settings import RecorderSettings
+from robot_agent.settings import AgentSettings
 from schemas.config.match_config import MatchConfig
+from sim_host.settings import HostSettings
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
@@ -30,7 +33,7 @@ class Marked:
         return Command(answers_tick=sight.tick, drive=Drive(vx=1.0, omega=1.0))
 """
 WITHOUT = """
-import touchline.__main__, coach_gateway.__main__, recordings.__main__, robot_agent.__main__, sim_host.__main__
+import touchline.__main__, coach_gateway.process, recordings.process, robot_agent.process, sim_host.process
 try:
     import pybullet
 except ModuleNotFoundError:
@@ -44,17 +47,20 @@ class Story:
     def __init__(self, start, listen, folder, endpoint, without_pybullet):
         self._start, self._folder, self._endpoint = start, folder, endpoint
         first_host = self.host("first", 80_000)
-        meeting = ("--connect", endpoint, "--match", "apart")
+        joined = {"connect": endpoint, "match": "apart"}
         self.agents = [
             start(
-                *("robot_agent", *meeting, "--robot", robot, "--brain", "mind:Marked", "--patience", "90"),
+                "robot_agent",
                 folder=folder,
                 name=robot,
+                settings=AgentSettings(robot=robot, brain="mind:Marked", patience=90, **joined),
                 **without_pybullet,
             )
             for robot in ("cyan1", "magenta1")
         ]
-        recorder = start("recordings", *meeting, "--out", "m.mcap", folder=folder, name="recorder")
+        recorder = start(
+            "recordings", folder=folder, name="recorder", settings=RecorderSettings(out="m.mcap", **joined)
+        )
         heard = listen("apart", endpoint, first_host)
         heard.until_tick(300)
         os.kill(first_host.popen.pid, signal.SIGKILL)
@@ -74,11 +80,9 @@ class Story:
         self.agent_statuses = [agent.status() for agent in self.agents]
 
     def host(self, name, duration):
-        config = self._folder / f"{name}.json"
         match = MatchConfig.model_validate({"name": "apart", "seed": 7, "duration": duration, "teams": TEAMS})
-        config.write_text(match.model_dump_json())
-        words = ("sim_host", "--listen", self._endpoint, "--config", str(config))
-        return self._start(*words, folder=self._folder, name=name)
+        settings = HostSettings(listen=self._endpoint, config=match)
+        return self._start("sim_host", folder=self._folder, name=name, settings=settings)
 
 
 @pytest.fixture(scope="module")
@@ -120,8 +124,8 @@ def test_an_agent_plays_where_pybullet_is_not_installed_and_leaves_politely(stor
 
 
 def test_an_agent_whose_host_does_not_come_back_ends_by_itself(start, folder, without_pybullet):
-    words = ("--connect", "tcp/127.0.0.1:9", "--match", "apart", "--robot", "cyan1", "--brain", "mind:Marked")
-    agent = start("robot_agent", *words, "--patience", "0.1", folder=folder, name="lonely", **without_pybullet)
+    settings = AgentSettings(connect="tcp/127.0.0.1:9", match="apart", robot="cyan1", brain="mind:Marked", patience=0.1)
+    agent = start("robot_agent", folder=folder, name="lonely", settings=settings, **without_pybullet)
     assert agent.status() == 2
     assert "no host answers there" in agent.err
     assert len(agent.err.splitlines()) == 1

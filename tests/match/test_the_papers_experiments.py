@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from rich.text import Text
 
-from coach_gateway.match.detailed_follower import DetailedFollower
+from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
 from robot_agent.contract import Briefing, load_brain
@@ -47,7 +47,7 @@ class Experiment:
         self.scene: Scene = load_scene(scene)
         medium = Medium()
         coach = self._attended(medium.open_bus(config.name, SteppedClock()))
-        self.client, self.seen = HostClient(coach), DetailedFollower(coach)
+        self.client, self.seen = HostClient(coach), MatchFollower(coach, details=True)
         self.client.orders.update()
         self.host = Host(config, medium.open_bus(config.name, SteppedClock()))
         setup = self.host.simulation.setup()
@@ -182,7 +182,7 @@ def test_one_the_coach_sees_the_models_move_as_they_do(static: Experiment) -> No
 
 
 def test_one_every_robot_receives_the_coachs_order(static: Experiment) -> None:
-    """Reference 13, row 29: in the paper one robot alone could hear the coach, until a node was put in between."""
+    """In the paper the coach's socket reached one robot only, until a relay node was added."""
     number = static.order(mode=CoachMode.HOLD, max_speed=1.5)
     static.play(lambda: False, 0.1)
     for name in CYAN:
@@ -214,7 +214,7 @@ def test_one_every_robot_receives_the_coachs_command(static: Experiment, action:
     assert reply.accepted, reply.reason
     assert static.play(lambda: {static.sights[name].game.phase for name in CYAN} == {told}, 20.0)
     static.seen.update()
-    assert static.seen.match.state is not None and static.seen.match.state.phase is phase
+    assert static.seen.state is not None and static.seen.state.phase is phase
     if phase is Phase.STOPPED:
         return
     assert static.play(static.ball_lies_on_its_spot, 20.0)  # as soon as nobody stands there
@@ -225,7 +225,7 @@ def test_one_every_robot_receives_the_coachs_command(static: Experiment, action:
 
 @pytest.mark.parametrize("robot", CYAN)
 def test_two_each_robot_moves_as_the_state_machine_of_the_real_code_says(static: Experiment, robot: str) -> None:
-    """Figure 5 with the constants of the code: reference section 3, and 13, row 19."""
+    """Figure 5 of the paper with the constants of its code."""
     static.order(mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a=robot)
     began = len(static.trace)
     states: list[State] = []
@@ -271,7 +271,7 @@ def test_two_motions_keep_to_the_speeds_of_the_code_and_static_rivals_stay(stati
 
 
 def test_two_after_the_world_is_reset_the_machine_runs_again(static: Experiment) -> None:
-    """Reference 13, row 22: Gazebo's Reset World."""
+    """Gazebo's Reset World."""
     static.order(mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a="cyan2")
     assert static.play(lambda: static.machine("cyan2") is State.HOME, 60.0)
     reply = static.client.scene(SceneRequest(operation=SceneOperation.RESET))
@@ -283,7 +283,7 @@ def test_two_after_the_world_is_reset_the_machine_runs_again(static: Experiment)
 def test_three_both_sides_see_the_same_world_each_from_its_own_end_and_both_move(
     made: Callable[..., Experiment],
 ) -> None:
-    """Reference 13, row 24: the same code on both sides, the frames reversed."""
+    """The same code on both sides, the frames reversed."""
     both = made("paper_two_sides", **{"noise.preset": "perfect"})
     both.tick()
     for ours, theirs in zip(CYAN, RIVALS, strict=True):

@@ -130,7 +130,7 @@ def test_a_match_with_a_page_says_where_it_is_lives_through_the_server_s_death_a
         page.say("action", action={"action": "stop"})  # the event may come before the answer
         while "STOP" not in page.hear("event")["event"]["text"]:
             pass
-        server = match.child("coach_gateway")
+        server = match.process("page")
         os.kill(server, signal.SIGKILL)
         with pytest.raises(ConnectionClosed):
             page.hear("nothing")
@@ -140,7 +140,7 @@ def test_a_match_with_a_page_says_where_it_is_lives_through_the_server_s_death_a
             texts.append(page.hear("event")["event"]["text"])
         assert page.ask("action", action={"action": "start"})["id"] == 7
         page.hear("frame")
-    processes = list(match.children())
+    processes = list(match.processes().values())
     assert len(processes) == 5
     match.popen.send_signal(signal.SIGINT)
     assert match.status() == 130
@@ -210,7 +210,7 @@ def test_a_replay_with_a_page_is_sought_and_paused_from_it_and_leaves_nothing(
             pass
         refused = page.ask("action", action={"action": "stop"})
         assert (refused["accepted"], refused["reason"][:16]) == (False, "this is a replay")
-        processes = list(replay.children())
+        processes = list(replay.processes().values())
         replay.popen.send_signal(signal.SIGINT)
     assert replay.status() == 130
     assert [pid for pid in processes if is_running(pid)] == []

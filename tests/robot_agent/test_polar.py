@@ -1,4 +1,4 @@
-"""Polar coordinates of what is seen, as readers of sights want them (reference 13, row 15; 14, defect 6: SI alone)."""
+"""Polar coordinates of what is seen, as readers of sights want them: SI only."""
 
 import math
 

@@ -12,28 +12,20 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.config.rule_book import RuleBook
 from schemas.config.scene import Scene
-from schemas.game import DisciplinaryRecord, GameView, Point
-from schemas.messages import command, sight
-from schemas.messages.coach import CoachOrder
 from schemas.messages.host import Setup
+from schemas.messages.manual import ManualDrive
+from schemas.messages.sight import Sight
 from schemas.messages.world import World
 from schemas.protocol.fields import rows
+from schemas.struct import Struct
 from schemas.topics import TOPICS
 
 ROOTS = [kind for topic in TOPICS.values() for kind in (topic.message, topic.reply) if kind is not None]
-STRUCTS = {
-    CoachOrder,
-    GameView,
-    Point,
-    DisciplinaryRecord,
-    *(kind for module in (command, sight) for kind in vars(module).values() if isinstance(kind, type)),
-}
-"""Their fields are described by their class and their types."""
 
 
 def parts(kind: Any, met: dict[type, None]) -> Iterator[type]:
     """A model or a dataclass, and all that its fields are made of, each once."""
-    if isinstance(kind, type) and (issubclass(kind, BaseModel) or dataclasses.is_dataclass(kind)):
+    if isinstance(kind, type) and (issubclass(kind, BaseModel | Struct) or dataclasses.is_dataclass(kind)):
         if kind in met:
             return
         met[kind] = None
@@ -49,9 +41,9 @@ def all_parts() -> list[type]:
     return [part for root in (*ROOTS, MatchConfig, Profile, RuleBook, Scene) for part in parts(root, met)]
 
 
-@pytest.mark.parametrize("part", [part for part in all_parts() if part not in STRUCTS], ids=lambda part: part.__name__)
+@pytest.mark.parametrize("part", all_parts(), ids=lambda part: part.__name__)
 def test_every_field_has_a_description(part: type) -> None:
-    schema = TypeAdapter(part).json_schema(mode="serialization")
+    schema = part.json_schema() if issubclass(part, Struct) else TypeAdapter(part).json_schema(mode="serialization")
     own = schema if "properties" in schema else schema.get("$defs", {}).get(part.__name__, {})
     fields = own.get("properties", {})
     assert [name for name, field in fields.items() if not field.get("description")] == []
@@ -72,3 +64,21 @@ def test_the_schema_beside_a_channel_describes_what_is_deep_inside() -> None:
 def test_the_page_on_the_protocol_says_the_same() -> None:
     described = {row.name: row.meaning for row in rows(World, str)}
     assert described["ball"] == whole_schema(World)["properties"]["ball"]["description"]
+
+
+def test_the_schema_of_a_struct_describes_it_and_the_structs_in_it() -> None:
+    schema = Sight.json_schema()
+    assert schema["properties"]["holding"]["description"] == "The robot holds the ball: only then can it kick."
+    assert schema["properties"]["self"] == {
+        "$ref": "#/$defs/Motion",
+        "description": "The robot's own pose and twist, as it measures them.",
+    }
+    motion = schema["$defs"]["Motion"]
+    assert motion["description"] == "Pose and twist of a robot in its team frame."
+    assert motion["properties"]["x"]["description"] == "x of the centre in the team frame, in m."
+
+
+def test_the_description_of_a_field_does_not_replace_that_of_its_type() -> None:
+    schema = ManualDrive.json_schema()
+    assert schema["properties"]["drive"]["description"] == "Velocity demand in the body frame."
+    assert schema["$defs"]["Drive"]["description"].startswith("A velocity demand in the body frame: x in the kicking")

@@ -23,14 +23,14 @@ FINITE = st.floats(allow_nan=False, allow_infinity=False)
 @pytest.mark.parametrize(
     ("payload", "reason"),
     [
-        (b'{"version":"1.0","answers_tick":1,"drive":{"vx":NaN,"vy":0,"omega":0}}', "drive.vx"),
-        (b'{"version":"1.0","answers_tick":1,"drive":{"vx":1e300,"vy":0,"omega":0}}', "m/s from -20 to 20"),
-        (b'{"version":"1.0","answers_tick":1,"kick":{"mode":"banana","speed":3}}', "kick.mode"),
-        (b'{"version":"1.0","answers_tick":1,"kick":{"mode":"lob","speed":-3}}', "kick.speed"),
-        (b'{"version":"1.0","answers_tick":-1}', "answers_tick"),
-        (b'{"version":"1.0"}', "answers_tick is"),
-        (b'{"version":"1.0","answers_tick":1,"nonsense":2}', "nonsense"),
-        (b'{"version":"1.0","answers_ti', "not JSON"),
+        (b'{"version":"2.0","answers_tick":1,"drive":{"vx":NaN,"vy":0,"omega":0}}', "drive.vx"),
+        (b'{"version":"2.0","answers_tick":1,"drive":{"vx":1e300,"vy":0,"omega":0}}', "m/s from -20 to 20"),
+        (b'{"version":"2.0","answers_tick":1,"kick":{"mode":"banana","speed":3}}', "kick.mode"),
+        (b'{"version":"2.0","answers_tick":1,"kick":{"mode":"lob","speed":-3}}', "kick.speed"),
+        (b'{"version":"2.0","answers_tick":-1}', "answers_tick"),
+        (b'{"version":"2.0"}', "answers_tick is"),
+        (b'{"version":"2.0","answers_tick":1,"nonsense":2}', "nonsense"),
+        (b'{"version":"2.0","answers_ti', "not JSON"),
         (b"\x00\xff", "not JSON"),
         (b"[]", "Command"),
         (b" " * 10_000, "10000 bytes, at most 4096"),
@@ -45,12 +45,12 @@ def test_a_bad_command_is_refused_in_one_line_that_names_what_is_wrong(payload: 
 
 @pytest.mark.parametrize("extra", ["", ',"brand_new_field":1'])
 def test_another_major_version_is_named_with_both_versions(extra: str) -> None:
-    with pytest.raises(BadMessageError, match=r"version 2\.3 is not spoken here, this side speaks 1\.0"):
-        Command.decode(b'{"version":"2.3","answers_tick":1' + extra.encode() + b"}")
+    with pytest.raises(BadMessageError, match=r"version 3\.1 is not supported, this side has 2\.0"):
+        Command.decode(b'{"version":"3.1","answers_tick":1' + extra.encode() + b"}")
 
 
 def test_a_newer_minor_version_is_understood() -> None:
-    assert Command.decode(b'{"version":"1.7","answers_tick":1}').answers_tick == 1
+    assert Command.decode(b'{"version":"2.7","answers_tick":1}').answers_tick == 1
 
 
 def test_what_was_made_is_never_changed() -> None:
@@ -91,7 +91,7 @@ def test_a_command_reads_as_in_the_protocol() -> None:
         answers_tick=412, drive=Drive(vx=1.5, omega=0.3), dribble=True, kick=Kick(mode=KickMode.LOB, speed=8)
     )
     content = json.loads(command.encode())
-    assert content["version"] == "1.0"
+    assert content["version"] == "2.0"
     assert content["kick"] == {"mode": "lob", "speed": 8.0}
     assert content["drive"] == {"vx": 1.5, "vy": 0.0, "omega": 0.3}
 

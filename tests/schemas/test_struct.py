@@ -138,10 +138,10 @@ def test_what_is_no_sight_is_refused_in_one_line(payload: bytes) -> None:
 
 
 def test_versions_are_told_apart_by_their_major_number() -> None:
-    assert Sight.decode(PAYLOAD.replace(b'"version":"1.0"', b'"version":"1.7"')).version == "1.7"
-    sentence = "Sight: version 2.3 is not spoken here, this side speaks 1.0; update the older side"
-    assert refused(Sight.decode, PAYLOAD.replace(b'"version":"1.0"', b'"version":"2.3"')) == sentence
-    assert refused(Sight.decode, b'{"version":"2.3","brand_new":1}') == sentence
+    assert Sight.decode(PAYLOAD.replace(b'"version":"2.0"', b'"version":"2.7"')).version == "2.7"
+    sentence = "Sight: version 1.0 is not supported, this side has 2.0; update the older side"
+    assert refused(Sight.decode, PAYLOAD.replace(b'"version":"2.0"', b'"version":"1.0"')) == sentence
+    assert refused(Sight.decode, b'{"version":"1.0","brand_new":1}') == sentence
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from schemas.topics import BELIEF, COMMAND, TOPICS, WORLD
 
 
 def test_a_key_is_filled_and_read_back() -> None:
-    """Reference 13, row 16: names of match, side and robot are chunks of the key."""
+    """Names of match, side and robot are chunks of the key."""
     assert BELIEF.fill(side="cyan", robot="cyan1") == "team/cyan/belief/cyan1"
     assert BELIEF.fill(side="cyan") == "team/cyan/belief/*"
     assert BELIEF.match("team/cyan/belief/cyan1") == {"side": "cyan", "robot": "cyan1"}

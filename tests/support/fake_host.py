@@ -139,13 +139,13 @@ class FakeHost:
         return world
 
     def believe(self, robot: str, radio: Radio) -> None:
-        """A robot sends a radio message."""
+        """Publish a robot's belief."""
         side = next(side for side in Side if robot in self.config.robots(side))
         belief = Belief(tick=self.state.tick, time=self.state.time, robot=robot, radio=radio)
         self.put(BELIEF, belief, side=side.value, robot=robot)
 
     def play(self, tick: int) -> None:
-        """Game, health, a belief of each side, and last the world of one tick."""
+        """Publish game, health, beliefs and the world of one tick; a reader of this world has the beliefs already."""
         at: dict[str, Any] = {"tick": tick, "time": tick * 0.02}
         self.put(STATE, GameState(**at, phase=Phase.PLAY))
         self.put(HEALTH, Health(**at, pace="realtime", real_time_factor=1.0))

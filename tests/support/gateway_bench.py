@@ -33,7 +33,7 @@ async def until(condition: Callable[[], Any], what: str = "") -> None:
 
 
 class Attentive:
-    """A brain that stands still, acknowledges what its coach orders, and says where it is."""
+    """A brain that stands still, acknowledges orders, and sends its pose."""
 
     def __init__(self) -> None:
         self.orders: list[CoachOrder] = []
@@ -88,7 +88,7 @@ class Bench:
     stop: asyncio.Event = field(default_factory=asyncio.Event)
     tasks: list[asyncio.Task[None]] = field(default_factory=list)
     said: list[str] = field(default_factory=list)
-    """What services said to people."""
+    """Lines that services logged."""
 
     def start(self, service: Any) -> asyncio.Task[None]:
         self.tasks.append(asyncio.create_task(service.serve(self.stop)))
@@ -101,7 +101,7 @@ class Bench:
 
 @asynccontextmanager
 async def opened(**teams: Any) -> AsyncIterator[Bench]:
-    """A bench whose gateway knows the match; the words are the match file's."""
+    """A bench whose gateway knows the match; the arguments are overrides of the match file."""
     medium = Medium()
     sizes = {f"teams.{side}.size": 3 for side in Side}
     stage = FakeHost(medium, load_match(None, {**sizes, **teams}))
@@ -120,7 +120,7 @@ async def opened(**teams: Any) -> AsyncIterator[Bench]:
 
 @asynccontextmanager
 async def kicked_off(**words: Any) -> AsyncIterator[Bench]:
-    """The same with a real host, and two robots against one; the words are the match file's."""
+    """The same with a real host, and two robots against one; the arguments are overrides of the match file."""
     medium = Medium()
     sizes = {"teams.cyan.size": 2, "teams.magenta.size": 1}
     pitch = Pitch(medium, load_match(None, {**sizes, "pace": "lockstep", "record.wait": False, **words}))

@@ -31,7 +31,7 @@ class MatchScript:
         teams = {f"teams.{side}": {"name": f"Team {side}", "size": 2} for side in Side}
         self.setup = Setup.of(load_match(None, teams), load_profile("msl"), load_rule_book("friendly"))
         self.manifest = Manifest(
-            contract="1.0", match="cup", recorder="r", started="2026-01-01", sights=False, versions={}, libm=""
+            contract="2.0", match="cup", recorder="r", started="2026-01-01", sights=False, versions={}, libm=""
         )
         self.messages: list[tuple[int, Any]] = []
         self.tick = -1

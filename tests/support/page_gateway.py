@@ -18,21 +18,21 @@ SOON = 20.0
 TOKENS = {"referee": "the-referee", "cyan": "cyans-coach", "magenta": "magentas-coach"}
 
 
-def settings_in(folder: Path, port: int = 0) -> WebSettings:
-    """Settings with `TOKENS`, which are kept in this folder."""
+def tokens_in(folder: Path) -> Path:
+    """A file with `TOKENS` in this folder."""
     tokens = folder / "tokens.json"
     if not tokens.exists():
         tokens.touch(0o600)
         tokens.write_text(json.dumps(TOKENS))
-    return WebSettings(port=port, tokens=tokens)
+    return tokens
 
 
 class Gateway:
     """The page's server in a thread of its own; without a medium it waits for a host that does not come."""
 
-    def __init__(self, medium: Medium | None, settings: WebSettings) -> None:
+    def __init__(self, medium: Medium | None, settings: WebSettings, tokens: Path | None) -> None:
         self.said: list[str] = []
-        self.binding = bind_page(settings, tokens_of(settings.tokens))
+        self.binding = bind_page(settings, tokens_of(tokens), tokens)
         self.origin = self.binding.origin
         self.bus = medium.open_bus("friendly", WallClock()) if medium is not None else None
         self._stop = asyncio.Event()

@@ -109,7 +109,7 @@ class Match:
         return self._events
 
     def hear(self, topic: Topic) -> Callable[[], list[Any]]:
-        """What is said on a topic from now on, each time since the last."""
+        """A function for the messages on a topic since its last call."""
         ear = self.medium.open_bus("friendly", WallClock()).subscribe(topic)
         return lambda: [received.message() for received in iter(ear.receive, None)]
 

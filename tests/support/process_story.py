@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +43,31 @@ def is_running(pid: int) -> bool:
     return stat.rpartition(")")[2].split()[0] != "Z"
 
 
+def descendants(pid: int) -> list[int]:
+    """The processes that a process started, and those that they started."""
+    parents: dict[int, int] = {}
+    for folder in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):  # it ended meanwhile
+            parents[int(folder.name)] = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
+    found = [pid]
+    for one in found:
+        found += [child for child, parent in parents.items() if parent == one]
+    return found[1:]
+
+
+def process_name(pid: int) -> str | None:
+    """What a process of a match is called, by its settings file or, where it was forked, by its name in `ps`."""
+    try:
+        words = Path(f"/proc/{pid}/cmdline").read_bytes().decode().split("\0")
+        name = Path(f"/proc/{pid}/comm").read_text().strip()
+    except OSError:
+        return None  # it ended meanwhile
+    if "--settings" in words:
+        return Path(words[words.index("--settings") + 1]).stem
+    is_forked = any("multiprocessing.forkserver" in word for word in words)
+    return name if is_forked and name != Path(sys.executable).name else None
+
+
 class Program:
     """A Python program with its words in files."""
 
@@ -74,31 +100,19 @@ class Program:
         """Wait until these words stand on its stderr."""
         wait_for(lambda: words in self.err, f"{words!r} in: {self.err}")
 
-    def children(self) -> dict[int, list[str]]:
-        """Pid → command line of the processes that it launched and that run."""
-        found = {}
-        for folder in Path("/proc").glob("[0-9]*"):
-            try:
-                parent = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
-                words = (folder / "cmdline").read_bytes().decode().split("\0")
-            except OSError:
-                continue  # it ended meanwhile
-            if parent == self.popen.pid:
-                found[int(folder.name)] = words
-        return found
+    def processes(self) -> dict[str, int]:
+        """Name → pid of the processes of its match that run; the fork server and its like are not among them."""
+        names = {pid: process_name(pid) for pid in descendants(self.popen.pid)}
+        return {name: pid for pid, name in names.items() if name is not None}
 
-    def child(self, *words: str) -> int:
-        """The pid of the child whose command line has all these words."""
-
-        def find() -> int | None:
-            return next((pid for pid, line in self.children().items() if set(words) <= set(line)), None)
-
-        pid: int = wait_for(find, f"a process {' '.join(words)}; stderr: {self.err}")
+    def process(self, name: str) -> int:
+        """The pid of one process of its match: host, recorder, page, or a robot."""
+        pid: int = wait_for(lambda: self.processes().get(name), f"a process {name}; stderr: {self.err}")
         return pid
 
     def end(self) -> None:
         if self.popen.poll() is None:
-            left = list(self.children())
+            left = descendants(self.popen.pid)
             self.popen.kill()
             self.popen.wait()
             for pid in left:

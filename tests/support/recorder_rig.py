@@ -73,7 +73,7 @@ class FakeHost:
     setup: Setup
     writers: dict[str, Publisher] = field(default_factory=dict)
     is_prompt: bool = True
-    """It sends the record batch of each tick at once, so that nobody has to wait for them."""
+    """It publishes a batch for each tick at once."""
 
     def __post_init__(self) -> None:
         self.server = self.bus.serve(SETUP)
@@ -96,6 +96,7 @@ class FakeHost:
     def answer(self) -> None:
         while (query := self.server.receive()) is not None:
             query.reply(self.setup)
+        self.batches.process()
 
     def play(self, tick: int) -> None:
         """One tick: truth, the inputs that led to it, the robots' answers to it."""

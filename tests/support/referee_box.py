@@ -10,7 +10,7 @@ CYAN_AT, MAGENTA_AT = "224.16.32.44", "224.16.32.55"
 
 
 class Box:
-    """A referee box: whoever connects is welcomed with its address, and everybody hears everything."""
+    """A referee box: welcomes each base station with its address, and sends everything to all of them."""
 
     def __init__(self, greets: bool = True, reads: bool = True) -> None:
         self.greets = greets

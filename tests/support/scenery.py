@@ -29,8 +29,8 @@ class Seen(NamedTuple):
 
 
 def seen_of(percept: Percept) -> Seen:
-    flat = percept.obstacles
-    return Seen(*percept[:4], list(zip(flat[::3], flat[1::3], flat[2::3], strict=True)), percept.obstacles_age)
+    obstacles = [(one.x, one.y, one.radius) for one in percept.obstacles]
+    return Seen(*percept[:4], obstacles, percept.obstacles_age)
 
 
 def roster_of(cyan: int, magenta: int) -> Roster:

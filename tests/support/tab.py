@@ -32,7 +32,7 @@ class Tab:
             self.faults.append(fault)
 
     def until(self, holds: str) -> None:
-        """Wait for the page; its own rules let nobody evaluate a text in it, so it is asked from outside."""
+        """Wait for the page; its policy forbids to evaluate a text inside, so it is polled from outside."""
         deadline = time.monotonic() + SOON
         while not self.page.evaluate(holds):
             assert time.monotonic() < deadline, f"never came true: {holds}"

@@ -8,7 +8,7 @@ from support.page_gateway import SOON
 
 
 class Tunnel:
-    """A port whose links lead to another one, until they are blocked: then nothing comes through, untold."""
+    """A port that forwards to another one until it is blocked: then it silently drops everything."""
 
     def __init__(self, port: int) -> None:
         self._to = port

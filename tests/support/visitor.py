@@ -17,7 +17,7 @@ class Visitor:
     """One open page."""
 
     def __init__(self, origin: str, token: str = "", claims: str | None = None, **more: Any) -> None:
-        """`claims` is the origin it says it comes from, its own when not given."""
+        """`claims` is the origin that it sends, by default its own."""
         self.token = token
         self._numbers = itertools.count(1)
         opening = connect(
@@ -42,7 +42,7 @@ class Visitor:
                 return message
 
     def hear_what_is_played(self) -> dict[str, Any]:
-        """The first welcome after the host has said how its match is set up: before, nothing can be asked of it."""
+        """The first welcome with a setup: before it, requests are refused."""
         welcome = self.hear("welcome")
         while welcome["setup"] is None:
             welcome = self.hear("welcome")

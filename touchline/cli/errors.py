@@ -15,7 +15,7 @@ WRONG = 2
 """Wrong usage or input."""
 
 
-class ErrorReportingGroup(TyperGroup):
+class CommandGroup(TyperGroup):
     """A group whose errors are sentences; anything unexpected still shows its traceback."""
 
     def main(self, *args: Any, **settings: Any) -> Any:
@@ -25,23 +25,23 @@ class ErrorReportingGroup(TyperGroup):
             status = super().main(*args, **settings)
         except typer.TyperException as error:
             sentence = error.format_message()  # empty where the help itself was the answer
-            sys.exit(_print_error(_with_hint(sentence, error), WRONG) if sentence else WRONG)
+            sys.exit(_say(_placed(sentence, error), WRONG) if sentence else WRONG)
         except TouchlineError as error:
-            sys.exit(_print_error(str(error), WRONG))
+            sys.exit(_say(str(error), WRONG))
         except MatchFailedError as error:
-            sys.exit(_print_error(str(error), FAILED))
+            sys.exit(_say(str(error), FAILED))
         except typer.Abort:
             sys.exit(FAILED)
         sys.exit(status if isinstance(status, int) else 0)
 
 
-def _with_hint(sentence: str, error: typer.TyperException) -> str:
+def _placed(sentence: str, error: typer.TyperException) -> str:
     """What is wrong, and where the right words stand."""
     context = getattr(error, "ctx", None)
     command = context.command_path if context is not None else "touchline"
     return f"{' '.join(sentence.replace('Value error, ', '').split())} ({command} --help lists what is there)"
 
 
-def _print_error(sentence: str, status: int) -> int:
+def _say(sentence: str, status: int) -> int:
     typer.echo(f"{PREFIX}{sentence}", err=True)
     return status

@@ -1,47 +1,208 @@
-"""Options that several commands share, written once: a group of them is a dataclass, and a command takes it whole.
+"""Options that are defined once, as the fields of a class, and taken whole by each command that has them.
 
-A parameter whose type is such a dataclass becomes one option or argument for each of its fields, in its place; the
-command gets the group. The dataclass stands in a module of its own, where its annotations can be read.
+A parameter of a command whose type is a model of settings or a dataclass becomes one option for each of its fields, and
+the command is given the model or the dataclass. Options of a model are made from the field alone: its name, type,
+default, limits, and its docstring as help. A parameter of type `Annotated[dict[str, Any], FieldsOf(Model, "a", "b")]`
+stands for some fields of a model; the command is given those whose options were used.
 """
 
 from collections.abc import Callable
 from dataclasses import MISSING, fields, is_dataclass
+from enum import Enum
 from inspect import Parameter, Signature, signature
-from typing import Any, get_type_hints
+from types import NoneType, UnionType
+from typing import Annotated, Any, NamedTuple, TypeVar, Union, get_args, get_origin, get_type_hints
+
+import typer
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from schemas.config.settings import CommandLine, Settings
+from schemas.described import field_docstrings
+from schemas.errors import TouchlineError
+from schemas.faults import FaultError, Path, validated
+
+T = TypeVar("T")
 
 
-def expand_option_groups(command: Callable[..., None]) -> Callable[..., None]:
+class FieldsOf:
+    """Some fields of a model as options; the command is given a dictionary of those that were used."""
+
+    def __init__(self, model: type[BaseModel], *names: str, **options: str | tuple[str, ...]) -> None:
+        """Take these fields, by default all; `options` gives a field's option another name, or several."""
+        self.model = model
+        self.options: dict[str, tuple[str, ...]] = {
+            name: (name,) for name in names or (() if options else model.model_fields)
+        }
+        self.options |= {name: (word,) if isinstance(word, str) else word for name, word in options.items()}
+
+
+def with_option_groups(command: Callable[..., None]) -> Callable[..., None]:
     """The command as the command line sees it: without groups, each option by itself."""
     hints = get_type_hints(command, include_extras=True)
-    seen = signature(command).parameters
-    groups = {name: hints[name] for name in seen if is_dataclass(hints[name])}
-    parameters: list[Parameter] = []
-    for name, parameter in seen.items():
-        expanded = _parameters(groups[name]) if name in groups else [parameter.replace(annotation=hints[name])]
-        parameters.extend(one.replace(kind=Parameter.KEYWORD_ONLY) for one in expanded)
+    plain: list[Parameter] = []
+    groups: dict[str, _Group] = {}
+    for name, parameter in signature(command).parameters.items():
+        group = _group_of(hints[name])
+        if group is not None:
+            groups[name] = group
+        plain += group.parameters if group is not None else [parameter.replace(annotation=hints[name])]
 
     def run(**values: Any) -> None:
-        grouped = {
-            name: group(**{field.name: values.pop(field.name) for field in fields(group)})
-            for name, group in groups.items()
-        }
-        command(**values, **grouped)
+        built = {name: group.build(_taken(values, group)) for name, group in groups.items()}
+        command(**values, **built)
 
     run.__name__, run.__doc__, run.__module__ = command.__name__, command.__doc__, command.__module__
-    run.__annotations__ = {one.name: one.annotation for one in parameters} | {"return": None}
+    run.__annotations__ = {one.name: one.annotation for one in plain} | {"return": None}
+    parameters = [one.replace(kind=Parameter.KEYWORD_ONLY) for one in plain]
     run.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
     return run
 
 
-def _parameters(group: Any) -> list[Parameter]:
-    """One for each field, with its default."""
-    hints = get_type_hints(group, include_extras=True)
-    return [
-        Parameter(
-            field.name,
-            Parameter.KEYWORD_ONLY,
-            default=Parameter.empty if field.default is MISSING else field.default,
-            annotation=hints[field.name],
-        )
-        for field in fields(group)
-    ]
+def from_options(model: type[T], **content: object) -> T:
+    """The model or struct with the values of these options.
+
+    Raises:
+        TouchlineError: a value that it may not have, named by its option, or two that do not agree.
+    """
+    try:
+        return validated(model, content)
+    except FaultError as error:
+        fault = error.fault
+        option, rest = _option_of(model, fault.path)
+        named = fault._replace(path=(option, *rest)) if option is not None else fault._replace(path=())
+        raise TouchlineError(named.sentence()) from None
+
+
+class _Group(NamedTuple):
+    """The parameters that stand for a group, and how the group is made from their values."""
+
+    parameters: list[Parameter]
+    build: Callable[[dict[str, Any]], Any]
+
+
+def _taken(values: dict[str, Any], group: _Group) -> dict[str, Any]:
+    return {one.name: values.pop(one.name) for one in group.parameters}
+
+
+def _group_of(annotation: Any) -> _Group | None:
+    """The group that a parameter of this type is; None for an option by itself."""
+    for extra in getattr(annotation, "__metadata__", ()):
+        if isinstance(extra, FieldsOf):
+            return _group_of_fields(extra)
+    if isinstance(annotation, type) and issubclass(annotation, Settings):
+        return _group_of_settings(annotation)
+    return _group_of_dataclass(annotation) if is_dataclass(annotation) else None
+
+
+def _group_of_fields(chosen: FieldsOf) -> _Group:
+    parameters = [_parameter(chosen.model, name, *words, is_override=True) for name, words in chosen.options.items()]
+
+    def build(values: dict[str, Any]) -> dict[str, Any]:
+        return {name: values[words[0]] for name, words in chosen.options.items() if _is_given(values[words[0]])}
+
+    return _Group(parameters, build)
+
+
+def _group_of_settings(model: type[Settings]) -> _Group:
+    parameters: list[Parameter] = []
+    below: dict[str, _Group] = {}
+    for name, field in model.model_fields.items():
+        part = _part_of(field)
+        if part is None:
+            parameters.append(_parameter(model, name, name, is_override=False))
+        elif issubclass(part, Settings):
+            below[name] = _group_of_settings(part)
+            parameters += below[name].parameters
+
+    def build(values: dict[str, Any]) -> Settings:
+        parts = {name: group.build(_taken(values, group)) for name, group in below.items()}
+        return from_options(model, **{name: value for name, value in values.items() if _is_given(value)}, **parts)
+
+    return _Group(parameters, build)
+
+
+def _group_of_dataclass(cls: Any) -> _Group:
+    hints = get_type_hints(cls, include_extras=True)
+    parameters: list[Parameter] = []
+    below: dict[str, _Group] = {}
+    for field in fields(cls):
+        group = _group_of(hints[field.name])
+        if group is not None:
+            below[field.name] = group
+            parameters += group.parameters
+        else:
+            default = Parameter.empty if field.default is MISSING else field.default
+            parameters.append(
+                Parameter(field.name, Parameter.KEYWORD_ONLY, default=default, annotation=hints[field.name])
+            )
+
+    def build(values: dict[str, Any]) -> Any:
+        parts = {name: group.build(_taken(values, group)) for name, group in below.items()}
+        return cls(**values, **parts)
+
+    return _Group(parameters, build)
+
+
+def _parameter(model: type[BaseModel], field_name: str, *names: str, is_override: bool) -> Parameter:
+    """The option of a field; an override has no default of its own."""
+    field = model.model_fields[field_name]
+    limits = _limits(field) if issubclass(model, Settings) else {}  # a match file explains its limits itself
+    default = field.get_default(call_default_factory=True)
+    kind = _without_none(field.annotation)
+    words = [name.replace("_", "-") for name in names]
+    known = next((extra for extra in field.metadata if isinstance(extra, CommandLine)), CommandLine())
+    has_no_form = kind is bool and (is_override or default is True)
+    option = typer.Option(
+        *(f"--{word}/--no-{word}" if has_no_form else f"--{word}" for word in words),
+        help=field_docstrings(model).get(field_name, ""),
+        envvar=known.environment,
+        metavar=known.metavar,
+        show_default=_shown(default) if is_override else True,
+        **limits,
+    )
+    if is_override or (not field.is_required() and default in (None, [])):
+        return Parameter(names[0], Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[kind | None, option])
+    default = Parameter.empty if field.is_required() else default
+    return Parameter(names[0], Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, option])
+
+
+def _part_of(field: FieldInfo) -> type[BaseModel] | None:
+    """The model that a field is of, or may be of; None for a plain value."""
+    kind = _without_none(field.annotation)
+    return kind if isinstance(kind, type) and issubclass(kind, BaseModel) else None
+
+
+def _without_none(annotation: Any) -> Any:
+    """The type of a field, without None and without what an annotation within it adds."""
+    if get_origin(annotation) in (Union, UnionType):
+        (annotation,) = (one for one in get_args(annotation) if one is not NoneType)
+    return get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
+
+
+def _limits(field: FieldInfo) -> dict[str, Any]:
+    """The limits that a value may reach, as the command line knows them; the model itself checks all of its limits."""
+    known = (("min", "ge"), ("max", "le"))
+    return {word: getattr(one, limit) for one in field.metadata for word, limit in known if hasattr(one, limit)}
+
+
+def _shown(default: Any) -> str | bool:
+    """A default as the help shows it; None, an empty list and a switch are not shown."""
+    if default is None or isinstance(default, bool | list):
+        return False
+    return str(default.value if isinstance(default, Enum) else default)
+
+
+def _is_given(value: Any) -> bool:
+    return value is not None and value != []
+
+
+def _option_of(model: Any, path: Path) -> tuple[str | None, Path]:
+    """The option of a field that is wrong, and the path below it; None where fields do not agree with each other."""
+    for number, step in enumerate(path):
+        fields_known = getattr(model, "model_fields", {})
+        part = _part_of(fields_known[str(step)]) if str(step) in fields_known else None
+        if part is None or not issubclass(part, Settings):
+            return "--" + str(step).replace("_", "-"), path[number + 1 :]
+        model = part
+    return None, ()

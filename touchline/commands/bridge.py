@@ -1,27 +1,21 @@
 """`touchline coach bridge`: the match for coach programs, for a league's referee box, and for team software."""
 
-from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
+from coach_gateway import run
+from coach_gateway.settings import BridgeOptions, GatewaySettings
+from schemas.bus.settings import ClientSettings
 from schemas.errors import TouchlineError
-from touchline.cli import options
-from touchline.cli.bridge_options import BridgeOptions
-from touchline.cli.option_groups import expand_option_groups
+from touchline.cli.option_groups import FieldsOf, with_option_groups
 
 
-@expand_option_groups
+@with_option_groups
 def bridge(
     bridges: BridgeOptions,
-    connection: options.ConnectOptions,
-    tokens: Annotated[
-        Path | None,
-        typer.Option(
-            envvar="TOUCHLINE_TOKENS",
-            help="File of the coaches' tokens, made when it is not there; without one they last as long as this.",
-        ),
-    ] = None,
+    joined: ClientSettings,
+    tokens: Annotated[dict[str, Any], FieldsOf(GatewaySettings, "tokens")],
 ) -> None:
     """Join coach programs, a league's referee box or team software to a running match, until Ctrl-C.
 
@@ -29,9 +23,7 @@ def bridge(
 
     Example: touchline coach bridge --refbox 192.168.1.2 --team cyan
     """
-    from coach_gateway.__main__ import serve
-
-    chosen = bridges.bridges()
-    if not chosen.wanted:
+    if not bridges.wanted:
         raise TouchlineError("no bridge is named; name --udp, --refbox, --refbox-server or --audience")
-    serve(connection.connect, connection.match, None, chosen, tokens)
+    settings = GatewaySettings(connect=joined.connect, match=joined.match, bridges=bridges, **tokens)
+    raise typer.Exit(run(settings))

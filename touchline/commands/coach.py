@@ -6,12 +6,14 @@ from typing import Annotated, NamedTuple
 
 import typer
 
+from coach_gateway import run
+from coach_gateway.settings import GatewaySettings
+from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.game import ActionName, RefereeAction
 from touchline.cli import options
 from touchline.cli.bus_client import PATIENCE, bus_client
-from touchline.cli.messages import message_from_options
-from touchline.cli.option_groups import expand_option_groups
+from touchline.cli.option_groups import from_options, with_option_groups
 from touchline.commands import orders
 from touchline.commands.bridge import bridge
 from touchline.commands.serve import serve
@@ -103,14 +105,14 @@ REFEREE_COMMANDS: dict[str, RefereeCommand] = {
 
 
 def _command(row: RefereeCommand) -> Callable[..., None]:
-    def command(target: Target, connection: options.ConnectOptions) -> None:
+    def command(target: Target, connection: ClientSettings) -> None:
         content = asdict(target)
         if isinstance(target, PlaceTarget):
             content = {"place": content}
-        _send(connection, message_from_options(RefereeAction, action=row.action, **content))
+        _send(connection, from_options(RefereeAction, action=row.action, **content))
 
     command.__annotations__["target"] = row.target
-    return expand_option_groups(command)
+    return with_option_groups(command)
 
 
 for _word, _row in REFEREE_COMMANDS.items():
@@ -126,8 +128,8 @@ app.command("test")(orders.test)
 
 
 @app.command("state")
-@expand_option_groups
-def state(connection: options.ConnectOptions, json: options.Json = False) -> None:
+@with_option_groups
+def state(connection: ClientSettings, json: options.Json = False) -> None:
     """Show once how the match stands.
 
     Example: touchline coach state --json | jq .score
@@ -155,18 +157,16 @@ app.command("bridge")(bridge)
 
 
 @app.command("watch")
-@expand_option_groups
-def watch(connection: options.ConnectOptions) -> None:
+@with_option_groups
+def watch(connection: ClientSettings) -> None:
     """Show the match as plain lines until its host goes, or until Ctrl-C.
 
     Example: touchline coach watch --connect tcp/192.168.1.5:7447
     """
-    from coach_gateway.__main__ import run
-
-    run(connection.connect, connection.match, PATIENCE)
+    raise typer.Exit(run(GatewaySettings(connect=connection.connect, match=connection.match)))
 
 
-def _send(connection: options.ConnectOptions, action: RefereeAction) -> None:
+def _send(connection: ClientSettings, action: RefereeAction) -> None:
     from coach_gateway.match.host_client import HostClient
 
     with bus_client(connection.connect, connection.match) as bus:

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError, did_you_mean
 from schemas.messages.manual import ManualDrive
 from schemas.topics import MANUAL
-from touchline.cli import options
 from touchline.cli.bus_client import bus_client
-from touchline.cli.option_groups import expand_option_groups
+from touchline.cli.option_groups import with_option_groups
 from touchline.cli.terminal import KeyReader, terminal
 from touchline.drive.keys import KEYS, KeyState, Speeds, manual_drive, press_keys, status
 
@@ -24,14 +24,14 @@ _PERIOD = 0.05
 _USUAL = Speeds()
 
 
-@expand_option_groups
+@with_option_groups
 def drive(
     robot: Annotated[str, typer.Argument(metavar="ROBOT", help="cyan1, magenta3, …")],
     speed: Annotated[float, typer.Option(min=0.0, max=20.0, help="m/s along each axis.")] = _USUAL.drive,
     turn: Annotated[float, typer.Option(min=0.0, max=50.0, help="rad/s.")] = _USUAL.turn,
     kick: Annotated[float, typer.Option(min=0.1, max=40.0, help="m/s.")] = _USUAL.kick,
     *,
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
 ) -> None:
     """Drive one robot of a running match by keys; Ctrl-C gives it back to its brain.
 

@@ -20,7 +20,7 @@ def filter(
 
     Example: touchline filter match.mcap --out commands.mcap --include "robot/*/command" --from 10 --to 20
     """
-    from recordings.editing.copying import filter_recording
+    from recordings.editing.filtering import filter_recording
     from recordings.reading.recording import open_recording
 
     copied = filter_recording(open_recording(file), out, options.selection(include, exclude), start, end)

@@ -17,7 +17,8 @@ def info(
 
     Example: touchline info runs/friendly-20260101T120000Z-seed1/match.mcap
     """
-    from recordings.inspection.recording_facts import HEADINGS, facts_of, key_rows, summary_lines
+    from recordings.inspection.facts_table import HEADINGS, key_rows, summary_lines
+    from recordings.inspection.recording_facts import facts_of
     from recordings.reading.recording import open_recording
 
     facts = facts_of(open_recording(file))

@@ -10,23 +10,22 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from coach_gateway.web.settings import DEFAULT_PORT, LOOPBACK
+from coach_gateway.settings import BridgeOptions
+from schemas.config.settings import RecordOptions
 from touchline.cli import options
-from touchline.cli.bridge_options import NO_BRIDGES, BridgeOptions
-from touchline.cli.option_groups import expand_option_groups
-from touchline.cli.record_options import RecordOptions
+from touchline.cli.option_groups import FieldsOf, with_option_groups
 
 if TYPE_CHECKING:
+    from coach_gateway.web.settings import WebSettings
     from schemas.bus.contract import ReceivedMessage
     from schemas.config.match_config import MatchConfig
     from schemas.process.clock import Clock
-    from touchline.launch.processes import MatchPlan, PagePlan
+    from touchline.launch.processes import MatchPlan
     from touchline.launch.result import MatchResult
 
 
-@expand_option_groups
+@with_option_groups
 def match(
-    match_options: options.MatchOptions,
     record: Annotated[
         Path | None, typer.Option(help="Where the recording goes; by default into the run's folder.")
     ] = None,
@@ -35,12 +34,12 @@ def match(
         list[str] | None, typer.Option(help="A side played by its recorded commands: magenta=RECORDING.mcap.")
     ] = None,
     web: options.Web = False,
-    web_port: options.WebPort = DEFAULT_PORT,
-    listen_web: options.ListenWeb = LOOPBACK,
-    bridges: BridgeOptions = NO_BRIDGES,
     json: options.Json = False,
     *,
-    recording: RecordOptions,
+    played: options.MatchOptions,
+    recording: Annotated[dict[str, Any], FieldsOf(RecordOptions)],
+    page: options.PageOptions,
+    bridges: BridgeOptions,
 ) -> None:
     """Play a match: launch host, recorder and robots, show it, and leave a recording and a result.
 
@@ -57,30 +56,28 @@ def match(
     from touchline.launch.run_folder import prepare_run
 
     teams = _teams_of(ghost) if ghost else {}
-    bridged = bridges.arguments()
-    if bridged:
-        bridges.bridges().try_ports()
-    if (web or bridged) and match_options.pace is None:
-        match_options = replace(match_options, pace="realtime")
-    if bridges.refbox is not None and match_options.referee is None:
-        match_options = replace(match_options, referee="manual")  # the league's box decides
-    config = match_options.read(
+    if bridges.wanted:
+        _try_ports(bridges)
+    if web or bridges.wanted:
+        played.changes.setdefault("pace", "realtime")
+    if bridges.refbox is not None:
+        played.officiating.setdefault("mode", "manual")  # the league's box decides
+    config = played.read(
         **{f"teams__{side}": team for side, team in teams.items()},
-        **recording.flags(),
+        **{f"record__{key}": value for key, value in recording.items()},
         record__wait=not no_record,
     )
     if ghost:
         _check_ghosts(config, ghost)
     check_robot_names(config)
     check_teams(config)
-    endpoint = match_options.endpoint()
+    endpoint = played.endpoint()
     clock = WallClock()
-    port = _page_port(listen_web, web_port) if web else None
-    plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
-    if port is not None:
-        plan = replace(plan, page=_page(plan, listen_web, port, err=json))
-    if bridged:
-        plan = replace(plan, bridges=bridged)
+    served = _page_settings(page) if web else None
+    plan = replace(prepare_run(config, endpoint, record, clock, recorded=not no_record), page=served, bridges=bridges)
+    if served is not None:
+        _invite(plan, served, err=json)
+    if bridges.wanted:
         typer.echo(f"bridges: {plan.folder / 'bridges.log'}; the coaches' tokens: {plan.tokens}", err=json)
     if plan.warning:
         typer.echo(f"touchline: {plan.warning}", err=True)
@@ -108,20 +105,24 @@ def _check_ghosts(config: "MatchConfig", ghosts: list[str]) -> None:
     check_ghosts(config, ghosts)
 
 
-def _page_port(address: str, port: int) -> int:
-    from touchline.launch.page import page_port
+def _page_settings(options: dict[str, Any]) -> "WebSettings":
+    from touchline.launch.page import page_settings
 
-    return page_port(address, port)
+    return page_settings(options)
 
 
-def _page(plan: "MatchPlan", address: str, port: int, *, err: bool) -> "PagePlan":
-    """The match's page; whoever reads is told where it is."""
-    from touchline.launch.page import address_lines, page_with_tokens
+def _invite(plan: "MatchPlan", page: "WebSettings", *, err: bool) -> None:
+    """Print where the page is."""
+    from touchline.launch.page import address_lines
 
-    page = page_with_tokens(plan.folder, address, port)
-    for line in address_lines(page):
+    for line in address_lines(page, plan.tokens):
         typer.echo(line, err=err)
-    return page
+
+
+def _try_ports(bridges: BridgeOptions) -> None:
+    from coach_gateway.bridges import bridges_of
+
+    bridges_of(bridges).try_ports()
 
 
 def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> "MatchResult":

@@ -16,7 +16,7 @@ def merge(
 
     Example: touchline merge final.0001.mcap final.0002.mcap --out final.mcap
     """
-    from recordings.editing.copying import merge_recordings
+    from recordings.editing.merging import merge_recordings
     from recordings.reading.recording import open_recording
 
     copied = merge_recordings([open_recording(file) for file in files], out)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from schemas.bus.settings import ClientSettings
 from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
@@ -13,8 +14,7 @@ from schemas.side import Side
 from schemas.struct import check
 from touchline.cli import options
 from touchline.cli.bus_client import bus_client
-from touchline.cli.messages import message_from_options
-from touchline.cli.option_groups import expand_option_groups
+from touchline.cli.option_groups import from_options, with_option_groups
 
 if TYPE_CHECKING:
     from coach_gateway.match.orders import Receipt
@@ -69,7 +69,7 @@ class AcknowledgementOptions:
     json: options.Json = False
 
 
-@expand_option_groups
+@with_option_groups
 def order(
     side: options.ForSide,
     mode: Annotated[
@@ -80,7 +80,7 @@ def order(
     *,
     order_options: OrderOptions,
     acknowledgement: AcknowledgementOptions,
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
 ) -> None:
     """Give a side its new standing order, and say which robots have acknowledged it.
 
@@ -90,13 +90,13 @@ def order(
     _order(side, order_options, acknowledgement, connection, mode=mode, test=test, tactic=tactic)
 
 
-@expand_option_groups
+@with_option_groups
 def test(
     side: options.ForSide,
     test: Annotated[CoachTest, typer.Argument(help="What the named robot shows; the others stand still.")],
     order_options: OrderOptions,
     acknowledgement: AcknowledgementOptions,
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
 ) -> None:
     """Have robots of a side show one thing: drive to a point, circle, pass, catch, shoot.
 
@@ -111,13 +111,13 @@ def _order(
     side: Side,
     order_options: OrderOptions,
     acknowledgement: AcknowledgementOptions,
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
     **more: Any,
 ) -> None:
     from coach_gateway.match.host_client import HostClient
 
     content = {**{key: getattr(order_options, key) for key in (field.name for field in fields(order_options))}, **more}
-    message_from_options(CoachOrder, sequence=1, **content)
+    from_options(CoachOrder, sequence=1, **content)
     with bus_client(connection.connect, connection.match) as bus:
         client = HostClient(bus)
         client.orders.update()  # so that what the host says of the order is heard from the first word

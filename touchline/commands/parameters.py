@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from touchline.cli import options
 from touchline.cli.bus_client import bus_client
-from touchline.cli.option_groups import expand_option_groups
+from touchline.cli.option_groups import with_option_groups
 
 if TYPE_CHECKING:
     from schemas.messages.parameters import Parameter, ParametersReply, ParametersRequest, Value
@@ -24,11 +25,11 @@ Names = Annotated[list[str], typer.Argument(metavar="NAME...", help="Parameters,
 
 
 @app.command("list")
-@expand_option_groups
+@with_option_groups
 def list_all(
     json: options.Json = False,
     *,
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
 ) -> None:
     """List every parameter: value, unit, range, what it means, and whether it can be changed.
 
@@ -40,12 +41,12 @@ def list_all(
 
 
 @app.command("get")
-@expand_option_groups
+@with_option_groups
 def get(
     names: Names,
     json: options.Json = False,
     *,
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
 ) -> None:
     """Show some parameters, or whole sections.
 
@@ -57,12 +58,12 @@ def get(
 
 
 @app.command("set")
-@expand_option_groups
+@with_option_groups
 def set_values(
     settings: Annotated[list[str], typer.Argument(metavar="NAME=VALUE...", help="In the parameter's own unit.")],
     json: options.Json = False,
     *,
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
 ) -> None:
     """Change parameters between two ticks: all that are named, or none.
 
@@ -76,14 +77,14 @@ def set_values(
 
 
 @app.command("reset")
-@expand_option_groups
+@with_option_groups
 def reset(
     names: Annotated[
         list[str] | None, typer.Argument(metavar="[NAME...]", help="Parameters or sections; none for all.")
     ] = None,
     json: options.Json = False,
     *,
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
 ) -> None:
     """Bring parameters back to what the match began with.
 
@@ -124,7 +125,7 @@ def _request(**content: object) -> "ParametersRequest":
         ) from None
 
 
-def _query(connection: options.ConnectOptions, request: "ParametersRequest") -> "ParametersReply":
+def _query(connection: ClientSettings, request: "ParametersRequest") -> "ParametersReply":
     from coach_gateway.match.host_client import HostClient
 
     with bus_client(connection.connect, connection.match) as bus:

@@ -5,13 +5,14 @@ from typing import Annotated
 
 import typer
 
+from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from touchline.cli import options
-from touchline.cli.option_groups import expand_option_groups
+from touchline.cli.option_groups import with_option_groups
 
 
-@expand_option_groups
+@with_option_groups
 def player(
     operation: Annotated[ReplayOperation, typer.Argument(help="What to do.")] = ReplayOperation.STATUS,
     value: Annotated[
@@ -19,7 +20,7 @@ def player(
         typer.Argument(help="seek: seconds or an event, or +5 and -5 from here; rate: a number, or fast; step: ticks."),
     ] = None,
     *,
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
     json: options.Json = False,
 ) -> None:
     """Control a running replay, on this machine or another.

@@ -7,10 +7,11 @@ from typing import Annotated
 
 import typer
 
+from schemas.bus.settings import ClientSettings
 from schemas.messages.recorder import RecorderOperation
 from touchline.cli import options
 from touchline.cli.errors import PREFIX
-from touchline.cli.option_groups import expand_option_groups
+from touchline.cli.option_groups import with_option_groups
 
 app = typer.Typer(
     help="Control a recorder while it records: pause, resume, split, snapshot, status.\n\n"
@@ -43,10 +44,10 @@ class RecorderChoice:
 
 
 def _command(operation: RecorderOperation) -> Callable[..., None]:
-    def command(connection: options.ConnectOptions, chosen: RecorderChoice) -> None:
+    def command(connection: ClientSettings, chosen: RecorderChoice) -> None:
         _query(operation, connection, chosen)
 
-    return expand_option_groups(command)
+    return with_option_groups(command)
 
 
 for _operation, (_help, _example) in COMMANDS.items():
@@ -55,7 +56,7 @@ for _operation, (_help, _example) in COMMANDS.items():
     )(_command(_operation))
 
 
-def _query(operation: RecorderOperation, connection: options.ConnectOptions, chosen: RecorderChoice) -> None:
+def _query(operation: RecorderOperation, connection: ClientSettings, chosen: RecorderChoice) -> None:
     """Ask, print the answer; exit status 1 where it is a refusal."""
     from schemas.bus.contract import NoReplyError
     from schemas.errors import MatchFailedError

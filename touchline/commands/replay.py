@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from coach_gateway.web.settings import DEFAULT_PORT, LOOPBACK
 from schemas.bus.endpoint import local_endpoint, parse_endpoint
+from schemas.bus.settings import ClientSettings, ListenSettings
 from schemas.errors import TouchlineError
 from touchline.cli import options
+from touchline.cli.option_groups import from_options, with_option_groups
 
 if TYPE_CHECKING:
     from recordings.reading.recording import RecordedMessage
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from touchline.launch.supervisor import Notice
 
 
+@with_option_groups
 def replay(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
     rate: Annotated[float, typer.Option(min=0.001, help="Simulated seconds per second.")] = 1.0,
@@ -47,24 +49,25 @@ def replay(
     behind: Annotated[
         float, typer.Option(min=0.0, help="With --follow: s of simulated time behind to begin at.")
     ] = 5.0,
-    listen: options.Listen = options.DEFAULT_ENDPOINT,
-    insecure: options.Insecure = False,
     connect: Annotated[
         str | None, typer.Option(help="Endpoint of a running host to replay beside it, in place of --listen.")
     ] = None,
-    match: options.MatchName = None,
+    match: Annotated[
+        str | None, typer.Option("--match", "--name", help="Name of the match on the bus; by default the recorded one.")
+    ] = None,
     prefix: Annotated[str, typer.Option(help="Put before the name of the match: replay_.")] = "",
     agent: Annotated[
         str | None, typer.Option(help="Show a brain what a robot saw, and compare: cyan2=module:Class; no bus.")
     ] = None,
     web: options.Web = False,
-    web_port: options.WebPort = DEFAULT_PORT,
-    listen_web: options.ListenWeb = LOOPBACK,
     foxglove: Annotated[
         bool, typer.Option("--foxglove", help="Serve a live view for Foxglove and Lichtblick, and say where.")
     ] = False,
     foxglove_port: Annotated[int, typer.Option(help="Port of the live view; 0 takes a free one.")] = 8765,
     json: options.Json = False,
+    *,
+    listening: ListenSettings,
+    page: options.PageOptions,
 ) -> None:
     """Replay a recording on the bus, with the keys, order and spacing of the match.
 
@@ -81,9 +84,9 @@ def replay(
     from recordings.replay.replay import Replay, ReplaySettings
     from schemas.process.clock import WallClock
     from touchline.launch.match_run import StopSignals
-    from touchline.launch.page import page_port, serve_page_beside
+    from touchline.launch.page import page_settings, serve_page_beside
 
-    port = page_port(listen_web, web_port) if web else None
+    web_settings = page_settings(page) if web else None
     settings = ReplaySettings(
         file,
         start=start,
@@ -98,16 +101,16 @@ def replay(
     )
     opened = Replay(settings)
     clock = WallClock()
-    name = options.match_name(prefix + (match or opened.recording.manifest.match))
-    endpoint = connect or options.listening(listen, insecure=insecure)
+    name = from_options(ClientSettings, match=prefix + (match or opened.recording.manifest.match)).match
+    endpoint = connect or options.endpoint_of(listening)
     with ExitStack() as stack:
         bus = stack.enter_context(_open_bus(name, clock, endpoint, is_host=connect is None))
         stop = stack.enter_context(StopSignals())  # from before it is told where to look at it
         look_after: Callable[[], list[Notice]] = list
-        if port is not None:
+        if web_settings is not None:
             log = partial(typer.echo, err=True)
             look_after = stack.enter_context(
-                serve_page_beside(name, local_endpoint(endpoint), listen_web, port, clock, log)
+                serve_page_beside(name, local_endpoint(endpoint), web_settings, clock, log)
             )
         view = stack.enter_context(_live_view(opened, foxglove_port)) if foxglove else None
         began = clock.now()

@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.side import Side
-from touchline.cli import options
 from touchline.cli.bus_client import bus_client
-from touchline.cli.option_groups import expand_option_groups
+from touchline.cli.option_groups import with_option_groups
 
 if TYPE_CHECKING:
     from schemas.config.scene import SceneRequest
@@ -32,10 +32,10 @@ Omega = Annotated[float, typer.Option(help="rad/s; of a robot.")]
 
 
 @app.command("load")
-@expand_option_groups
+@with_option_groups
 def load(
     name: Annotated[str, typer.Argument(help="A scene that ships, or the path of a .toml file.")],
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
 ) -> None:
     """Begin another episode with a scene: its robots, its ball, its game.
 
@@ -48,7 +48,7 @@ def load(
 
 
 @app.command("place", context_settings=_NUMBERS)
-@expand_option_groups
+@with_option_groups
 def place(
     body: Annotated[str, typer.Argument(help="A robot's name, or ball.")],
     x: X,
@@ -60,7 +60,7 @@ def place(
     z: Annotated[float | None, typer.Option(help="m, height of the ball's centre.")] = None,
     vz: Annotated[float, typer.Option(help="m/s; of the ball.")] = 0.0,
     *,
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
 ) -> None:
     """Set a robot or the ball down, at rest or moving.
 
@@ -71,7 +71,7 @@ def place(
 
 
 @app.command("add", context_settings=_NUMBERS)
-@expand_option_groups
+@with_option_groups
 def add(
     name: Annotated[str, typer.Argument(help="Name of the new robot.")],
     side: Annotated[Side, typer.Argument(help="cyan or magenta")],
@@ -81,7 +81,7 @@ def add(
     type_: Annotated[str, typer.Option("--type", help="Type of robot, as the profile names it.")] = "standard",
     still: Annotated[bool, typer.Option("--still", help="It stands still, and needs no agent.")] = False,
     *,
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
 ) -> None:
     """Add a robot; an agent that connects later moves it, and until then it rests.
 
@@ -92,7 +92,7 @@ def add(
 
 
 @app.command("add-obstacle", context_settings=_NUMBERS)
-@expand_option_groups
+@with_option_groups
 def add_obstacle(
     name: Annotated[str, typer.Argument(help="Name of the new obstacle.")],
     x: X,
@@ -102,7 +102,7 @@ def add_obstacle(
     size: Annotated[tuple[float, float, float] | None, typer.Option(metavar="X Y Z", help="m; of a box.")] = None,
     heading: Heading = 0.0,
     *,
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
 ) -> None:
     """Put up a cylinder or a box that nothing moves.
 
@@ -116,10 +116,10 @@ def add_obstacle(
 
 
 @app.command("remove")
-@expand_option_groups
+@with_option_groups
 def remove(
     names: Annotated[list[str], typer.Argument(metavar="NAME...", help="Robots and obstacles.")],
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
 ) -> None:
     """Take robots or obstacles off the pitch; a robot's agent gets no sights until it is put back.
 
@@ -129,11 +129,11 @@ def remove(
 
 
 @app.command("reset")
-@expand_option_groups
+@with_option_groups
 def reset(
     to_start: Annotated[bool, typer.Option("--to-start", help="To the start of the match, not of the scene.")] = False,
     *,
-    connection: options.ConnectOptions,
+    connection: ClientSettings,
 ) -> None:
     """Begin another episode: the scene that was loaded last, or the match, from its start.
 
@@ -142,7 +142,7 @@ def reset(
     _send(connection, operation="reset", to_match=to_start)
 
 
-def _send(connection: options.ConnectOptions, **content: Any) -> None:
+def _send(connection: ClientSettings, **content: Any) -> None:
     from coach_gateway.match.host_client import HostClient
 
     request = _request(**content)

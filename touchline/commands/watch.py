@@ -5,9 +5,11 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from touchline.cli import options
+from coach_gateway import run
+from coach_gateway.settings import GatewaySettings
+from schemas.bus.settings import ClientSettings
 from touchline.cli.bus_client import PATIENCE, bus_client
-from touchline.cli.option_groups import expand_option_groups
+from touchline.cli.option_groups import with_option_groups
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -18,8 +20,8 @@ _EVERY = 0.1
 """s of wall time between two pictures."""
 
 
-@expand_option_groups
-def watch(connection: options.ConnectOptions) -> None:
+@with_option_groups
+def watch(connection: ClientSettings) -> None:
     """Watch a match in the terminal until its host goes, or until Ctrl-C: pitch, score, robots, events.
 
     Where the output is no terminal, the match is told in plain lines. A replay is watched in the same way.
@@ -27,10 +29,7 @@ def watch(connection: options.ConnectOptions) -> None:
     Example: touchline watch --match friendly
     """
     if not sys.stdout.isatty():
-        from coach_gateway.__main__ import run
-
-        run(connection.connect, connection.match, PATIENCE)
-        return
+        raise typer.Exit(run(GatewaySettings(connect=connection.connect, match=connection.match)))
     from touchline.cli.console import console
 
     with bus_client(connection.connect, connection.match) as bus:
@@ -50,23 +49,22 @@ def watch_on(bus: "Bus", console: "Console") -> None:
     from rich.console import Group
     from rich.live import Live
 
-    from coach_gateway.match.detailed_follower import DetailedFollower
+    from coach_gateway.match.follower import MatchFollower
     from coach_gateway.match.host_client import HostClient
-    from coach_gateway.match.host_presence import HostPresence
+    from schemas.bus.contract import PresenceKind
     from touchline.watch.drawing import draw_match
 
-    client, host = HostClient(bus, PATIENCE), HostPresence(bus)
-    setup = client.setup()
-    host.wait(PATIENCE)
-    bus.declare_alive("coach", "watch")
-    seen, episode = DetailedFollower(bus), 0
+    client, seen = HostClient(bus, PATIENCE), MatchFollower(bus, details=True)
+    setup, episode = client.setup(), 0
+    seen.host.wait(PATIENCE)
+    bus.declare_alive(PresenceKind.COACH, "watch")
     last = Group()
     try:
         with Live(console=console, auto_refresh=False, screen=True) as live:
             going = True
             while going:
-                going = not host.gone()  # looked at first, so that the last messages are still seen
                 seen.update()
+                going = not seen.gone
                 if going and seen.world is not None and seen.world.episode != episode:
                     setup, episode = client.setup(), seen.world.episode  # others may take part
                 last = Group(*draw_match(seen, setup, console.width, console.height - 1))

@@ -2,12 +2,13 @@
 
 import os
 import signal
-import socket
 import subprocess
 import sys
 from abc import ABC, abstractmethod
 from pathlib import Path
 
+from schemas.errors import TouchlineError
+from schemas.process.settings_file import write_settings
 from touchline.launch import leash
 from touchline.launch.processes import Process
 
@@ -15,7 +16,7 @@ _TAIL_BYTES = 8192
 
 
 class ProcessHandle(ABC):
-    """A process of this one that runs, or has run; it leads a group of its own."""
+    """A process that was launched and runs, or has run; it leads a group of its own."""
 
     def __init__(self, process: Process, log: Path, log_start: int) -> None:
         """What it writes goes to the end of `log`, which is `log_start` bytes long before."""
@@ -60,17 +61,32 @@ class ProcessHandle(ABC):
             return  # nobody of it is left
 
 
+def write_settings_of(process: Process) -> None:
+    """Write the settings file that a process reads; a team's own program has none.
+
+    Raises:
+        TouchlineError: it cannot be written.
+    """
+    if process.settings is None or process.settings_file is None:
+        return
+    try:
+        write_settings(process.settings, process.settings_file)
+    except OSError as error:
+        raise TouchlineError(f"{error.filename}: {error.strerror}; {process.name} reads its settings there") from None
+
+
 class ChildProcess(ProcessHandle):
     """A program, launched by its command line."""
 
-    def __init__(self, process: Process, log: Path, stdin: socket.socket | None = None) -> None:
-        """It reads from `stdin`, or nothing."""
+    def __init__(self, process: Process, log: Path) -> None:
+        """Its settings are written first, where it has any."""
+        write_settings_of(process)
         command = [sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), *process.command]
         with log.open("ab") as out:
             super().__init__(process, log, out.tell())
             self._popen = subprocess.Popen(
                 command,
-                stdin=stdin.fileno() if stdin is not None else subprocess.DEVNULL,
+                stdin=subprocess.DEVNULL,
                 stdout=out,
                 stderr=subprocess.STDOUT,
                 env={**os.environ, **process.environment},
@@ -81,14 +97,6 @@ class ChildProcess(ProcessHandle):
     def pid(self) -> int:
         """Process id, which is also the id of its group."""
         return self._popen.pid
-
-    def end(self, patience: float) -> None:
-        """Wait until it has ended by itself, for so many s of wall time, and no longer."""
-        try:
-            self._popen.wait(patience)
-        except subprocess.TimeoutExpired:
-            self.send(signal.SIGKILL)
-            self._popen.wait()
 
     def _poll(self) -> int | None:
         return self._popen.poll()

@@ -1,100 +1,95 @@
-"""Robots launched as forks of one process that has imported what all of them need, which is most of a launch.
+"""Robots launched by the standard library's fork server, which has imported what all of them need.
 
-Where the kernel is not Linux, and when the fork server is closed or gone, they are launched by their command lines.
+Where the kernel is not Linux, and where a robot has a program of its own or is launched again after a crash, it is
+launched by its command line.
 """
 
-import ctypes
-import json
+import multiprocessing
 import os
-import socket
+import signal
 import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from multiprocessing.connection import Connection
+from multiprocessing.context import ForkServerProcess
 from pathlib import Path
 
-from touchline.launch.child_process import ChildProcess, ProcessHandle
-from touchline.launch.processes import Process, ProcessKind
+from robot_agent.forked import PRELOAD, run_forked
+from robot_agent.settings import AgentSettings
+from touchline.launch.child_process import ChildProcess, ProcessHandle, write_settings_of
+from touchline.launch.processes import Process
 
-_PR_SET_CHILD_SUBREAPER = 36
-"""linux/prctl.h: who is left by its parent becomes a child of this process."""
-_COMMAND = (sys.executable, "-m", "robot_agent")
-"""How the command line of a robot begins that a fork server can raise."""
-_TITLE_SPACE = "-" * 4000
-"""As long a command line can be shown of a robot."""
-_PATIENCE_S = 20.0
-"""Wall time in which a robot has to be there; the first of them waits for the imports."""
-_END_S = 2.0
-"""Wall time in which a fork server that is not needed any more has to be gone."""
+_PATIENCE_S = 2.0
+"""Wall time within which a robot that was forked leads its group; it takes milliseconds."""
 
 
-class ForkedProcess(ProcessHandle):
-    """A robot from a fork server: a child of this process like any other."""
+class ForkedRobot(ProcessHandle):
+    """A robot from the fork server: a child of that server, whose end the server reports."""
 
-    def __init__(self, process: Process, log: Path, log_start: int, pid: int) -> None:
-        super().__init__(process, log, log_start)
-        self._pid = pid
+    def __init__(self, process: Process, log: Path, begin: int, robot: ForkServerProcess, leads: Connection) -> None:
+        """`leads` closes as soon as it leads its group."""
+        super().__init__(process, log, begin)
+        self._robot, self._leads = robot, leads
 
     @property
     def pid(self) -> int:
         """Process id, which is also the id of its group."""
-        return self._pid
+        assert self._robot.pid is not None
+        return self._robot.pid
 
     def _poll(self) -> int | None:
-        try:
-            pid, status = os.waitpid(self._pid, os.WNOHANG)
-        except ChildProcessError:
-            return 0  # whoever launched us has the kernel forget how children end; `subprocess` says the same of it
-        return os.waitstatus_to_exitcode(status) if pid else None
+        return self._robot.exitcode
+
+    def _signal_group(self, number: signal.Signals) -> None:
+        self._leads.poll(_PATIENCE_S)
+        super()._signal_group(number)
 
 
 class ForkServer:
-    """Launches robots; the process they are forked from is launched with the first of them."""
+    """Launches robots; the server itself is started with the first of them, and ends with this process."""
 
-    def __init__(self, log: Path) -> None:
-        """`log`: for what that process says, which is nothing unless it cannot begin."""
-        self._log = log
-        self._server: ChildProcess | None = None
-        self._socket: socket.socket | None = None
-        self._open = sys.platform == "linux"
+    def __init__(self) -> None:
+        self._context = multiprocessing.get_context("forkserver") if sys.platform == "linux" else None
+        self._launched: set[str] = set()
 
     def launch(self, process: Process, log: Path) -> ProcessHandle:
-        """Launch a robot."""
-        if self._open and process.command[:3] == _COMMAND:
-            with log.open("ab") as out:
-                log_start = out.tell()
-            pid = self._fork(process, log)
-            if pid is not None:
-                return ForkedProcess(process, log, log_start, pid)
-            self.close()
+        """Launch a process: a robot of ours by the fork server, any other by its command line."""
+        if isinstance(process.settings, AgentSettings) and process.name not in self._launched:
+            self._launched.add(process.name)
+            robot = self._fork(process, process.settings, log)
+            if robot is not None:
+                return robot
         return ChildProcess(process, log)
 
-    def close(self) -> None:
-        """Raise no more; the robots stay."""
-        self._open = False
-        if self._socket is not None:
-            self._socket.close()
-        if self._server is not None:
-            self._server.end(_END_S)
-            self._server = None
-            if not self._log.stat().st_size:
-                self._log.unlink()
-
-    def _fork(self, process: Process, log: Path) -> int | None:
-        """The robot's process id, or nothing where there is none."""
-        connection = self._socket or self._start(process)
-        wanted = {"arguments": process.command[3:], "environment": process.environment, "log": str(log)}
+    def _fork(self, process: Process, settings: AgentSettings, log: Path) -> ForkedRobot | None:
+        """The robot; None where there is no fork server."""
+        if self._context is None:
+            return None
+        write_settings_of(process)
+        with log.open("ab") as out:
+            begin = out.tell()
+        self._context.set_forkserver_preload(list(PRELOAD))
+        leads, held = self._context.Pipe(duplex=False)
+        robot = self._context.Process(target=run_forked, args=(settings, process.environment, str(log), held))
         try:
-            connection.send(json.dumps(wanted).encode())
-            return int(connection.recv(64) or 0) or None
-        except OSError:
-            return None  # it has ended, or takes too long
+            with held, _environment(process.environment):
+                robot.start()
+        except (OSError, EOFError):
+            self._context = None
+            return None
+        return ForkedRobot(process, log, begin, robot, leads)
 
-    def _start(self, first: Process) -> socket.socket:
-        """Launch the process that robots are forked from, in the environment of the first of them."""
-        ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1)
-        self._socket, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        self._socket.settimeout(_PATIENCE_S)
-        command = (sys.executable, "-m", "robot_agent.fork_server", str(os.getpid()), _TITLE_SPACE)
-        with theirs:
-            self._server = ChildProcess(
-                Process("fork_server", ProcessKind.AGENT, command, first.environment), self._log, theirs
-            )
-        return self._socket
+
+@contextmanager
+def _environment(more: Mapping[str, str]) -> Iterator[None]:
+    """Add to the environment of processes that are started meanwhile: the fork server keeps what it is started with."""
+    before = {name: os.environ.get(name) for name in more}
+    os.environ.update(more)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value

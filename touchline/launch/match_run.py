@@ -1,7 +1,7 @@
 """A whole match: its processes launched, watched and ended, and what came of it."""
 
 import signal
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from types import FrameType, TracebackType
 from typing import Self
 
@@ -79,7 +79,7 @@ class MatchRun:
         self._losses = losses
         self._recorded = recorded
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
-        self._fork_server = ForkServer(plan.folder / "fork_server.log")
+        self._fork_server = ForkServer()
         self._supervisor = Supervisor(processes_of(plan), self._launch, clock)
 
     def play(self) -> MatchResult:
@@ -92,10 +92,7 @@ class MatchRun:
         """
         with StopSignals() as stop:
             try:
-                try:
-                    self._supervisor.start()
-                finally:
-                    self._fork_server.close()  # who is started again begins from nothing
+                self._supervisor.start()
                 follower = self._follow(stop)
             except BaseException:
                 self._supervisor.end(AT_ONCE)
@@ -143,9 +140,9 @@ class MatchRun:
         return self._supervisor.host_status is None and stop.received is None
 
     def _show(self, follower: MatchFollower) -> None:
-        self._report(follower, follower.update())
+        self._report(follower, follower.update().messages)
 
-    def _report(self, follower: MatchFollower, news: list[GameEvent | GameState | Health]) -> None:
+    def _report(self, follower: MatchFollower, news: Sequence[GameEvent | GameState | Health]) -> None:
         for message in news:
             if isinstance(message, GameEvent):
                 self._screen.event(event_line(message), notable=message.kind in NOTABLE)

@@ -1,14 +1,22 @@
 """The processes of a match: one table, and how a match file turns it into programs to launch."""
 
 import sys
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
+from types import MappingProxyType
 
+from coach_gateway.settings import NO_BRIDGES, BridgeOptions, GatewaySettings
+from coach_gateway.web.settings import WebSettings
+from recordings.settings import RecorderSettings
+from robot_agent.settings import AgentSettings
 from schemas.bus.endpoint import is_loopback, local_endpoint
-from schemas.config.match_config import MatchConfig, RecordingConfig
+from schemas.config.match_config import MatchConfig
+from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 from schemas.side import Side
+from sim_host.settings import HostSettings
 
 
 class ProcessKind(StrEnum):
@@ -25,44 +33,20 @@ class ProcessKind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class ProcessRow:
-    """One kind of process; words in braces are filled in for each match or robot."""
+    """One kind of process."""
 
-    command: tuple[str, ...]
-    environment: dict[str, str] = field(default_factory=dict)
+    module: str
+    """Started as `python -m MODULE --settings FILE`."""
     restarts: int = 0
     """How often a crashed one is started again."""
 
 
-_PYTHON_MODULE = ("{python}", "-m")
-_BUS_OPTIONS = ("--connect", "{connect}", "--match", "{match}")
-
 PROCESSES: dict[ProcessKind, ProcessRow] = {
-    ProcessKind.HOST: ProcessRow((*_PYTHON_MODULE, "sim_host", "--listen", "{listen}", "--config", "{config}")),
-    ProcessKind.RECORDER: ProcessRow(
-        (*_PYTHON_MODULE, "recordings", *_BUS_OPTIONS, "--out", "{recording}", "--config", "{config}")
-    ),
-    ProcessKind.AGENT: ProcessRow(
-        (*_PYTHON_MODULE, "robot_agent", *_BUS_OPTIONS, "--robot", "{robot}", "--brain", "{brain}"),
-        environment={
-            "TOUCHLINE_CONNECT": "{connect}",
-            "TOUCHLINE_MATCH": "{match}",
-            "TOUCHLINE_ROBOT": "{robot}",
-            "TOUCHLINE_SIDE": "{side}",
-            # A brain that goes through a set of words does so in the same order in every run.
-            "PYTHONHASHSEED": "0",
-        },
-        restarts=3,
-    ),
-    ProcessKind.PAGE: ProcessRow(
-        (
-            *(*_PYTHON_MODULE, "coach_gateway", *_BUS_OPTIONS, "--web"),
-            *("--listen-web", "{address}", "--port", "{port}", "--tokens", "{tokens}"),
-        ),
-        restarts=3,
-    ),
-    ProcessKind.BRIDGES: ProcessRow(
-        (*_PYTHON_MODULE, "coach_gateway", *_BUS_OPTIONS, "--tokens", "{tokens}"), restarts=3
-    ),
+    ProcessKind.HOST: ProcessRow("sim_host"),
+    ProcessKind.RECORDER: ProcessRow("recordings"),
+    ProcessKind.AGENT: ProcessRow("robot_agent", restarts=3),
+    ProcessKind.PAGE: ProcessRow("coach_gateway", restarts=3),
+    ProcessKind.BRIDGES: ProcessRow("coach_gateway", restarts=3),
 }
 """ProcessKind → its row, in the order they are launched."""
 
@@ -89,16 +73,9 @@ class Process:
     environment: dict[str, str]
     """Laid over the supervisor's own."""
     restarts: int = 0
-
-
-@dataclass(frozen=True, slots=True)
-class PagePlan:
-    """Where a page is served, and where its tokens stand."""
-
-    address: str
-    """That it is served on, without a port."""
-    port: int
-    tokens: Path
+    settings: Settings | None = None
+    """What it reads from `settings_file`; None for a team's own program."""
+    settings_file: Path | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,15 +85,15 @@ class MatchPlan:
     config: MatchConfig
     listen: str
     folder: Path
-    """Holds `config.json` and the logs."""
+    """Holds the settings and the logs of all processes."""
     recording: Path | None
     """Where the recording goes, or nothing when none was wanted."""
     warning: str = ""
     """What people should know before the match begins."""
-    page: PagePlan | None = None
-    """Where the match's page is served; nothing when none was wanted."""
-    bridges: tuple[str, ...] = ()
-    """What the bridges' gateway is told; nothing when none is wanted."""
+    page: WebSettings | None = None
+    """The match's page; None when none was wanted."""
+    bridges: BridgeOptions = NO_BRIDGES
+    """What takes part beside the page."""
 
     @property
     def connect(self) -> str:
@@ -135,11 +112,6 @@ class MatchPlan:
         """Of page and coach programs alike."""
         return self.folder / TOKENS
 
-    @property
-    def config_file(self) -> Path:
-        """The match as its processes read it."""
-        return self.folder / "config.json"
-
 
 def check_robot_names(config: MatchConfig) -> None:
     """Make sure that no robot is called like a process that every match may have: logs go by these names.
@@ -155,71 +127,57 @@ def check_robot_names(config: MatchConfig) -> None:
 
 def processes_of(plan: MatchPlan) -> list[Process]:
     """All programs of a match, in the order they are launched."""
-    values = {
-        "python": sys.executable,
-        "listen": plan.listen,
-        "connect": plan.connect,
-        "match": plan.config.name,
-        "config": str(plan.config_file),
-    }
-    open_to_others = () if is_loopback(plan.listen) else ("--insecure",)  # whoever made the plan was told so
-    processes = [_process("host", ProcessKind.HOST, values, extra=open_to_others)]
+    config, folder = plan.config, plan.folder
+    connect, match = plan.connect, config.name
+    open_to_others = not is_loopback(plan.listen)  # whoever made the plan was asked for --insecure
+    host = HostSettings(config=config, listen=plan.listen, insecure=open_to_others)
+    processes = [_process("host", ProcessKind.HOST, host, folder)]
     if plan.recording is not None:
-        wanted = _recorder_options(plan.config.record)
-        processes.append(
-            _process("recorder", ProcessKind.RECORDER, {**values, "recording": str(plan.recording)}, extra=wanted)
+        recorder = RecorderSettings(
+            connect=connect, match=match, out=plan.recording, record=config.record, config=config
         )
+        processes.append(_process("recorder", ProcessKind.RECORDER, recorder, folder))
     for side in Side:
-        team = plan.config.team(side)
-        for robot in plan.config.robots(side):
-            own = {**values, "robot": robot, "side": side.value, "brain": team.brain or ""}
-            processes.append(_process(robot, ProcessKind.AGENT, own, own_command=tuple(team.command or ())))
+        processes += [_robot_process(robot, side, plan) for robot in config.robots(side)]
+    gateway = GatewaySettings(connect=connect, match=match, tokens=plan.tokens)
     if plan.page is not None:
-        processes.append(page_process(plan.page, plan.connect, plan.config.name))
-    if plan.bridges:
-        processes.append(
-            _process("bridges", ProcessKind.BRIDGES, {**values, "tokens": str(plan.tokens)}, extra=plan.bridges)
-        )
+        processes.append(page_process(gateway.model_copy(update={"web": plan.page}), folder))
+    if plan.bridges.wanted:
+        bridges = gateway.model_copy(update={"bridges": plan.bridges})
+        processes.append(_process("bridges", ProcessKind.BRIDGES, bridges, folder))
     return processes
 
 
-def page_process(page: PagePlan, connect: str, match: str) -> Process:
+def page_process(settings: GatewaySettings, folder: Path) -> Process:
     """The program that serves the page of a match, or of a replay."""
-    values = {"python": sys.executable, "connect": connect, "match": match}
-    where = {"address": page.address, "port": str(page.port), "tokens": str(page.tokens)}
-    return _process("page", ProcessKind.PAGE, {**values, **where})
+    return _process("page", ProcessKind.PAGE, settings, folder)
 
 
-def _recorder_options(wanted: RecordingConfig) -> tuple[str, ...]:
-    """What a recorder is told, as the match file wants it."""
-    limits = {
-        "split-size": wanted.split_size,
-        "split-duration": wanted.split_duration,
-        "keep": wanted.keep,
-        "snapshot": wanted.snapshot,
+def _robot_process(robot: str, side: Side, plan: MatchPlan) -> Process:
+    """A robot's brain, or its team's own program, which learns from its environment which robot it is."""
+    team = plan.config.team(side)
+    environment = {
+        "TOUCHLINE_CONNECT": plan.connect,
+        "TOUCHLINE_MATCH": plan.config.name,
+        "TOUCHLINE_ROBOT": robot,
+        "TOUCHLINE_SIDE": side.value,
+        # A brain that goes through a set of words does so in the same order in every run.
+        "PYTHONHASHSEED": "0",
     }
-    return (
-        *(("--sights",) if wanted.sights else ()),
-        *(("--no-viz",) if not wanted.viz else ()),
-        *(f"--include={expression}" for expression in wanted.include),
-        *(f"--exclude={expression}" for expression in wanted.exclude),
-        *(f"--{option}={value}" for option, value in limits.items() if value is not None),
-    )
+    if team.command:
+        restarts = PROCESSES[ProcessKind.AGENT].restarts
+        return Process(robot, ProcessKind.AGENT, tuple(team.command), {**COMMON_ENVIRONMENT, **environment}, restarts)
+    settings = AgentSettings(connect=plan.connect, match=plan.config.name, robot=robot, brain=team.brain or "")
+    return _process(robot, ProcessKind.AGENT, settings, plan.folder, environment)
 
 
 def _process(
     name: str,
     kind: ProcessKind,
-    values: dict[str, str],
-    *,
-    own_command: tuple[str, ...] = (),
-    extra: tuple[str, ...] = (),
+    settings: Settings,
+    folder: Path,
+    environment: Mapping[str, str] = MappingProxyType({}),
 ) -> Process:
-    row = PROCESSES[kind]
-    return Process(
-        name=name,
-        kind=kind,
-        command=own_command or (*(part.format_map(values) for part in row.command), *extra),
-        environment={**COMMON_ENVIRONMENT, **{key: value.format_map(values) for key, value in row.environment.items()}},
-        restarts=row.restarts,
-    )
+    row, file = PROCESSES[kind], folder / f"{name}.json"
+    command = (sys.executable, "-m", row.module, "--settings", str(file))
+    return Process(name, kind, command, {**COMMON_ENVIRONMENT, **environment}, row.restarts, settings, file)

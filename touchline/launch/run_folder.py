@@ -15,7 +15,7 @@ RECORDING = "match.mcap"
 def prepare_run(
     config: MatchConfig, listen: str, recording: Path | None, clock: Clock, *, recorded: bool = True
 ) -> MatchPlan:
-    """Make the folder of a run and write the match into it.
+    """Make the folder of a run.
 
     `recording` is where the recording goes, by default into the folder; `recorded` false leaves it out.
 
@@ -35,7 +35,6 @@ def prepare_run(
             refusal = f"--record {out}: {refusal}; the match is played, its recording goes to {folder / RECORDING}"
             out = folder / RECORDING
         plan = MatchPlan(config, listen, folder, out, refusal)
-        plan.config_file.write_text(config.model_dump_json(indent=2), "utf-8")
     except OSError as error:
         raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its logs under ./{RUNS}") from None
     return plan

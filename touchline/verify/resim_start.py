@@ -5,9 +5,10 @@ from typing import Any
 
 from pydantic_core import from_json, to_json
 
-from recordings.container.header import PROFILE
+from recordings.container.attachments import PROFILE
 from recordings.reading.recording import Recording
-from recordings.reading.tick_index import Segment, TickRecord
+from recordings.reading.tick_index import Segment
+from recordings.reading.tick_records import TickRecord
 from schemas.config.match_config import MatchConfig
 from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.profile import STANDARD

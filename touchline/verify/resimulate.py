@@ -15,21 +15,14 @@ from typing import Any, NamedTuple
 
 from recordings.reading.command_check import CommandMismatch
 from recordings.reading.recording import Recording, open_recording
-from recordings.reading.tick_index import (
-    Segment,
-    SkippedTicks,
-    SkipReason,
-    TickIndex,
-    TickRecord,
-    command_check_of,
-    tick_index_of,
-    tick_records,
-)
+from recordings.reading.tick_index import Segment, SkippedTicks, SkipReason, TickIndex, tick_index_of
+from recordings.reading.tick_records import TickRecord, command_check_of, tick_records
 from schemas.errors import TouchlineError
 from schemas.message import BadMessageError
 from schemas.messages.host import Applied, chained_part_of
-from sim_host.match.resimulation import ImpossibleTickError, Resimulation, differences
-from sim_host.physics.engine import fingerprint
+from sim_host.match.resimulation import ImpossibleTickError, Resimulation
+from sim_host.match.world_difference import differences
+from sim_host.physics.fingerprint import fingerprint
 from touchline.verify.resim_start import resim_start
 
 _WORTH_A_PROCESS = 1500

@@ -1,9 +1,8 @@
-"""The log of the league's referee box: what both teams said of the world, and what the referee signalled.
+"""The log of the league's referee box: the world states of both teams, and the signals of the referee.
 
-Its files: `<time>.A.msl` and `<time>.B.msl`, arrays of the teams' world states, and `<time>.msl`, one line for each
-signal; all in one zip (reference 9.4). Team A is cyan. What a signal is and
-how its axes lie stands in `schemas.league`.
+Its files are `<time>.A.msl` and `<time>.B.msl`, arrays of the teams' world states, and `<time>.msl`, one line for each
+signal; usually all in one zip. Team A is cyan. `schemas.league` defines the signals and the axes.
 """
 
 LOG_PERIOD = 0.04
-"""s between two world states. Ours: the league asks for at least ten a second; teams' programs think at 25 to 30 Hz."""
+"""s between two world states. Chosen here: the league requires at least 10 Hz; teams' programs run at 25 to 30 Hz."""

@@ -1,7 +1,7 @@
-"""The referee box's own file of a log: one line for each signal.
+"""Reads the referee box's file of a log: one line for each signal.
 
-`epoch ms,game time(running time),part of the game,signal,description`; the signal is a character until 2019, JSON
-since.
+`epoch ms,game time(running time),part of the game,signal,description`; the signal is a character in logs until 2019,
+and JSON in later ones.
 """
 
 import json
@@ -27,33 +27,33 @@ class SignalLine(NamedTuple):
     signal: Signal
     side: Side | None
     game_s: float | None
-    """The box's clock, which begins anew with each half."""
+    """Clock of the box in s, which restarts with each half; None if the line has none."""
     half: int
-    """As the line itself says, 0 when it does not."""
+    """Number of the half, as in the line; 0 if it has none."""
     text: str
 
 
 class TeamNames(NamedTuple):
-    """By what a signal may mean a team."""
+    """Names by which a signal may refer to a team."""
 
     cyan: str
     magenta: str
     team_a: str | None = None
-    """The address that team A, cyan, has in the log, as the user knows it; any other is then team B's."""
+    """The address of team A, cyan, in the log, given by the user; any other address is then team B's."""
 
     def side(self, target: str) -> Side | None:
-        """The team that is meant, as far as that can be known."""
-        word = target.strip().lower()
+        """The side that a target refers to; None if it is unknown."""
+        name = target.strip().lower()
         if self.team_a is not None:
-            return Side.CYAN if word == self.team_a.strip().lower() else Side.MAGENTA
+            return Side.CYAN if name == self.team_a.strip().lower() else Side.MAGENTA
         by_name = {self.cyan.lower(): Side.CYAN, self.magenta.lower(): Side.MAGENTA}
         if not self.cyan or not self.magenta or len(by_name) < 2:
-            by_name = {}  # a team against itself
-        return {**{side.value: side for side in Side}, **_LETTERS, **by_name}.get(word)
+            by_name = {}  # both teams have one name, or one has none
+        return {**{side.value: side for side in Side}, **_LETTERS, **by_name}.get(name)
 
 
 def read_events(text: str, names: TeamNames, findings: Findings) -> list[SignalLine]:
-    """All signals of the file by time; lines that are none are counted."""
+    """All signals of the file, by time; other lines are counted in `findings`."""
     lines: list[SignalLine] = []
     for number, line in enumerate(text.splitlines(), 1):
         findings.place = f"events, line {number}"
@@ -69,44 +69,46 @@ def read_events(text: str, names: TeamNames, findings: Findings) -> list[SignalL
 def _parse(line: str, names: TeamNames, findings: Findings) -> SignalLine | None:
     found = _LINE.fullmatch(line)
     if found is None:
-        findings.note("line that is no signal", lost=True)
+        findings.note("line that is not a signal", lost=True)
         return None
     epoch_ms, clock, part, rest = found.groups()
-    signal, side, says = _parse_2020(rest, names, findings) if rest.lstrip().startswith("{") else _parse_2016(rest)
+    is_json = rest.lstrip().startswith("{")
+    signal, side, description = _parse_2020(rest, names, findings) if is_json else _parse_2016(rest)
     if signal is None:
-        findings.note("signal that is not known", lost=True)
+        findings.note("unknown signal", lost=True)
         return None
     if signal.sided and side is None:
-        findings.note("signal for a team that is not known: its name in the log can be given with --team-a", lost=True)
-    return SignalLine(float(epoch_ms), signal, side, _clock(clock), _half(part), says)
+        findings.note("signal for an unknown team: its name in the log can be given with --team-a", lost=True)
+    return SignalLine(float(epoch_ms), signal, side, _clock(clock), _half(part), description)
 
 
 def _parse_2016(rest: str) -> tuple[Signal | None, Side | None, str]:
-    """A character; the description tells the side as well, and is right where they differ."""
-    character, _, says = rest.partition(",")
+    """A character. The description also names the side, and takes precedence."""
+    character, _, description = rest.partition(",")
     signal, side = BY_CHARACTER.get(character.strip(), (None, None))
     if signal is None:
         return None, None, ""
-    colour = says.strip().split(" ")[0].upper()
-    return signal, _COLOURS.get(colour, side) if signal.sided else None, says.strip() or signal.description
+    colour = description.strip().split(" ")[0].upper()
+    return signal, _COLOURS.get(colour, side) if signal.sided else None, description.strip() or signal.description
 
 
 def _parse_2020(rest: str, names: TeamNames, findings: Findings) -> tuple[Signal | None, Side | None, str]:
-    """JSON: command and targetTeam."""
+    """JSON with `command` and `targetTeam`."""
     try:
         fields, end = json.JSONDecoder().raw_decode(rest.lstrip())
     except (ValueError, RecursionError):
-        findings.note("signal that is no JSON", lost=True)
+        findings.note("signal that is not JSON", lost=True)
         return None, None, ""
     signal = BY_NAME.get(str(fields.get("command", "")).strip().upper())
     if signal is None:
         return None, None, ""
     side = names.side(str(fields.get("targetTeam") or "")) if signal.sided else None
-    says = rest.lstrip()[end:].lstrip(", ").strip()
+    description = rest.lstrip()[end:].lstrip(", ").strip()
     robot = fields.get("robotID")
-    meant = f" {side.value}" if side is not None else ""
     number = f", robot {robot}" if isinstance(robot, int) and robot >= 0 else ""
-    return signal, side, (says if says and says != "null" else f"{signal.description}{meant}") + number
+    if not description or description == "null":
+        description = f"{signal.description} {side.value}" if side is not None else signal.description
+    return signal, side, description + number
 
 
 def _clock(text: str) -> float | None:

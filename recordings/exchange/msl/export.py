@@ -1,4 +1,4 @@
-"""Recording → the league's log, one zip: what each team would have said of the world, were its eyes perfect."""
+"""Recording → the league's log, one zip: the world states that the teams would log with perfect sensors."""
 
 import math
 from datetime import datetime
@@ -23,14 +23,14 @@ from schemas.side import Side
 from schemas.topics import BELIEF, STATE, WORLD
 
 FILES = {Side.CYAN: "A", Side.MAGENTA: "B"}
-"""Side → the letter of its file."""
+"""Side → letter of its file."""
 
 
 def export(recording: Recording, out: Path) -> ExportSummary:
     """Write the log of a match.
 
     Raises:
-        TouchlineError: `out` is there already or cannot be written, the recording has no setup or is damaged inside.
+        TouchlineError: `out` already exists or cannot be written, or the recording has no setup or is damaged inside.
     """
     setup = recording.manifest.setup
     if setup is None:
@@ -49,7 +49,7 @@ def export(recording: Recording, out: Path) -> ExportSummary:
 
 
 class _Log:
-    """Both teams' world states and the referee's lines, made message by message."""
+    """Collects the world states of both teams and the lines of the referee, message by message."""
 
     def __init__(self, recording: Recording, setup: Setup) -> None:
         self._setup = setup
@@ -64,7 +64,7 @@ class _Log:
         self.records: dict[Side, list[bytes]] = {side: [] for side in Side}
 
     def add(self, key: str, message: Any) -> None:
-        """The next message of the recording; a world waits for all else that is said of its tick."""
+        """Add the next message of the recording; a world is held until its tick is complete."""
         if self._pending_world is not None and message.time > self._pending_world.time:
             self.flush()
         if key == WORLD.key:
@@ -75,7 +75,7 @@ class _Log:
             self.game.update(message)
 
     def flush(self) -> None:
-        """Nothing more will be said of the newest tick."""
+        """Complete the newest tick."""
         if self._pending_world is not None:
             self._world(self._pending_world)
             self._pending_world = None

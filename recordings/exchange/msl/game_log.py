@@ -1,4 +1,4 @@
-"""The referee's lines of a log, from what a recording says of the game."""
+"""Derives the referee's lines of a log from the game states of a recording."""
 
 from collections.abc import Mapping
 
@@ -11,24 +11,24 @@ _PARTS = {1: "1st Half", 2: "2nd Half", 3: "Overtime - 1st Half", 4: "Overtime -
 
 
 class GameLog:
-    """Follows the game; each change of its state becomes the signals that lead there."""
+    """Follows the game state, and turns each change into the signals that lead to it."""
 
     def __init__(self, start_ms: int, sides: Mapping[str, Side]) -> None:
-        """`start_ms` is when the recording began, ms since 1970; `sides` tells whose robots are whose."""
+        """`start_ms` is the beginning of the recording in ms since 1970; `sides` are the sides of the robots."""
         self._start_ms = start_ms
         self._sides = sides
         self._half_began = 0.0
         self._effective_began = 0.0
         self.state: GameState | None = None
-        """The newest."""
+        """The newest game state."""
         self.lines: list[str] = []
 
     def game_s(self, clock: float) -> float:
-        """The box's clock, which begins anew with each half, from the match's."""
+        """Clock of the box in s, which restarts with each half, from the game clock."""
         return max(0.0, clock - self._half_began)
 
     def update(self, state: GameState) -> None:
-        """The next state."""
+        """Add the next game state."""
         before, self.state = self.state, state
         if before is None or state.half != before.half:
             self._half_began, self._effective_began = state.clock, state.effective
@@ -42,7 +42,7 @@ class GameLog:
 
 
 def _part(state: GameState) -> str:
-    """What the box calls this part of the game (reference 9.3)."""
+    """Name of this part of the game in logs of the referee box."""
     if state.phase is Phase.PRE_GAME:
         return "Pre-Game"
     if state.phase is Phase.FULL_TIME:
@@ -58,8 +58,10 @@ def _part(state: GameState) -> str:
 def _line(epoch_ms: int, game_s: float, run_s: float, state: str, signal: Signal, side: Side | None) -> str:
     """A line of the event file, as the referee box wrote it until 2019: five columns."""
     character = signal.character.lower() if side is Side.MAGENTA else signal.character
-    says = f"{side.value.upper()} {signal.description}" if side is not None and signal.sided else signal.description
-    return f"{epoch_ms},{_minutes(game_s)}({_minutes(run_s)}),{state},{character},{says}"
+    description = (
+        f"{side.value.upper()} {signal.description}" if side is not None and signal.sided else signal.description
+    )
+    return f"{epoch_ms},{_minutes(game_s)}({_minutes(run_s)}),{state},{character},{description}"
 
 
 def _minutes(seconds: float) -> str:

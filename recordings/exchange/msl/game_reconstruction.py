@@ -1,4 +1,4 @@
-"""The game of a log, told from the referee's signals as this project tells it: states, events, directions, clock."""
+"""Reconstructs the game of a log from the referee's signals: game states, events, directions, clock."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -13,14 +13,14 @@ from schemas.game import EventKind, GameEvent, GameStage, GameState, Phase, Scor
 from schemas.league.signals import START
 
 _STATE_S = 1.0
-"""The state is said once a second, as a host does."""
+"""s between two game states, as published by a host."""
 RULE = "referee box"
-"""What decided, in every event."""
+"""The rule of every event."""
 
 
 @dataclass(slots=True)
 class GameReconstruction:
-    """Follows the signals; all times in s since the log begins."""
+    """Follows the signals; times in s since the beginning of the log."""
 
     messages: list[GameState | GameEvent] = field(default_factory=list)
     _now: dict[str, Any] = field(default_factory=lambda: {"phase": Phase.PRE_GAME, "score": Score(), "half": 1})
@@ -32,7 +32,7 @@ class GameReconstruction:
     _is_break: bool = False
 
     def reconstruct(self, lines: list[SignalLine], start_ms: float, duration: float) -> None:
-        """Follow all signals; those from before the log begins, or after its end, count as given there."""
+        """Follow all signals; those before the beginning of the log, or after its end, are moved there."""
         if not lines:
             self._now |= {"phase": Phase.PLAY, "running": True}
             self._clock_runs = True
@@ -44,11 +44,11 @@ class GameReconstruction:
         self._add_state()
 
     def attacks(self, times: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """The x direction that cyan attacks at each time, +1 or −1."""
+        """The x direction in which cyan attacks at each time, +1 or −1."""
         return self._values_at(times, [state.cyan_attacks for state in self._states()], stepwise=True)
 
     def clock(self, times: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """The game clock at each time, s."""
+        """The game clock at each time, in s."""
         return self._values_at(times, [state.clock for state in self._states()], stepwise=False)
 
     def _states(self) -> Iterator[GameState]:
@@ -66,7 +66,7 @@ class GameReconstruction:
         return stepped
 
     def _advance_to(self, time: float, box_clock: float | None) -> None:
-        """Let time pass, with a state each second; the box's own clock is right where it is off by a second."""
+        """Advance the time, with a game state each second; the box's clock takes precedence if it differs by 1 s."""
         while self._time + _STATE_S <= time:
             self._advance(self._time + _STATE_S)
             self._add_state()
@@ -103,7 +103,7 @@ class GameReconstruction:
         self._add_state()
 
     def _begin_half(self, half: int) -> None:
-        """The teams change sides (reference 9.4: each team's own axes turn with it)."""
+        """Begin a half; the teams change sides, and each team's own axes turn with it."""
         turned = (half - self._now["half"]) % 2 == 1
         attacks = self._now.get("cyan_attacks", 1)
         self._now |= {"half": half, "cyan_attacks": -attacks if turned else attacks}

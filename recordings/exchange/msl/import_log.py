@@ -1,4 +1,4 @@
-"""The league's log → recording: what both teams said of themselves becomes the world, the signals become the game."""
+"""The league's log → recording: world states of both teams become the world, signals become the game."""
 
 import math
 import re
@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from recordings.container.attachments import make_attachments
 from recordings.container.environment import libm_fingerprint, versions
-from recordings.container.header import make_attachments
 from recordings.container.manifest import Manifest, Result
 from recordings.editing.compose import TimedMessage, compose
 from recordings.exchange.msl import LOG_PERIOD
@@ -36,27 +36,27 @@ from schemas.topics import EVENT, STATE, WORLD
 
 _STEPS = TimeSteps(physics_step=LOG_PERIOD / 2, steps_per_tick=2)
 _IMPORTER = "import"
-"""Who recorded."""
+"""Name of the recorder in the manifest."""
 
 
 @dataclass(frozen=True, slots=True)
 class ImportSummary:
-    """What came of a log."""
+    """The result of an import."""
 
     out: Path
     result: Result
     teams: dict[Side, TeamLog]
     signals: int
-    """That were read."""
+    """Signals that were read."""
     kicks: int
-    """That were inferred."""
+    """Kicks that were inferred."""
     coped: list[Finding]
-    """Deviations from the schema that lost nothing."""
+    """Deviations from the schema without loss of data."""
     lost: list[Finding]
-    """What could not be read."""
+    """Data that could not be read."""
 
     def to_json(self) -> dict[str, Any]:
-        """As plain numbers and texts."""
+        """The result as plain lists, numbers and strings."""
         return {
             "out": str(self.out),
             "duration": self.result.time,
@@ -84,22 +84,22 @@ def _plain(finding: Finding) -> dict[str, Any]:
 def import_log(paths: list[Path], out: Path, profile: str = "msl", team_a: str | None = None) -> ImportSummary:
     """Read a log from its zip, its folder or its files, and write it as a recording.
 
-    Its ticks are `LOG_PERIOD` apart. `profile` tells the pitch, which a log does not; `team_a` what team A is called in
-    the referee's signals, where they name addresses.
+    Its ticks are `LOG_PERIOD` apart. `profile` defines the pitch, which is not in a log; `team_a` is the name of team A
+    in the referee's signals, if these use addresses.
 
     Raises:
-        TouchlineError: no log, nothing in it that can be read, or `out` cannot be written.
+        TouchlineError: not a log, no world state in it that can be read, or `out` cannot be written.
     """
     files, findings = log_files(paths), Findings()
     for name in files.broken:
         findings.place = name
-        findings.note("bytes that are no UTF-8", lost=True)
+        findings.note("bytes that are not UTF-8", lost=True)
     teams = {side: read_team(files.teams.get(letter, ""), letter, findings) for side, letter in _LETTERS.items()}
     times_ms = [epoch_ms for log in teams.values() for epoch_ms in log.times_ms]
     if not times_ms:
-        raise TouchlineError(f"{files.name}: no world state in it that could be read; {_main_reason(findings)}")
+        raise TouchlineError(f"{files.name}: has no world state that could be read; {_main_reason(findings)}")
     if out.exists():
-        raise TouchlineError(f"--out {out}: is there already; remove it, or give another name")
+        raise TouchlineError(f"--out {out}: already exists; remove it, or give another name")
     names = TeamNames(teams[Side.CYAN].team, teams[Side.MAGENTA].team, team_a)
     signals = read_events(files.events or "", names, findings)
     findings.place = files.name
@@ -135,7 +135,7 @@ def _main_reason(findings: Findings) -> str:
 
 
 def _setup(files: LogFiles, teams: dict[Side, TeamLog], profile: str) -> Setup:
-    """The match as far as a log tells: its teams; pitch and bodies are the profile's."""
+    """The setup of a match with the teams of the log, and pitch and bodies of the profile."""
     name = re.sub(r"\W+", "_", files.name.lower(), flags=re.ASCII).strip("_")[:30] or "log"
     config = MatchConfig(
         name=name if name[0].isalpha() else f"m{name}"[:32], pace="realtime", profile=profile, rules="msl"
@@ -184,10 +184,10 @@ class _World:
         balls = [ball_track(log, grid_ms, attack[side], radius) for side, log in teams.items()]
         self._ball = fuse_balls(balls[0], balls[1], radius)
         self.kicked = kicks(self._robots, self._ball, LOG_PERIOD)
-        """Index of a tick → who kicked."""
+        """Tick → robot that kicked."""
 
     def messages(self) -> Iterator[TimedMessage]:
-        """A world for each tick at which anything is known."""
+        """Yield a world for each tick at which a robot or the ball is known."""
         clock, ball = self._clock.tolist(), self._ball.values.T.tolist()
         known = {name: track.known.tolist() for name, track in self._robots.items()}
         values = {name: track.values.T.tolist() for name, track in self._robots.items()}

@@ -1,4 +1,4 @@
-"""The files of a log, wherever they are: in a zip, in a folder, or named one by one."""
+"""Reads the files of a log: from a zip, from a folder, or given one by one."""
 
 import zlib
 from collections.abc import Iterator
@@ -9,28 +9,28 @@ from zipfile import BadZipFile, ZipFile, is_zipfile
 from schemas.errors import TouchlineError
 
 _MAX_BYTES = 2**31
-"""Bytes of one file; the log of a match has some tens of millions."""
+"""Maximum size of one file in bytes; the log of a match has some tens of millions."""
 
 
 @dataclass(slots=True)
 class LogFiles:
-    """What they hold, as text."""
+    """The files of a log, as text."""
 
     name: str
-    """Of the log, without its suffixes."""
+    """Name of the log, without suffixes."""
     teams: dict[str, str] = field(default_factory=dict)
-    """A or B → its world states."""
+    """A or B → world states of the team."""
     events: str | None = None
-    """The referee's signals."""
+    """Signals of the referee; None if that file is missing."""
     broken: list[str] = field(default_factory=list)
-    """Files with bytes that are no UTF-8; they were replaced."""
+    """Files with bytes that are not UTF-8, which were replaced."""
 
 
 def log_files(paths: list[Path]) -> LogFiles:
     """Read `<time>.A.msl`, `<time>.B.msl` and `<time>.msl`.
 
     Raises:
-        TouchlineError: a path that cannot be read, no such file among them, or those of several logs.
+        TouchlineError: a path cannot be read, there is no team's file among them, or there are several logs.
     """
     log = LogFiles(paths[0].name.split(".")[0])
     seen: dict[str, str] = {}
@@ -39,7 +39,7 @@ def log_files(paths: list[Path]) -> LogFiles:
         if kind is None:
             continue
         if kind in seen:
-            raise TouchlineError(f"{name}: a second log beside {seen[kind]}; give the files of one match")
+            raise TouchlineError(f"{name}: belongs to another log than {seen[kind]}; give the files of one match")
         seen[kind] = name
         text = content.decode("utf-8-sig", errors="replace")
         if "\ufffd" in text:
@@ -49,16 +49,16 @@ def log_files(paths: list[Path]) -> LogFiles:
         else:
             log.teams[kind] = text
     if not log.teams:
-        raise TouchlineError(f"{paths[0]}: no log of the league; give a zip, or a folder, or its *.A.msl and *.B.msl")
+        raise TouchlineError(f"{paths[0]}: not a log of the league; give a zip, a folder, or its *.A.msl and *.B.msl")
     return log
 
 
 def _kind(name: str) -> str | None:
-    """A, B or events; nothing for a file that is none of a log, or that merges the others."""
-    words = name.lower().split(".")
-    if words[-1] != "msl" or len(words) < 2 or words[-2] == "merged":
+    """`A`, `B` or `events`; None for a file that is not part of a log, or that merges the others."""
+    parts = name.lower().split(".")
+    if parts[-1] != "msl" or len(parts) < 2 or parts[-2] == "merged":
         return None
-    return words[-2].upper() if words[-2] in ("a", "b") else "events"
+    return parts[-2].upper() if parts[-2] in ("a", "b") else "events"
 
 
 def _contents(paths: list[Path]) -> Iterator[tuple[str, bytes]]:
@@ -81,7 +81,7 @@ def _zipped(path: Path) -> Iterator[tuple[str, bytes]]:
                 if _kind(PurePosixPath(member.filename).name) is None:
                     continue
                 if member.file_size > _MAX_BYTES:
-                    raise TouchlineError(f"{path}: {member.filename} has {member.file_size} bytes; that is no log")
+                    raise TouchlineError(f"{path}: {member.filename} has {member.file_size} bytes, too many for a log")
                 yield f"{path}/{member.filename}", archive.read(member)
     except (BadZipFile, zlib.error, RuntimeError, NotImplementedError, EOFError) as error:
-        raise TouchlineError(f"{path}: damaged zip ({error}); take another copy, or give its files") from None
+        raise TouchlineError(f"{path}: damaged zip ({error}); use another copy, or give its files") from None

@@ -1,6 +1,7 @@
-"""One team's file of a log: its records read one by one, as far as each can be read.
+"""Reads one team's file of a log, record by record, as far as each record can be read.
 
-Real logs deviate from their schema in many ways (reference 9.6); each way is counted, and what is left out is told.
+Real logs deviate from their schema in many ways. Each kind of deviation is counted, and data that is left out is
+reported.
 """
 
 import json
@@ -15,35 +16,35 @@ from schemas.league.findings import Findings
 from schemas.league.lenient_json import REQUIRED, fields_of, items_of, number, vector
 
 GAP_S = 1.0
-"""A team that says nothing for longer has a gap. Ours: ten times what the league asks for at least."""
+"""s without a record after which a team has a gap. Chosen here: ten times the longest period the league allows."""
 _BURST_S = 0.01
-"""Records that follow each other faster came in a burst. Ours: no team thinks a hundred times a second."""
+"""s between two records below which they are a burst. Chosen here: no team's program runs at 100 Hz."""
 _MAX_COORDINATE_M = 40.0
-"""A coordinate farther out is a mistake. Ours: the league's longest pitch is 22 m, so that 11 m are the goal line."""
+"""m; a larger coordinate is an error. Chosen here: the league's longest pitch has 22 m, so goal lines at 11 m."""
 _MAX_OFFSET_MS = 6 * 3600 * 1000
-"""A record farther from the middle one has a clock of its own. Ours: no match lasts longer."""
+"""ms from the median record; a record farther away has a wrong clock. Chosen here: no match lasts longer."""
 _RECORD = re.compile(r'\{\s*"(?:team|time|game|world)\w*"\s*:', re.IGNORECASE)
-"""How a record begins, to find the next one behind damage."""
+"""Beginning of a record, to find the next one after damaged data."""
 _BETWEEN = re.compile(r"[\s,\[\]\x00]*")
 _DECODER = json.JSONDecoder(strict=False)
 
 RobotRow = tuple[float, float, float, float, float, float, float, float]
-"""Time in ms, then x, y, heading, vx, vy, omega in the league's axes, NaN where not said, and 1 with the ball."""
+"""Time in ms; x, y, heading, vx, vy, omega in the league's axes, NaN if unknown; 1 with the ball, else 0."""
 BallRow = tuple[float, float, float, float, float, float, float, float]
-"""Time in ms, then x, y, z, vx, vy, vz in the league's axes, NaN where not said, and the team's confidence."""
+"""Time in ms; x, y, z, vx, vy, vz in the league's axes, NaN if unknown; the team's confidence."""
 
 
 @dataclass(slots=True)
 class TeamLog:
-    """What one team said, in the order of time."""
+    """The records of one team, by time."""
 
     team: str = ""
     records: int = 0
-    """In the file."""
+    """Records in the file."""
     read: int = 0
-    """Of which a world state could be read."""
+    """Records with a world state that could be read."""
     times_ms: list[float] = field(default_factory=list)
-    """Time of each that was read, ms since 1970."""
+    """Times of the records that were read, in ms since 1970."""
     robots: dict[int, list[RobotRow]] = field(default_factory=dict)
     balls: list[BallRow] = field(default_factory=list)
 
@@ -58,7 +59,7 @@ class _Record:
 
 
 def read_team(text: str, letter: str, findings: Findings) -> TeamLog:
-    """The file of one team; `letter` is A or B."""
+    """Read the file of one team; `letter` is A or B."""
     log = TeamLog()
     found: list[_Record] = []
     for index, raw in enumerate(_raw_records(text, letter, findings), 1):
@@ -80,7 +81,7 @@ def read_team(text: str, letter: str, findings: Findings) -> TeamLog:
 
 
 def _raw_records(text: str, letter: str, findings: Findings) -> Iterator[Any]:
-    """Every record of the file as JSON has it; behind damage it goes on with the next that begins like one."""
+    """Yield every record of the file as plain JSON; after damaged data, continue with the next record."""
     position, count, damaged = 0, 0, False
     while True:
         between = _BETWEEN.match(text, position)
@@ -98,7 +99,7 @@ def _raw_records(text: str, letter: str, findings: Findings) -> Iterator[Any]:
             position, damaged = following.start(), True
             continue
         if damaged and not (isinstance(raw, dict) and fields_of(raw, Findings()).get("timestamp")):
-            continue  # what is left of the damaged record
+            continue  # the rest of the damaged record
         damaged = False
         count += 1
         yield raw
@@ -112,7 +113,7 @@ def _record(raw: Any, index: int, findings: Findings) -> _Record | None:
         return None
     content = record.get("worldstate")
     if isinstance(content, str):
-        findings.note("worldstate is a text of JSON")
+        findings.note("worldstate is a string of JSON")
         try:
             content = _DECODER.decode(content)
         except (ValueError, RecursionError):
@@ -157,10 +158,10 @@ def _robot(robot: dict[str, Any], epoch_ms: float, findings: Findings) -> tuple[
         findings.note(f"robot more than {_MAX_COORDINATE_M:g} m from the centre", lost=True)
         return None
     if heading is None:
-        findings.note("robot without a heading: its last one stands in")
+        findings.note("robot without a heading: its last one is used")
     velocity = vector(robot.get("velocity"), 3, "velocity of a robot", findings)
     if velocity[0] is None or velocity[1] is None:
-        findings.note("robot without a velocity: its way between two records stands in")
+        findings.note("robot without a velocity: derived from its positions")
     engaged = robot.get("ballEngaged")
     if isinstance(engaged, bool):
         findings.note("ballEngaged is true or false, not 1 or 0")
@@ -172,7 +173,7 @@ def _robot(robot: dict[str, Any], epoch_ms: float, findings: Findings) -> tuple[
 
 
 def _best_ball(world: dict[str, Any], epoch_ms: float, findings: Findings) -> BallRow | None:
-    """The ball that the team is surest of."""
+    """The ball with the team's highest confidence."""
     best: BallRow | None = None
     for one in items_of(world.get("balls")):
         ball = fields_of(one, findings)
@@ -185,13 +186,13 @@ def _best_ball(world: dict[str, Any], epoch_ms: float, findings: Findings) -> Ba
             continue
         velocity = vector(ball.get("velocity"), 3, "velocity of a ball", findings)
         if velocity[0] is None or velocity[1] is None:
-            findings.note("ball without a velocity: its way between two records stands in")
+            findings.note("ball without a velocity: derived from its positions")
         confidence = number(ball.get("confidence"), "confidence", findings)
         if confidence is None:
-            findings.note("ball without a confidence: it counts as sure")
+            findings.note("ball without a confidence: it counts as 1")
             confidence = 1.0
         if not 0 <= confidence <= 1:
-            findings.note("confidence outside 0 to 1: the nearer of both stands in")
+            findings.note("confidence outside 0 to 1: limited to that range")
             confidence = min(1.0, max(0.0, confidence))
         if best is None or confidence > best[-1]:
             vx, vy, vz = (_or_nan(value) for value in velocity)
@@ -204,7 +205,7 @@ def _or_nan(value: float | None) -> float:
 
 
 def _in_order(found: list[_Record], letter: str, findings: Findings) -> list[_Record]:
-    """The records by time, each moment once, without those of another day."""
+    """The records by time, one for each time, without those of a wrong clock."""
     if not found:
         return []
     middle = median(record.epoch_ms for record in found)
@@ -225,11 +226,11 @@ def _in_order(found: list[_Record], letter: str, findings: Findings) -> list[_Re
         findings.place = f"{letter}, record {record.number}"
         gap_s = (record.epoch_ms - merged[-1].epoch_ms) / 1e3 if merged else _BURST_S
         if gap_s == 0:
-            findings.note("several records of one moment: the last stands")
+            findings.note("several records of one time: the last is used")
             merged.pop()
         elif gap_s < _BURST_S:
             findings.note(f"records in a burst, less than {_BURST_S * 1e3:g} ms apart")
         elif gap_s > GAP_S:
-            findings.note(f"gap of more than {GAP_S:g} s: what was not said is left out")
+            findings.note(f"gap of more than {GAP_S:g} s: the team's bodies are unknown meanwhile")
         merged.append(record)
     return merged

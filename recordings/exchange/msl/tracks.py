@@ -1,7 +1,7 @@
-"""Both teams' records on one even grid of moments, in the field frame.
+"""Resamples the records of both teams on one regular grid of times, in the field frame.
 
-Between two records of a team, numbers go evenly from one to the other, headings the shorter way; what a team does not
-say for longer than `GAP_S` is unknown.
+Between two records of a team, values are interpolated linearly, headings along the shorter way. In gaps longer than
+`GAP_S` they are unknown.
 """
 
 from dataclasses import dataclass
@@ -16,17 +16,18 @@ Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 _EXTRAPOLATE_S = 0.2
-"""At the edge of a gap the last word stands this long. Ours: two records at the league's slowest rate."""
+"""s for which the last record is valid before a gap. Chosen here: two records at the league's lowest rate."""
 _AGREE_M = 1.0
-"""Two teams that see the ball closer together see the same ball. Ours: a good deal more than they err."""
+"""m between the balls of two teams up to which they are the same ball. Chosen here: well above their errors."""
 _KICK_S = 0.4
 _KICK_M = 0.8
-"""A ball that was in hand and is this far away this much later was kicked. Ours: 2 m/s; a lost one is slower."""
+"""s and m: a ball that is this far from its holder after this time was kicked. Chosen here: 2 m/s is faster than a
+lost ball."""
 
 
 @dataclass(frozen=True, slots=True)
 class Track:
-    """One body on the grid: `values` has a column for each moment; NaN where `known` is not."""
+    """One body on the grid: `values` has a column for each time, NaN where `known` is False."""
 
     known: Mask
     values: Array
@@ -34,7 +35,7 @@ class Track:
 
 
 def robot_tracks(log: TeamLog, grid_ms: Array, attack: Array) -> dict[int, Track]:
-    """Number → track of each robot of a team that attacks as `attack` says at each moment."""
+    """Number → track of each robot of a team; `attack` is its direction of attack at each time, +1 or −1."""
     tracks = {}
     for number in sorted(log.robots):
         rows = _filled(np.array(log.robots[number]), velocity=(4, 5))
@@ -48,7 +49,7 @@ def robot_tracks(log: TeamLog, grid_ms: Array, attack: Array) -> dict[int, Track
 
 
 def ball_track(log: TeamLog, grid_ms: Array, attack: Array, radius: float) -> Track:
-    """The ball as one team sees it; on the ground where its height is not said."""
+    """The ball as seen by one team; on the ground if its height is unknown."""
     if not log.balls:
         return Track(np.zeros(len(grid_ms), bool), np.full((7, len(grid_ms)), np.nan))
     rows = _filled(np.array(log.balls), velocity=(4, 5))
@@ -61,9 +62,9 @@ def ball_track(log: TeamLog, grid_ms: Array, attack: Array, radius: float) -> Tr
 
 
 def fuse_balls(first: Track, second: Track, radius: float) -> Track:
-    """Where both teams agree, the mean of what they see, by their confidence; else what the surer one sees.
+    """Where both teams agree, the mean of both balls, weighted with their confidence; else the more confident one.
 
-    Where neither sees it, it lies where it was last, and before that on the centre mark.
+    While neither team sees the ball it stays at its last position, and before the first one on the centre mark.
     """
     a, b = np.nan_to_num(first.values), np.nan_to_num(second.values)
     sure_a, sure_b = a[6] * first.known, b[6] * second.known
@@ -83,9 +84,9 @@ def fuse_balls(first: Track, second: Track, radius: float) -> Track:
 
 
 def kicks(robots: dict[str, Track], ball: Track, period: float) -> dict[int, str]:
-    """Index of a moment → the robot that kicked then: it had the ball, has it no more, and the ball goes away fast.
+    """Index of a time → the robot that kicked then: it has lost the ball, and the ball moves away fast.
 
-    A log does not tell of kicks; this is inferred from what it tells.
+    Kicks are not in a log; they are inferred.
     """
     with_ball = {name: track.known & (np.nan_to_num(track.values[6]) > 0.5) for name, track in robots.items()}
     count, later = len(ball.known), max(1, round(_KICK_S / period))
@@ -101,7 +102,7 @@ def kicks(robots: dict[str, Track], ball: Track, period: float) -> dict[int, str
 
 
 def _filled(rows: Array, velocity: tuple[int, int]) -> Array:
-    """Velocities that were not said, from the way between neighbouring records."""
+    """Fill in missing velocities from the positions of neighbouring records."""
     for place, column in enumerate(velocity, 1):
         missing = np.isnan(rows[:, column])
         if missing.any():
@@ -111,13 +112,13 @@ def _filled(rows: Array, velocity: tuple[int, int]) -> Array:
 
 
 def _last_known(values: Array) -> Array:
-    """Each value that is not known becomes the last that was, or 0."""
+    """Replace unknown values by the last known one, or 0."""
     newest = np.maximum.accumulate(np.where(np.isnan(values), -1, np.arange(len(values))))
     return np.where(newest >= 0, values[np.maximum(newest, 0)], 0.0)
 
 
 def _resampled(rows: Array, grid_ms: Array, kept: int | None) -> tuple[Mask, Array]:
-    """All columns but the time on the grid; column `kept` is that of the record before, not a mean."""
+    """All columns but the time on the grid; column `kept` is not interpolated, but that of the record before."""
     times = rows[:, 0]
     before = np.searchsorted(times, grid_ms, side="right") - 1
     first = np.maximum(before, 0)

@@ -1,1 +1,1 @@
-"""Recording → MCAP with typed messages: protobuf made from the same models as the JSON, for tools that want columns."""
+"""Recording → MCAP with typed messages: protobuf generated from the same models as the JSON."""

@@ -1,4 +1,4 @@
-"""Writes a recording as MCAP of protobuf, each channel with its schema; keys, times, numbers and order are kept."""
+"""Writes a recording as MCAP with protobuf messages and their schemas; keys, times, numbers and order are kept."""
 
 from pathlib import Path
 
@@ -16,14 +16,14 @@ from recordings.exchange.protobuf.proto_text import proto_text
 from recordings.reading.recording import Recording
 
 ORIGIN = "exported_from"
-"""The metadata that tells where the messages come from."""
+"""Name of the metadata record that describes the original recording."""
 
 
 def export(recording: Recording, out: Path) -> ExportSummary:
-    """Write every message that can be read, typed; the `.proto` of each type is attached.
+    """Write all valid messages; the `.proto` file of each type is attached.
 
     Raises:
-        TouchlineError: `out` is there already or cannot be written, or the recording is damaged inside.
+        TouchlineError: `out` already exists or cannot be written, or the recording is damaged inside.
     """
     classes: dict[str, type[ProtobufMessage]] = {}
     written: dict[str, int] = {}

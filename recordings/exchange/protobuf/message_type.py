@@ -1,7 +1,7 @@
-"""What a message looks like in protobuf (proto3), from its JSON Schema.
+"""Builds the protobuf (proto3) type of a message from its JSON Schema.
 
-Fields are numbered in the order in which the model has them; a reader goes by the schema of its own file. A field that
-may be None is `optional`, a mapping is a `map`, and one of several plain types is a `google.protobuf.Value`.
+Fields are numbered in the order of the model; readers use the schema in their own file. A field that may be None is
+`optional`, a mapping is a `map`, and a field of several plain types is a `google.protobuf.Value`.
 """
 
 from typing import Any
@@ -26,7 +26,7 @@ _Schema = dict[str, Any]
 
 
 def message_type(model: type[WireMessage]) -> Descriptor:
-    """The protobuf type of a message, with everything below it."""
+    """The protobuf type of a message, with all nested types."""
     file = _FileBuilder(model).file
     pool = DescriptorPool()
     pool.AddSerializedFile(_VALUE.file.serialized_pb)
@@ -35,7 +35,7 @@ def message_type(model: type[WireMessage]) -> Descriptor:
 
 
 class _FileBuilder:
-    """Builds the file of one message. All messages below it are nested in it, so that no two files share a name."""
+    """Builds the file of one message. All other messages are nested in it, so that names in files do not clash."""
 
     def __init__(self, model: type[WireMessage]) -> None:
         schema = whole_schema(model)
@@ -63,13 +63,13 @@ class _FileBuilder:
         else:
             self._set_type(field, schema)
             is_nullable = len(choices) < len(schema.get("anyOf", [schema]))
-            if is_nullable and field.type != FieldDescriptorProto.TYPE_MESSAGE:  # a message has presence anyway
+            if is_nullable and field.type != FieldDescriptorProto.TYPE_MESSAGE:  # a message has presence in any case
                 field.proto3_optional = True
                 field.oneof_index = len(owner.oneof_decl)
                 owner.oneof_decl.add(name=f"_{field.name}")
 
     def _map_entry(self, name: str, schema: _Schema, owner: DescriptorProto) -> str:
-        """Add the message that the entries of a map are on the wire; returns its full name."""
+        """Add the entry message of a map; returns its full name."""
         entry = owner.nested_type.add(name="".join(word.capitalize() for word in name.split("_")) + "Entry")
         entry.options.map_entry = True
         optional = FieldDescriptorProto.LABEL_OPTIONAL
@@ -109,7 +109,7 @@ class _FileBuilder:
 
 
 def _choices(schema: _Schema) -> list[_Schema]:
-    """The types that a value may have besides None."""
+    """The schemas of all values besides None."""
     return [choice for choice in schema.get("anyOf", [schema]) if choice.get("type") != "null"]
 
 

@@ -1,7 +1,7 @@
-"""One page of a match that opens from disk: everything is in it, nothing is fetched.
+"""A page of a match as one HTML file that opens from disk, without a network.
 
-`content` says what it shows, as data; the scripts beside it are plain modules that are joined into one when the page
-is written, so that it needs neither a network nor a build step.
+`content` collects its data. The scripts in this folder are plain modules that are joined to one script when the page is
+written, so that no build step is needed.
 """
 
 import json
@@ -19,26 +19,31 @@ from recordings.stats.tracks import Tracks
 from schemas.errors import TouchlineError
 
 SCRIPTS = (
+    "shared/projection.js",
+    "shared/shapes.js",
+    "shared/pitch.js",
+    "shared/bodies.js",
+    "shared/events.js",
     "match.js",
-    "pitch.js",
-    "bodies.js",
+    "canvas.js",
+    "moving_bodies.js",
     "player.js",
     "keys.js",
     "timeline.js",
-    "events.js",
+    "event_list.js",
     "heat_maps.js",
     "shots.js",
     "figures.js",
     "main.js",
 )
-"""Each imports only from those before it."""
+"""Each imports only from those before it; those in `shared` are of `schemas/page`, which the match's page uses too."""
 
 
 def page_of(recording: Recording) -> tuple[MatchFigures, str]:
-    """The figures of a recording, and its page as HTML.
+    """Return the figures of a recording, and its page as HTML.
 
     Raises:
-        TouchlineError: it is damaged inside, has no setup, or no world.
+        TouchlineError: the recording is damaged inside, or has no setup or no world.
     """
     setup = setup_of(recording)
     tracks, history = Tracks(setup, *extent(recording)), GameHistory()
@@ -47,14 +52,14 @@ def page_of(recording: Recording) -> tuple[MatchFigures, str]:
 
 
 def page(content: dict[str, Any]) -> str:
-    """The page that shows this content."""
+    """Return the page with this content, as HTML."""
     parts = {
         "TITLE": _escaped(content["title"]),
         "STYLE": _text("page.css"),
         "SCRIPT": "\n".join(_inlined(_text(name)) for name in SCRIPTS),
         "CONTENT": json.dumps(content, ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace(
             "<",
-            "\\u003c",  # so that no text in it can end the element it stands in
+            "\\u003c",  # so that no string in it can close the script element
         ),
     }
     return re.sub(r"{{(\w+)}}", lambda found: parts[found[1]], _text("page.html"))
@@ -64,7 +69,7 @@ def write_page(path: Path, text: str) -> None:
     """Write a page to disk.
 
     Raises:
-        TouchlineError: it cannot be written there.
+        TouchlineError: the file cannot be written.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -74,11 +79,13 @@ def write_page(path: Path, text: str) -> None:
 
 
 def _text(name: str) -> str:
-    return (resources.files(__package__ or __name__) / name).read_text("utf-8")
+    folder, _, file = name.rpartition("/")
+    files = resources.files("schemas") / "page" if folder == "shared" else resources.files(__package__ or __name__)
+    return (files / file).read_text("utf-8")
 
 
 def _inlined(module: str) -> str:
-    """A module as part of one script: what it imports stands before it there."""
+    """Remove imports and exports of a module: in the joined script its imports precede it."""
     return re.sub(r"^export ", "", re.sub(r"^import .*;\n", "", module, flags=re.MULTILINE), flags=re.MULTILINE)
 
 

@@ -1,4 +1,4 @@
-"""What a page shows, as plain data: pitch, tracks, history, events, momentum, tables."""
+"""The data of a page: pitch, tracks, history, events, momentum, tables."""
 
 import dataclasses
 import re
@@ -18,7 +18,7 @@ from schemas.messages.host import Setup
 from schemas.side import Side
 
 _HIDDEN_KINDS = frozenset({EventKind.STOP, EventKind.START, EventKind.AGENT, EventKind.PARAMETERS})
-"""Kinds of events that tell a spectator nothing that another beside it does not tell."""
+"""Kinds of events that add nothing for a spectator."""
 _SHOT_TEXTS = {
     KickOutcome.SAVED: "saved by {by}",
     KickOutcome.BLOCKED: "blocked by {by}",
@@ -29,7 +29,7 @@ _SHOT_TEXTS = {
 def content_of(
     manifest: Manifest, setup: Setup, figures: MatchFigures, tracks: Tracks, history: GameHistory
 ) -> dict[str, Any]:
-    """Everything that the scripts of the page read; times in s of simulated time, lengths in m unless said."""
+    """All data that the scripts of the page read; times in s of simulated time, lengths in m, tracks in cm."""
     teams = {side.value: figures.sides[side].team for side in Side}
     return {
         "title": f"{teams['cyan']} – {teams['magenta']}",
@@ -37,8 +37,7 @@ def content_of(
         "started": manifest.started,
         "about": _about(manifest, setup),
         "teams": teams,
-        "pitch": dataclasses.asdict(setup.pitch)
-        | {"goal_area_width": setup.pitch.goal_area_width, "penalty_area_width": setup.pitch.penalty_area_width},
+        "pitch": dataclasses.asdict(setup.pitch),
         "start": tracks.start,
         "rate": tracks.rate,
         "samples": tracks.samples,
@@ -59,10 +58,10 @@ def content_of(
 
 
 def _about(manifest: Manifest, setup: Setup) -> list[str]:
-    """What was played and how, in few words."""
+    """Profile, rules, pace and seed of the match, for display."""
     seed = f"seed {manifest.config.seed}" if manifest.config is not None else None
-    words = (f"profile {setup.profile}", f"rules {setup.rules}", f"pace {setup.pace}", seed)
-    return [word for word in words if word is not None]
+    facts = (f"profile {setup.profile}", f"rules {setup.rules}", f"pace {setup.pace}", seed)
+    return [fact for fact in facts if fact is not None]
 
 
 def _robot(name: str, setup: Setup, tracks: Tracks) -> dict[str, Any]:
@@ -79,13 +78,13 @@ def _robot(name: str, setup: Setup, tracks: Tracks) -> dict[str, Any]:
 
 
 def _number(name: str) -> str:
-    """What stands on a robot: the number at the end of its name, or its first letters."""
+    """The label on a robot: the number at the end of its name, or its first letters."""
     found = re.search(r"\d+$", name)
     return found[0] if found else name[:2]
 
 
 def _packed(values: "array[int]") -> str:
-    """Integers as they lie in memory, the lowest byte first, in base64."""
+    """Integers in little-endian order, in base64."""
     if sys.byteorder == "big":
         values = array(values.typecode, values)
         values.byteswap()
@@ -93,7 +92,7 @@ def _packed(values: "array[int]") -> str:
 
 
 def _events(figures: MatchFigures) -> list[dict[str, Any]]:
-    """Events, and the shots that no event tells of, in order of time."""
+    """Events, and shots without an event of their own, by time."""
     events = [_event(event) for event in figures.events if event.kind not in _HIDDEN_KINDS]
     shots = [_shot(kick) for kick in figures.kicks if kick.outcome in _SHOT_TEXTS]
     return sorted([*events, *shots], key=lambda one: one["time"])
@@ -121,7 +120,7 @@ def _shot(kick: KickRecord) -> dict[str, Any]:
 
 
 def _shots(figures: MatchFigures, history: GameHistory) -> list[dict[str, Any]]:
-    """Places of shots with cyan attacking +x throughout."""
+    """Positions of shots, mirrored so that cyan always attacks +x."""
     shots = []
     for kick in figures.kicks:
         if kick.outcome in SHOTS:

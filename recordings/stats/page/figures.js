@@ -1,8 +1,8 @@
-// The figures: what both sides did, side by side, and a table of robots.
+// The figures: both sides next to each other, and a table of robots.
 
-import { element } from "./events.js";
+import { element } from "./event_list.js";
 
-/** A row for each figure of the two sides, with a bar that shows their shares. */
+/** Shows a row for each figure of the two sides, with a bar of their shares. */
 export function showSides(place, rows) {
   place.replaceChildren(...rows.map(([name, cyan, magenta]) => {
     const pair = element("div", "");
@@ -29,7 +29,7 @@ function shares(cyan, magenta) {
   return bar;
 }
 
-/** One row for each robot, in the order of `robots`. */
+/** Shows one row for each robot, in the order of `robots`. */
 export function showRobots(table, { headings, rows }, robots) {
   const head = table.createTHead().insertRow();
   head.append(...headings.map((heading) => {

@@ -1,4 +1,4 @@
-"""The history of a game for a page: what was being played, the score and the clock, where they changed."""
+"""The history of a game for a page: phase, score and clock over time."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -8,7 +8,7 @@ from recordings.stats.match_tick import MatchTick
 
 @dataclass(frozen=True, slots=True)
 class GameInterval:
-    """What holds from a time on, s of simulated time."""
+    """The game state from a time on, in s of simulated time."""
 
     time: float
     phase: str
@@ -20,7 +20,7 @@ class GameInterval:
 
 
 class GameHistory:
-    """Takes in ticks, and keeps those at which something changed."""
+    """Follows the ticks, and notes changes of the game state."""
 
     def __init__(self) -> None:
         self.intervals: list[GameInterval] = []
@@ -30,11 +30,11 @@ class GameHistory:
         self._last: tuple[Any, ...] = ()
 
     def cyan_attacks(self, time: float) -> int:
-        """Sign of the x direction that cyan attacked at a time, s of simulated time."""
+        """Sign of the x direction in which cyan attacked at a time, in s of simulated time."""
         return next((interval.cyan_attacks for interval in reversed(self.intervals) if interval.time <= time), 1)
 
     def update(self, match_tick: MatchTick) -> None:
-        """One more tick."""
+        """Add a tick."""
         world, state = match_tick.world, match_tick.state
         if self._start is None:
             self._start = world.time

@@ -1,13 +1,14 @@
-// Heat maps: how long a body was where, while the ball was in play.
+// Heat maps: where each body was while the ball was in play.
 
-import { element } from "./events.js";
-import { drawGrass, drawLines, fitted } from "./pitch.js";
+import { fitted } from "./canvas.js";
+import { element } from "./event_list.js";
+import { drawGrass, drawLines } from "./shared/pitch.js";
 
 const CELL = 0.5; // m
-const SPREAD = 2; // cells; a body is not a point, and a match is short
+const SPREAD = 2; // cells; smooths the short tracks of a match
 const STOPS = [[0, 18, 36, 27], [0.18, 40, 56, 110], [0.42, 122, 44, 120], [0.68, 224, 83, 71], [0.86, 251, 170, 50], [1, 252, 250, 190]];
 
-/** One small map for each robot and the ball. */
+/** Draws a small map for each robot and for the ball. */
 export function drawHeatMaps(place, match) {
   const bodies = [...match.robots, { ...match.ball, name: "ball", side: "ball" }];
   place.replaceChildren(...bodies.map((body) => {
@@ -27,14 +28,14 @@ export function drawHeatMaps(place, match) {
   redrawHeatMaps(place);
 }
 
-/** Draws them again, for the width that they have now. */
+/** Draws the maps again in their current width. */
 export function redrawHeatMaps(place) {
   for (const figure of place.children) figure.draw();
 }
 
 function drawMap(canvas, match, body) {
-  const { pitch } = match, context = fitted(canvas, pitch, 0.6);
-  drawGrass(context, pitch, true);
+  const { pitch } = match, { projection, context } = fitted(canvas, pitch, 0.6);
+  drawGrass(context, projection, pitch, true);
   const columns = Math.ceil(pitch.length / CELL), rows = Math.ceil(pitch.width / CELL);
   const cells = blurred(counted(match, body, columns, rows), columns, rows);
   const most = cells.reduce((high, value) => Math.max(high, value), 0);
@@ -45,13 +46,11 @@ function drawMap(canvas, match, body) {
     small.width = columns;
     small.height = rows;
     small.getContext("2d").putImageData(image, 0, 0);
-    context.save();
-    context.scale(1, -1);
     context.imageSmoothingQuality = "high";
-    context.drawImage(small, -pitch.length / 2, -pitch.width / 2, pitch.length, pitch.width);
-    context.restore();
+    const [left, top] = [projection.x(-pitch.length / 2), projection.y(pitch.width / 2)];
+    context.drawImage(small, left, top, projection.length(pitch.length), projection.length(pitch.width));
   }
-  drawLines(context, pitch, "#ffffff8c", 0.12);
+  drawLines(context, projection, pitch, "#ffffff8c", 0.12);
 }
 
 function counted(match, body, columns, rows) {

@@ -1,6 +1,6 @@
-// The keyboard: one row for each key.
+// Keyboard control: one row for each key.
 
-/** Listens for keys, unless they are typed into a control that has its own use for them. */
+/** Handles keys, unless the focused control uses them itself. */
 export function listenForKeys(player, match, speed, jump) {
   const frame = 1 / match.rate;
   const actions = {

@@ -1,8 +1,8 @@
-// The match as data: where everybody was at any time, what was being played, the events.
+// The data of the match: positions of all bodies, game state and clock at any time.
 
 const ABSENT = -32768;
 const NO_HOLDER = 255;
-const MAX_STEP_CM = 120; // between two samples: whoever moved farther was set down there
+const MAX_STEP_CM = 120; // between two samples; a body that moves farther was placed by hand
 
 function bytes(text) {
   return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
@@ -12,7 +12,7 @@ function int16s(text) {
   return new Int16Array(bytes(text).buffer);
 }
 
-/** Reads what the page carries; times in s of simulated time, lengths in m. */
+/** Reads the data in the page; times in s of simulated time, lengths in m. */
 export function readMatch(text) {
   const content = JSON.parse(text);
   const robots = content.robots.map((robot) => ({
@@ -28,14 +28,14 @@ class Match {
     this.end = this.start + Math.max(0, this.samples - 1) / this.rate;
   }
 
-  /** Sample before a time, and how far the time is on the way to the next one. */
+  /** Samples before and after a time, and the fraction of the interval between them. */
   place(time) {
     const exact = Math.min(Math.max((time - this.start) * this.rate, 0), this.samples - 1);
     const sample = Math.floor(exact + 1e-6);
     return [sample, Math.min(sample + 1, this.samples - 1), Math.max(0, exact - sample)];
   }
 
-  /** All bodies at a time: robots with x, y and heading, or nothing for those that are away; the ball; the holder. */
+  /** All bodies at a time: robots with x, y and heading, null for absent ones; the ball; the holder's index or null. */
   bodies(time) {
     const [before, after, way] = this.place(time);
     const robots = this.robots.map((robot) => {
@@ -49,7 +49,7 @@ class Match {
     return { robots, ball, holder: this.holder[before] === NO_HOLDER ? null : this.holder[before] };
   }
 
-  /** What holds at a time: phase, side, score; nothing before the referee said anything. */
+  /** Phase, side and score at a time; null before the first game state. */
   interval(time) {
     let found = null;
     for (const interval of this.intervals) {
@@ -67,7 +67,7 @@ class Match {
     return this.clock[second] + (this.clock[next] - this.clock[second]) * (at - second);
   }
 
-  /** From when to when the ball was in play, and what held then. */
+  /** Intervals in which the ball was in play: begin, end, and game state. */
   inPlay() {
     return this.intervals
       .map((interval, number) => [interval, this.intervals[number + 1]?.time ?? this.end])
@@ -83,7 +83,7 @@ function between(track, before, after, way) {
   return { x: (x + dx * way) / 100, y: (y + dy * way) / 100 };
 }
 
-/** Seconds as people read a clock. */
+/** Seconds as minutes and seconds. */
 export function formatClock(seconds, tenths = false) {
   const whole = tenths ? Math.floor(seconds * 10) / 10 : Math.floor(seconds);
   const minutes = Math.floor(whole / 60);

@@ -1,7 +1,7 @@
-// Time: where in the match the page is, and whether it goes on.
+// Playback: the current time in the match, and whether it advances.
 
 export class Player {
-  /** `onChange` is told each new time; `clock` says how late it is, in ms. */
+  /** `onChange` is called with the player whenever its state changes; `clock` returns the time in ms. */
   constructor(start, end, onChange, clock = () => performance.now()) {
     Object.assign(this, { start, end, onChange, clock, time: start, rate: 1, playing: false });
   }

@@ -1,1 +1,1 @@
-"""The bus over Zenoh; nothing else imports Zenoh."""
+"""The bus over Zenoh; no other package imports Zenoh."""

@@ -1,7 +1,4 @@
-"""The bus over Zenoh: the host is the router, everyone else a client with one explicit endpoint.
-
-Only the modules of this folder import Zenoh.
-"""
+"""The bus over Zenoh: the host is the router, and all other processes are clients with one explicit endpoint."""
 
 import atexit
 import weakref
@@ -13,6 +10,7 @@ from schemas.bus.contract import (
     Bus,
     BusError,
     PendingReply,
+    PresenceKind,
     PresenceWatch,
     Publisher,
     Server,
@@ -38,13 +36,13 @@ def open_host(match: str, clock: Clock, listen: str = DEFAULT_ENDPOINT) -> "Zeno
     """Open the host's bus: a router that listens on one endpoint.
 
     Raises:
-        BusError: the endpoint cannot be listened on.
+        BusError: it cannot listen on the endpoint.
     """
     return ZenohBus(match, clock, open_router(listen), is_client=False)
 
 
 def open_client(match: str, clock: Clock, connect: str = DEFAULT_ENDPOINT, patience: float = 10.0) -> "ZenohBus":
-    """Open a client's bus, trying for `patience` s of wall time.
+    """Open a client's bus, with attempts for `patience` s of wall time.
 
     Raises:
         BusError: no host answers at that endpoint.
@@ -86,14 +84,16 @@ class ZenohBus(Bus):
         self._mailboxes.append(server.mailbox)
         return server
 
-    def query(self, topic: Topic, request: WireMessage, timeout: float = 2.0, **chunks: str) -> PendingReply:
-        return ZenohPendingReply(topic, full_key(topic, chunks), request, timeout, self._open())
+    def query(
+        self, topic: Topic, request: WireMessage, timeout: float = 2.0, *, droppable: bool = False, **chunks: str
+    ) -> PendingReply:
+        return ZenohPendingReply(topic, full_key(topic, chunks), request, timeout, droppable, self._open())
 
-    def declare_alive(self, kind: str, name: str) -> None:
+    def declare_alive(self, kind: PresenceKind, name: str) -> None:
         key = self._context.prefix + TOPICS["alive"].fill(kind=kind, name=name)
         self._tokens[key] = self._open().session.liveliness().declare_token(key)
 
-    def withdraw_alive(self, kind: str, name: str) -> None:
+    def withdraw_alive(self, kind: PresenceKind, name: str) -> None:
         self._open()
         token = self._tokens.pop(self._context.prefix + TOPICS["alive"].fill(kind=kind, name=name), None)
         if token is not None:
@@ -121,7 +121,7 @@ class ZenohBus(Bus):
         try:
             self.session.close()  # type: ignore[no-untyped-call]
         except zenoh.ZError:
-            return  # the peer was gone first; nothing is left to close
+            return  # the peer has closed it
 
     def _open(self) -> SessionContext:
         if self._closed:
@@ -130,7 +130,7 @@ class ZenohBus(Bus):
 
 
 def _close_at_exit(bus: ZenohBus) -> None:
-    """Close before the interpreter is taken down: one that watches presence and exits with an open session hangs."""
+    """Close before the interpreter shuts down: a process that watches presence hangs at exit with an open session."""
     reference = weakref.ref(bus)
 
     def close() -> None:

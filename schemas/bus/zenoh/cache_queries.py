@@ -1,4 +1,4 @@
-"""Asks the writers' caches over Zenoh for what Zenoh's own recovery left missing."""
+"""Queries to publishers' caches over Zenoh, for messages that Zenoh's own recovery has not delivered."""
 
 from collections.abc import Callable
 from queue import Empty, SimpleQueue
@@ -9,14 +9,14 @@ from schemas.bus.contract import ReceivedMessage
 from schemas.bus.gap_recovery import Gap, GapRecovery
 from schemas.bus.zenoh.session import SessionContext
 
-_ANSWER_S = 5.0
-"""Wall time that a cache may take to answer."""
+_REPLY_S = 5.0
+"""Longest wall time for the reply of a cache."""
 _CACHE = "/@adv/pub/"
-"""Between a key and the identity of its writer: where a writer's cache is asked. `_sn` names the numbers wanted."""
+"""Stands between a key and the identity of its publisher in the key of a cache; `_sn` selects sequence numbers."""
 
 
 class CacheQueries:
-    """Of one subscription: samples in, messages in the order of their numbers out."""
+    """The cache queries of one subscription: takes samples, and returns messages in the order of their numbers."""
 
     def __init__(
         self,
@@ -25,20 +25,19 @@ class CacheQueries:
         read: Callable[[zenoh.Sample], ReceivedMessage | None],
         wake: Callable[[], None],
     ) -> None:
-        """`read` makes a message of a sample; `wake` is called when an answer has ended."""
+        """`read` returns the message in a sample; `wake` is called at the end of a reply."""
         self._context, self._recovery, self._read, self._wake = context, recovery, read, wake
-        self._answers: SimpleQueue[tuple[Gap, list[zenoh.Sample]]] = SimpleQueue()
+        self._replies: SimpleQueue[tuple[Gap, list[zenoh.Sample]]] = SimpleQueue()
         self.accept_if_next = self._recovery.accept_if_next
         self.due_at = self._recovery.due_at
-        self.skip_missing = self._recovery.skip_missing
 
     def insert(self, received: ReceivedMessage, sample: zenoh.Sample) -> None:
-        """A message that does not pass."""
+        """Add a message that is not the next of its key."""
         self._recovery.insert(received, _writer_of(sample), self._context.clock.now())
 
     def next(self) -> ReceivedMessage | None:
-        """A message whose turn has come; what is missing is asked for on the way."""
-        if self._recovery.has_gaps or not self._answers.empty():
+        """The next message in order; missing messages are requested on the way."""
+        if self._recovery.has_gaps or not self._replies.empty():
             self._recover()
         ready = self._recovery.ready
         return ready.popleft() if ready else None
@@ -47,15 +46,15 @@ class CacheQueries:
         now = self._context.clock.now()
         while True:
             try:
-                gap, samples = self._answers.get_nowait()
+                gap, samples = self._replies.get_nowait()
             except Empty:
                 break
             found = [received for sample in samples if (received := self._read(sample)) is not None]
             self._recovery.insert_reply(gap, found, now)
         for gap in self._recovery.due_requests(now):
-            self._ask(gap)
+            self._request(gap)
 
-    def _ask(self, gap: Gap) -> None:
+    def _request(self, gap: Gap) -> None:
         samples: list[zenoh.Sample] = []
 
         def receive(reply: zenoh.Reply) -> None:
@@ -63,7 +62,7 @@ class CacheQueries:
                 samples.append(reply.ok)
 
         def end() -> None:
-            self._answers.put((gap, samples))
+            self._replies.put((gap, samples))
             self._wake()
 
         self._context.session.get(
@@ -72,11 +71,11 @@ class CacheQueries:
             target=zenoh.QueryTarget.ALL,
             consolidation=zenoh.ConsolidationMode.NONE,
             accept_replies=zenoh.ReplyKeyExpr.ANY,
-            timeout=_ANSWER_S,
+            timeout=_REPLY_S,
         )
 
 
 def _writer_of(sample: zenoh.Sample) -> str | None:
-    """Who has sent a sample, as its cache is asked; nothing where it says none."""
+    """The identity of a sample's publisher in the key of its cache; None for a sample without one."""
     source = sample.source_info
     return f"{source.source_id.zid}/{source.source_id.eid}" if source is not None else None

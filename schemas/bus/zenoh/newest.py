@@ -1,7 +1,7 @@
-"""The newest message of one key over Zenoh: what a robot reads its sights with.
+"""Subscription to the newest message of one key over Zenoh, with which a robot reads its sights.
 
-A robot is woken for each of them when nine others have used the caches since, so this way is kept short: it looks at no
-key, and at no stamp unless it is asked for that.
+A robot is woken for each sight after nine others have used the CPU's caches, so this path is short: it reads neither
+key nor stamp unless the caller needs them.
 """
 
 import zenoh
@@ -13,11 +13,11 @@ from schemas.bus.zenoh.session import SessionContext
 from schemas.topic import Topic
 
 _PLACES = 2
-"""One beside the newest, so that a wake-up never pushes it out."""
+"""Places of the ring: one more than the newest message, so that a wake-up never displaces it."""
 
 
 class ZenohNewest(ZenohReader):
-    """Forgets a message for the next."""
+    """Keeps only the newest message."""
 
     def __init__(self, topic: Topic, key: str, context: SessionContext) -> None:
         super().__init__(topic, key, context)
@@ -35,11 +35,8 @@ class ZenohNewest(ZenohReader):
         newest = self._newest(timeout)
         return newest[1] if newest is not None else None
 
-    def skip_missing(self) -> None:
-        """Nothing older than the newest is ever waited for."""
-
     def _newest(self, timeout: float | None) -> tuple[zenoh.Sample, bytes] | None:
-        """The sample that came last, and its payload."""
+        """The last sample that arrived, and its payload."""
         until = NO_WAIT if self._ended else self._deadline_of(timeout)
         newest, reader = None, self._reader
         try:
@@ -51,5 +48,5 @@ class ZenohNewest(ZenohReader):
                 is_early = newest is None and not self._ended and self._clock.now() < until
                 sample = self._wait(until) if is_early else reader.try_recv()
         except zenoh.ZError:
-            return newest  # the session was closed meanwhile
+            return newest  # the session was closed
         return newest

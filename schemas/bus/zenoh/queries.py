@@ -1,15 +1,23 @@
-"""What is rare on a bus, over Zenoh: queries and their replies, and who is alive. All of it waits in mailboxes."""
-
-from typing import Any
+"""Queries, replies and liveliness tokens over Zenoh. They are rare, and wait in mailboxes."""
 
 import zenoh
 
-from schemas.bus.contract import NoReplyError, PendingReply, Presence, PresenceWatch, Query, Server
+from schemas.bus.contract import (
+    NoReplyError,
+    PendingReply,
+    Presence,
+    PresenceKind,
+    PresenceWatch,
+    Query,
+    Server,
+)
 from schemas.bus.mailbox import EveryMailbox
 from schemas.bus.zenoh.session import SessionContext
 from schemas.message import WireMessage
 from schemas.topic import Topic
 from schemas.topics import TOPICS
+
+_KINDS = frozenset(kind.value for kind in PresenceKind)
 
 
 class ZenohQuery(Query):
@@ -18,8 +26,11 @@ class ZenohQuery(Query):
         self._query = query
 
     def reply(self, reply: WireMessage) -> None:
+        self.reply_payload(reply.encode())
+
+    def reply_payload(self, payload: bytes) -> None:
         with self._query as query:
-            query.reply(query.key_expr, reply.encode(), encoding=zenoh.Encoding.APPLICATION_JSON)
+            query.reply(query.key_expr, payload, encoding=zenoh.Encoding.APPLICATION_JSON)
 
     def fail(self, reason: str) -> None:
         with self._query as query:
@@ -42,8 +53,11 @@ class ZenohServer(Server):
 
 
 class ZenohPendingReply(PendingReply):
-    def __init__(self, topic: Topic, key: str, request: WireMessage, timeout: float, context: SessionContext) -> None:
-        self._topic, self._key = topic, key
+    def __init__(
+        self, topic: Topic, key: str, request: WireMessage, timeout: float, droppable: bool, context: SessionContext
+    ) -> None:
+        super().__init__(topic)
+        self._key = key
         mailbox: EveryMailbox[bytes | str] = EveryMailbox()
         self._mailbox = mailbox
 
@@ -53,24 +67,24 @@ class ZenohPendingReply(PendingReply):
             elif reply.err is not None:
                 mailbox.put("", reply.err.payload.to_string())
 
-        def nobody() -> None:
-            mailbox.put("", f"nobody answers {key}")
+        def end() -> None:
+            mailbox.put("", f"no process answers {key}")
 
         context.session.get(
             context.prefix + key,
-            zenoh.handlers.Callback(receive, nobody, indirect=False),
+            zenoh.handlers.Callback(receive, end, indirect=False),
             payload=request.encode(),
             timeout=timeout,
+            congestion_control=zenoh.CongestionControl.DROP if droppable else zenoh.CongestionControl.BLOCK,
         )
 
-    def result(self, timeout: float) -> Any:
+    def payload(self, timeout: float) -> bytes:
         reply = self._mailbox.get(timeout)
         if reply is None:
-            raise NoReplyError(f"nobody answers {self._key} within {timeout:g} s")
+            raise NoReplyError(f"no process answers {self._key} within {timeout:g} s")
         if isinstance(reply, str):
             raise NoReplyError(reply)
-        assert self._topic.reply is not None
-        return self._topic.reply.decode(reply)
+        return reply
 
 
 class ZenohWatch(PresenceWatch):
@@ -82,9 +96,9 @@ class ZenohWatch(PresenceWatch):
 
         def receive(sample: zenoh.Sample) -> None:
             chunks = row.match(str(sample.key_expr)[start:])
-            if chunks:
+            if chunks and chunks["kind"] in _KINDS:
                 alive = sample.kind == zenoh.SampleKind.PUT
-                self.mailbox.put("", Presence(chunks["kind"], chunks["name"], alive))
+                self.mailbox.put("", Presence(PresenceKind(chunks["kind"]), chunks["name"], alive))
 
         self._watch = context.session.liveliness().declare_subscriber(
             context.prefix + row.fill(), zenoh.handlers.Callback(receive, indirect=False), history=True

@@ -1,4 +1,4 @@
-"""Waiting for samples of Zenoh's: what every reader of messages has in common."""
+"""Waiting for samples of Zenoh: the base of all subscriptions."""
 
 import math
 from typing import Any
@@ -11,19 +11,19 @@ from schemas.bus.zenoh.session import SessionContext
 from schemas.topic import Topic
 
 NO_WAIT = -math.inf
-"""End of a wait that is none."""
+"""The deadline of a call that does not wait."""
 
 
 class ZenohReader(Subscription):
-    """Samples wait in a channel of Zenoh's own, filled without Python: neither side ever waits for the other's GIL.
+    """Samples wait in a channel of Zenoh, which is filled without Python: neither side waits for the GIL of the other.
 
-    A channel can be waited on only without end, so a wait that has one is ended by a wake-up: a sample that the bus's
-    timer puts on this reader's own key, heard by nobody else.
+    A channel has no wait with a timeout. The bus's timer ends such a wait with a wake-up: a sample that it puts on this
+    reader's key, delivered only within the session.
     """
 
     def __init__(self, topic: Topic, key: str, context: SessionContext) -> None:
         self.deadline = math.inf
-        """When the timer has to end the wait that is on, by the clock in s."""
+        """When the timer has to end the current wait, by the clock in s."""
         self._topic = topic
         self._context = context
         self._clock = context.clock
@@ -32,16 +32,16 @@ class ZenohReader(Subscription):
         self._full_key = context.prefix + key
         self._wake_up_key = self._full_key.replace("*", WAKE_UP)
         self._reader: Any = None
-        """What Zenoh fills; declared by each kind of reader."""
+        """The Zenoh subscriber; declared by each kind of reader."""
 
     def _deadline_of(self, timeout: float | None) -> float:
-        """When a wait ends that may take `timeout` s."""
+        """When a wait of `timeout` s ends."""
         if timeout is None:
             return math.inf
         return self._clock.now() + timeout if timeout else NO_WAIT
 
     def _wait(self, until: float) -> zenoh.Sample:
-        """The next sample in the channel, a wake-up at the latest.
+        """The next sample in the channel, at the latest a wake-up.
 
         Raises:
             ZError: the session was closed.
@@ -57,13 +57,13 @@ class ZenohReader(Subscription):
         return sample
 
     def wake(self) -> None:
-        """End a wait."""
+        """End the current wait."""
         self._context.session.put(
             self._wake_up_key, b"", attachment=WAKE_UP, allowed_destination=zenoh.Locality.SESSION_LOCAL
         )
 
     def end(self) -> None:
-        """Wake the reader for good."""
+        """End the current wait and all later ones."""
         self._ended = True
         self.wake()
 
@@ -72,4 +72,4 @@ class ZenohReader(Subscription):
         try:
             self._reader.undeclare()
         except zenoh.ZError:
-            return  # undeclared already, with its session
+            return  # undeclared with its session

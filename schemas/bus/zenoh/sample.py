@@ -1,4 +1,4 @@
-"""What a sample of Zenoh's carries beside its payload: a message's stamp, or the mark of a wake-up."""
+"""The attachment of a Zenoh sample: the stamp of a message, or the mark of a wake-up."""
 
 import struct
 
@@ -8,9 +8,9 @@ from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.topic import Topic
 
 STAMP = struct.Struct("<QQq")
-"""What travels beside each message: its number, the writer's wall time in ns and simulated time in ns."""
+"""The attachment of a message: its sequence number, the publisher's wall time in ns and simulated time in ns."""
 WAKE_UP = "-"
-"""Marks a sample that only ends a wait; stands for the chunks of its key, where no name can be this."""
+"""Marks a sample that only ends a wait; in its key it takes the place of chunks, whose names cannot have this value."""
 _MARK = WAKE_UP.encode()
 
 
@@ -21,7 +21,7 @@ def is_wake_up(sample: zenoh.Sample) -> bool:
 
 
 def message_in(sample: zenoh.Sample, topic: Topic, key: str, payload: bytes, timed: bool) -> ReceivedMessage:
-    """The message in a sample; with the time of its arrival where the receiver is the one who stamps that."""
+    """The message in a sample; `timed` adds its time of arrival, which only the host's router stamps."""
     attachment = sample.attachment
     raw = attachment.to_bytes() if attachment is not None else b""
     stamp = Stamp(*STAMP.unpack(raw)) if len(raw) == STAMP.size else None
@@ -29,6 +29,6 @@ def message_in(sample: zenoh.Sample, topic: Topic, key: str, payload: bytes, tim
 
 
 def _arrival(sample: zenoh.Sample) -> int:
-    """When the host's router stamped the sample: where and when it came in, ns since 1970; 0 when it did not."""
+    """Wall time at which the host's router stamped the sample on arrival, ns since 1970; 0 without a stamp."""
     stamp = sample.timestamp
     return stamp.get_time_as_ntp64().as_nanos() if stamp is not None else 0

@@ -1,6 +1,6 @@
-"""A Zenoh session as the host or a client has it: settings, threads, endpoint; opened, or refused in one line.
+"""The Zenoh session of a host or a client: settings, threads and endpoint.
 
-Multicast scouting, gossip and shared memory are off; a process listens on the address it was told and on nothing else.
+Multicast scouting, gossip and shared memory are off; a process listens on the given address only.
 """
 
 import json
@@ -9,47 +9,47 @@ from dataclasses import dataclass
 
 import zenoh
 
-from schemas.bus.contract import Bus, BusError
+from schemas.bus.contract import LEASE_S, Bus, BusError
 from schemas.bus.zenoh.wait_timer import WaitTimer
 from schemas.process.clock import Clock
 
-_LEASE_MS = 2000
 _THREADS = "ZENOH_RUNTIME"
-"""Environment variable that Zenoh reads its threads from."""
+"""Environment variable with Zenoh's thread settings."""
 _CLIENT_THREADS = "(app: (worker_threads: 1), rx: (handover: app), acc: (handover: app), tx: (handover: app))"
-"""A field of many small processes has fewer cores than Zenoh would take threads."""
+"""Fewer threads than by default, since a match has many small processes."""
 _HOST_THREADS = "(app: (worker_threads: 4), rx: (handover: app), acc: (handover: app), tx: (worker_threads: 1))"
-"""Whoever waits for room in a link's queue, as an answer from a cache does, must not wait on the thread that makes the
-room. Zenoh closes a link that makes no room on the threads that read: were they few, all of them could be waiting for
-room in the dead link, and the host would stand still for good (eclipse-zenoh/zenoh, issue 1876)."""
+"""A thread that waits for room in a link's queue, as a reply from a cache does, must not be the thread that makes the
+room. Zenoh closes a stalled link on the threads that read: if there were few, all of them could be waiting for room in
+that link, and the host would block for good (eclipse-zenoh/zenoh, issue 1876)."""
 _RETRY = {"period_init_ms": 20, "period_max_ms": 500, "period_increase_factor": 1.5}
 _TRY_S = (0.5, 2.0)
-"""One attempt to connect: the first, and the longest it doubles to, for a machine that is too busy to answer at once.
-Between attempts Ctrl-C is heard."""
+"""Length of the first attempt to connect, and the longest to which it doubles, for a machine that is too busy to answer
+at once. Ctrl-C takes effect between attempts."""
 _ROOM_US = 1_000_000
-"""Wall time that a client has to make room for what must not be dropped; then its link is cut and it may come again."""
+"""Wall time in which a client has to make room for data that must not be dropped, in µs; then its link is closed, and
+it may connect again."""
 
 
 @dataclass(frozen=True, slots=True)
 class SessionContext:
-    """A session as the writers and readers of one match use it."""
+    """The session with the state that publishers and subscriptions of one match share."""
 
     session: zenoh.Session
     prefix: str
-    """What stands before every key."""
+    """The prefix of every key."""
     clock: Clock
     is_client: bool
     timer: WaitTimer
-    """Ends waits that have an end."""
+    """Ends waits at their deadline."""
     owner: Bus
-    """Has to be closed before the interpreter ends, and is there for as long as anything uses the session."""
+    """The bus, which must be closed before the interpreter ends, and exists as long as the session is in use."""
 
 
 def open_router(listen: str) -> zenoh.Session:
     """The host's session: a router that listens on one endpoint.
 
     Raises:
-        BusError: the endpoint cannot be listened on.
+        BusError: it cannot listen on the endpoint.
     """
     config = _config(
         "router",
@@ -67,7 +67,7 @@ def open_router(listen: str) -> zenoh.Session:
 
 
 def open_connection(connect: str, clock: Clock, patience: float) -> zenoh.Session:
-    """A client's session, tried for `patience` s of wall time.
+    """A client's session, with attempts for `patience` s of wall time.
 
     Raises:
         BusError: no host answers at that endpoint.
@@ -89,10 +89,10 @@ def open_connection(connect: str, clock: Clock, patience: float) -> zenoh.Sessio
 
 
 def _open(config: zenoh.Config, threads: str) -> zenoh.Session:
-    """Open a session in a process with these threads, unless its environment names others.
+    """Open a session with these threads, unless the environment sets others.
 
-    Zenoh looks once, when its first session is opened; the variable must not reach processes launched from here, which
-    may play another part.
+    Zenoh reads the variable once, when the first session of a process is opened. The variable must not reach child
+    processes, which may need other settings.
     """
     if _THREADS in os.environ:
         return zenoh.open(config)
@@ -111,7 +111,7 @@ def _config(mode: str, more: dict[str, object]) -> zenoh.Config:
         "scouting/gossip/enabled": False,
         "scouting/delay": 0,
         "transport/shared_memory/enabled": False,
-        "transport/link/tx/lease": _LEASE_MS,
+        "transport/link/tx/lease": round(LEASE_S * 1000),
         **more,
     }
     for key, value in settings.items():
@@ -123,5 +123,5 @@ def _config(mode: str, more: dict[str, object]) -> zenoh.Config:
 
 
 def first_line(error: Exception) -> str:
-    """What a Zenoh error says, without the place in Zenoh's own source."""
+    """The text of a Zenoh error, without the location in Zenoh's source."""
     return str(error).splitlines()[0].partition(" at /")[0][:200]

@@ -1,11 +1,11 @@
-"""Messages over Zenoh: who writes a key, and who reads a topic."""
+"""Publishers and subscriptions over Zenoh."""
 
 from typing import Any
 
 import zenoh
 from zenoh import ext
 
-from schemas.bus.contract import BusError, Publisher, ReceivedMessage, Stamp
+from schemas.bus.contract import HEARTBEAT_S, BusError, Publisher, ReceivedMessage, Stamp
 from schemas.bus.gap_recovery import GapRecovery
 from schemas.bus.zenoh.cache_queries import CacheQueries
 from schemas.bus.zenoh.reader import ZenohReader
@@ -15,7 +15,7 @@ from schemas.topic import Delivery, Topic
 from schemas.topics import TOPICS
 
 _BACKLOG = 500_000
-"""Samples that may wait for a reader who takes every one."""
+"""Most samples that wait for a subscription that reads every one."""
 _LITERAL_KEYS = frozenset(topic.key for topic in TOPICS.values() if not topic.chunks)
 
 
@@ -35,7 +35,7 @@ class ZenohPublisher(Publisher):
                 context.session,
                 full,
                 cache=ext.CacheConfig(max_samples=topic.cache_size),
-                sample_miss_detection=ext.MissDetectionConfig(heartbeat=0.5, sporadic_heartbeat=None),
+                sample_miss_detection=ext.MissDetectionConfig(heartbeat=HEARTBEAT_S, sporadic_heartbeat=None),
                 publisher_detection=True,
                 **quiet,
             )
@@ -54,7 +54,7 @@ class ZenohPublisher(Publisher):
 
     def has_subscribers(self) -> bool:
         if self.topic.delivery is Delivery.RECOVERED:
-            return True  # Zenoh does not tell for writers with a cache, and the cache wants all samples anyway
+            return True  # Zenoh does not report it for publishers with a cache
         return bool(self._writer.matching_status.matching)
 
 
@@ -86,7 +86,7 @@ class ZenohSubscription(ZenohReader):
         return self._next(timeout)
 
     def _receive_newest(self, timeout: float | None) -> ReceivedMessage | None:
-        """The newest of a key, with all that wait taken in first."""
+        """The newest message of a key, after all waiting messages are processed."""
         kept = self._kept
         received = self._next(0.0 if kept else timeout)
         while received is not None:
@@ -95,12 +95,8 @@ class ZenohSubscription(ZenohReader):
             received = self._next(0.0)
         return kept.pop(next(iter(kept))) if kept else None
 
-    def skip_missing(self) -> None:
-        if self._gaps is not None:
-            self._gaps.skip_missing()
-
     def _next(self, timeout: float | None) -> ReceivedMessage | None:
-        """The next message of this topic; a wake-up ends the wait at its deadline, or when a missing one came."""
+        """The next message of this topic; a wake-up ends the wait at its deadline, or when a missing one arrives."""
         reader, gaps, until = self._reader, self._gaps, self._deadline_of(timeout)
         try:
             while True:
@@ -119,10 +115,10 @@ class ZenohSubscription(ZenohReader):
                 else:
                     gaps.insert(received, sample)
         except zenoh.ZError:
-            return None  # the session was closed meanwhile
+            return None  # the session was closed
 
     def _read(self, sample: zenoh.Sample) -> ReceivedMessage | None:
-        """The message in a sample; nothing in a wake-up, and in one of another topic."""
+        """The message in a sample; None for a wake-up, and for a sample of another topic."""
         payload = sample.payload.to_bytes()
         key = str(sample.key_expr)[self._start :]
         if (not payload and is_wake_up(sample)) or (key in _LITERAL_KEYS and key != self._topic.key):

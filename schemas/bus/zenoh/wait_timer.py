@@ -1,4 +1,4 @@
-"""Ends waits that have an end: one thread for all readers of a session, started with the first such wait."""
+"""Ends waits at their deadline: one thread for all readers of a session, started with the first such wait."""
 
 import math
 import threading
@@ -7,29 +7,29 @@ from typing import Protocol
 from schemas.process.clock import Clock
 
 _AGAIN_S = 0.05
-"""Until a reader that was woken and still waits is woken again."""
+"""Time after which a reader that was woken and still waits is woken again, in s."""
 
 
 class Waiter(Protocol):
-    """A reader who may wait."""
+    """A reader that may wait."""
 
     deadline: float
-    """When its wait has to be ended, by the clock in s; infinite when there is none, or none that ends."""
+    """The deadline of its wait, by the clock in s; infinite without a wait or without a deadline."""
 
     def wake(self) -> None:
         """End its wait."""
 
 
 class WaitTimer:
-    """Sleeps until the first wait ends that somebody has begun.
+    """Sleeps until the earliest deadline of its readers.
 
-    Whoever begins a wait says first when it ends, then reads `next_check_at`; who ends sooner calls `check_now`. Most
-    waits are short and end later than the next check: they cost that comparison, and no lock.
+    A reader that begins a wait first sets its deadline, then reads `next_check_at`, and calls `check_now` where its
+    deadline is earlier. Most waits are short and begin before the next check: they cost this comparison, and no lock.
     """
 
     def __init__(self, clock: Clock) -> None:
         self.next_check_at = math.inf
-        """When all readers are looked at again, by the clock in s; infinite, too, while they are being looked at."""
+        """Time of the next check of all readers, by the clock in s; also infinite during a check."""
         self._clock = clock
         self._waiting: list[Waiter] = []
         self._thread: threading.Thread | None = None
@@ -76,7 +76,7 @@ class WaitTimer:
 
 
 def _ended(reader: Waiter, now: float) -> float:
-    """End a reader's wait whose time has come; when it has to be looked at again."""
+    """End the wait of a reader whose deadline has passed; returns the time of its next check."""
     deadline = reader.deadline
     if deadline > now:
         return deadline

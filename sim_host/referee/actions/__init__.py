@@ -1,4 +1,4 @@
-"""The actions that people, coaches and the referee box may ask for; a new action is a file and a row."""
+"""The actions that people, coaches and the referee box may request. A new action is a module and a row here."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -36,12 +36,12 @@ from sim_host.referee.wording import display_name, place_text
 
 @dataclass(frozen=True, slots=True)
 class Action:
-    """One row: the reason against it in this tick, if there is one, and what it does."""
+    """One row: a check whether the action is legal in this tick, and its effect."""
 
     why_illegal: Callable[[RulingDraft, RefereeAction], str | None]
     apply: Callable[[RulingDraft, RefereeAction], None]
     can_be_undone: bool = True
-    """It decides something; the others only let the game go on, or decide what is proposed."""
+    """It is a decision; the other actions only let the game go on, or decide on a proposal."""
 
 
 ACTIONS: Mapping[ActionName, Action] = {
@@ -69,11 +69,11 @@ ACTIONS: Mapping[ActionName, Action] = {
     ActionName.END_HALF: Action(end_half.why_illegal, end_half.apply),
     ActionName.END_GAME: Action(end_game.why_illegal, end_game.apply),
 }
-"""Name → what it needs and does."""
+"""Name → the check and the effect of the action."""
 
 
 def execute(draft: RulingDraft, action: RefereeAction) -> ActionReply:
-    """Do what is asked, or refuse it with the reason."""
+    """Carry out an action, or refuse it with the reason."""
     row = ACTIONS[action.action]
     reason = row.why_illegal(draft, action)
     if reason is not None:
@@ -82,8 +82,8 @@ def execute(draft: RulingDraft, action: RefereeAction) -> ActionReply:
     owner = f" for {action.side}" if action.side is not None else ""
     where = f" at {place_text(place)}" if place is not None else ""
     who = f" for {action.robot}" if action.robot is not None and action.side is None else ""
-    asked = f"{action.source} asks: {display_name(action.action)}{owner}{who}{where}"
-    draft.add_event(EventKind.ACTION, action.action, asked, side=action.side, robot=action.robot, place=place)
+    text = f"{action.source} requests: {display_name(action.action)}{owner}{who}{where}"
+    draft.add_event(EventKind.ACTION, action.action, text, side=action.side, robot=action.robot, place=place)
     if row.can_be_undone:
         save_for_undo(draft)
     row.apply(draft, action)

@@ -1,6 +1,6 @@
-"""Cancel goal: takes one from a side's score by the word of a person, whenever it was scored; the game goes on.
+"""Cancel goal: takes one goal from a side's score by decision of a person, whenever it was scored; the game goes on.
 
-Who takes it back at once, before anything else is decided, rather has it undone: the restart goes with it then.
+To cancel a goal at once, before anything else is decided, `undo` is better: it also takes back the restart.
 """
 
 from schemas.game import EventKind, RefereeAction
@@ -9,18 +9,18 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return no_match(draft) or no_side(action) or _no_goal(draft, action)
 
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
-    """Take it away."""
+    """Take away a goal."""
     side = action.side
     if side is None:
         return
     score = draft.state.score.plus(side, -1)
     draft.state = draft.state._replace(score=score)
-    text = f"a goal of {side} is cancelled by the word of {action.source}"
+    text = f"a goal of {side} is cancelled by {action.source}"
     draft.add_event(EventKind.NO_GOAL, action.action, text, side=side, score=score)
 
 

@@ -1,4 +1,4 @@
-"""Confirm: what the referee has proposed is decided at once."""
+"""Confirm: the referee's proposal is decided at once."""
 
 from schemas.game import RefereeAction
 from sim_host.referee import authority
@@ -7,12 +7,12 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return no_proposal(draft)
 
 
 def apply(draft: RulingDraft, _action: RefereeAction) -> None:
-    """Carry it out."""
+    """Carry out the proposal."""
     proposal = draft.state.proposal
     if proposal is not None:
         authority.decide(draft, proposal.rule, proposal.decision)

@@ -1,4 +1,4 @@
-"""Corner for a side: at the end it attacks, on the side of the ball or of the place named."""
+"""Corner for a side: at the end that it attacks, on the side of the ball or of the named place."""
 
 from schemas.game import Phase, RefereeAction
 from sim_host.referee.actions import ordered_restart
@@ -6,10 +6,10 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return ordered_restart.why_illegal(draft, action, Phase.CORNER)
 
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
-    """Order it."""
+    """Order the corner."""
     ordered_restart.apply(draft, action, Phase.CORNER)

@@ -1,4 +1,4 @@
-"""Drop ball: where the ball lies or at the place named, out of penalty areas."""
+"""Drop ball: where the ball is or at the named place, outside penalty areas."""
 
 from schemas.game import Phase, RefereeAction
 from sim_host.referee.actions import ordered_restart
@@ -6,10 +6,10 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return ordered_restart.why_illegal(draft, action, Phase.DROP_BALL)
 
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
-    """Order it."""
+    """Order the drop ball."""
     ordered_restart.apply(draft, action, Phase.DROP_BALL)

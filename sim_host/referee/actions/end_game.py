@@ -6,12 +6,10 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return "the match is over already" if draft.state.phase is Phase.FULL_TIME else None
 
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
     """End the match."""
-    ending.end_match(
-        draft, action.action, f"match ended at {draft.state.clock:.1f} s of play, asked by {action.source}"
-    )
+    ending.end_match(draft, action.action, f"match ended after {draft.state.clock:.1f} s of play by {action.source}")

@@ -1,4 +1,4 @@
-"""End the half: at once, before its time is up; after the last half the match is over."""
+"""End the half: at once, before its time is up; after the last half, the match ends."""
 
 from schemas.game import RefereeAction
 from sim_host.referee.actions.legality import in_shoot_out, no_half
@@ -7,7 +7,7 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return no_half(draft) or in_shoot_out(draft)
 
 
@@ -15,5 +15,5 @@ def apply(draft: RulingDraft, action: RefereeAction) -> None:
     """End the half."""
     state = draft.state
     periods.end_half(
-        draft, action.action, f"half {state.half} ended after {state.clock:.1f} s of play, asked by {action.source}"
+        draft, action.action, f"half {state.half} ended after {state.clock:.1f} s of play by {action.source}"
     )

@@ -1,4 +1,4 @@
-"""Enter: a robot that was parked, or whose time off is up, comes back in a stoppage."""
+"""Enter: a robot that was parked, or whose time off the field is up, comes back in a stoppage."""
 
 from schemas.game import RefereeAction
 from sim_host.referee.actions.legality import named_robot, no_match, no_robot
@@ -7,12 +7,12 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return no_match(draft) or no_robot(draft, action) or _why_not(draft, named_robot(action))
 
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
-    """Bring it back."""
+    """Bring the robot back."""
     discipline.bring_back(draft, action.action, named_robot(action))
 
 

@@ -1,18 +1,18 @@
-"""Goal: counts one for a side by the word of a person, and the other side kicks off.
+"""Goal: a goal for a side by decision of a person; the other side kicks off.
 
-In a shoot-out it ends the attempt of the side that takes it, with a goal.
+In a shoot-out, the attempt of the side that takes the penalty ends with a goal.
 """
 
 from schemas.game import EventKind, GameStage, RefereeAction
 from sim_host.referee.actions.legality import no_half, no_side, no_such_robot
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.game.restart import kick_off_after_goal
-from sim_host.referee.procedures import periods
+from sim_host.referee.procedures.decision import carry_out
 from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return no_half(draft) or no_side(action) or no_such_robot(draft, action) or _not_its_penalty(draft, action)
 
 
@@ -22,24 +22,24 @@ def apply(draft: RulingDraft, action: RefereeAction) -> None:
     if side is None:
         return
     if draft.state.stage is GameStage.SHOOT_OUT:
-        text = f"penalty of {side} scored by the word of {action.source}"
+        text = f"penalty of {side} scored, decided by {action.source}"
         shot = Decision(EventKind.SHOT, text, shot_scored=True, side=side, robot=action.robot)
-        periods.carry_out(draft, action.action, shot)
+        carry_out(draft, action.action, shot)
         return
     decision = Decision(
         kind=EventKind.GOAL,
-        text=f"goal for {side} by the word of {action.source}",
+        text=f"goal for {side}, decided by {action.source}",
         restart=kick_off_after_goal(side),
         goal_for=side,
         side=side,
         robot=action.robot,
     )
-    periods.carry_out(draft, action.action, decision)
+    carry_out(draft, action.action, decision)
 
 
 def _not_its_penalty(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """In a shoot-out, the side that takes the penalty scores, after START."""
+    """In a shoot-out, only the side that takes the penalty can score, after START."""
     state = draft.state
     if state.stage is not GameStage.SHOOT_OUT or (state.running and state.side is action.side):
         return None
-    return f"{action.side} is taking no penalty of the shoot-out just now"
+    return f"{action.side} is not taking a penalty of the shoot-out now"

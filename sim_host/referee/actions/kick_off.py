@@ -1,4 +1,4 @@
-"""Kick-off for a side: from the centre; before the match, it begins the match with that side."""
+"""Kick-off for a side, from the centre mark; before the match, it begins the match with that side."""
 
 from schemas.game import Phase, RefereeAction
 from sim_host.referee.actions import ordered_restart
@@ -8,14 +8,14 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     if draft.state.phase is Phase.PRE_GAME:
         return no_side(action) or place_is_fixed(action, Phase.KICK_OFF)
     return ordered_restart.why_illegal(draft, action, Phase.KICK_OFF)
 
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
-    """Begin the match, or order the kick-off; the other side of the first one kicks off the next half."""
+    """Begin the match, or order the kick-off; after the first kick-off, the other side kicks off the next half."""
     if draft.state.phase is Phase.PRE_GAME and action.side is not None:
         draft.state = draft.state._replace(kick_off=action.side)
         periods.begin_half(draft)

@@ -1,4 +1,4 @@
-"""The questions that several actions ask before they may be done; each answers with a reason against it, or nothing."""
+"""Conditions that several actions share; each check returns why the action is illegal, or None."""
 
 from schemas.game import GameStage, Phase, RefereeAction
 from sim_host.referee.procedures.discipline import reason_text
@@ -7,25 +7,25 @@ from sim_host.referee.ruling_draft import RulingDraft
 from sim_host.referee.wording import display_name, place_text
 
 FIXED = frozenset({Phase.KICK_OFF, Phase.PENALTY})
-"""Restarts whose spot the rules name."""
+"""Restarts with a spot that the rules fix."""
 
 
 def no_half(draft: RulingDraft) -> str | None:
-    """A half must be being played."""
+    """A half must be in progress."""
     if draft.state.phase in HALF_PHASES:
         return None
-    return f"no half is being played, the phase is {draft.state.phase}"
+    return f"no half is in progress, the phase is {draft.state.phase}"
 
 
 def no_match(draft: RulingDraft) -> str | None:
     """The match must have begun and not be over."""
     if draft.state.phase not in (Phase.PRE_GAME, Phase.FULL_TIME):
         return None
-    return f"no match is being played, the phase is {draft.state.phase}"
+    return f"no match is in progress, the phase is {draft.state.phase}"
 
 
 def in_shoot_out(draft: RulingDraft) -> str | None:
-    """The penalty shoot-out must not be on."""
+    """There must not be a penalty shoot-out."""
     return "the penalty shoot-out is on" if draft.state.stage is GameStage.SHOOT_OUT else None
 
 
@@ -38,10 +38,10 @@ def no_robot(draft: RulingDraft, action: RefereeAction) -> str | None:
 
 
 def named_robot(action: RefereeAction) -> str:
-    """The robot that `no_robot` has asked for.
+    """The robot that an action names; `no_robot` checks that it names one.
 
     Raises:
-        ValueError: none is named.
+        ValueError: the action names no robot.
     """
     if action.robot is None:
         raise ValueError(f"{action.action} names no robot")
@@ -61,8 +61,8 @@ def sent_off(draft: RulingDraft, action: RefereeAction) -> str | None:
 
 
 def no_proposal(draft: RulingDraft) -> str | None:
-    """Something must be proposed."""
-    return None if draft.state.proposal is not None else "nothing is proposed"
+    """There must be a proposal."""
+    return None if draft.state.proposal is not None else "there is no proposal"
 
 
 def no_side(action: RefereeAction) -> str | None:
@@ -72,11 +72,11 @@ def no_side(action: RefereeAction) -> str | None:
 
 def has_side(action: RefereeAction) -> str | None:
     """No side may be named."""
-    return None if action.side is None else f"it belongs to nobody, yet {action.side} is named; leave the side out"
+    return None if action.side is None else f"neither side takes it, but {action.side} is named; leave the side out"
 
 
 def bad_place(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A place, if named, must lie on the field."""
+    """A place, if named, must be on the field."""
     pitch, place = draft.match.pitch, action.place
     if place is None or (abs(place.x) <= pitch.goal_line and abs(place.y) <= pitch.touch_line):
         return None
@@ -90,7 +90,7 @@ def place_is_fixed(action: RefereeAction, phase: Phase) -> str | None:
     """No place may be named for a restart that has one spot."""
     if action.place is None:
         return None
-    return f"the spot of a {display_name(phase)} is fixed, yet a place is named; leave the place out"
+    return f"the spot of a {display_name(phase)} is fixed, but a place is named; leave the place out"
 
 
 def no_such_robot(draft: RulingDraft, action: RefereeAction) -> str | None:
@@ -98,4 +98,4 @@ def no_such_robot(draft: RulingDraft, action: RefereeAction) -> str | None:
     names = draft.match.roster.names
     if action.robot is None or action.robot in names:
         return None
-    return f"{action.robot} does not play; the robots are {', '.join(names)}"
+    return f"{action.robot} does not take part; the robots are {', '.join(names)}"

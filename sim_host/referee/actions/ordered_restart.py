@@ -1,4 +1,4 @@
-"""What the seven restart actions share: who may order one, and how it enters the restart sequence."""
+"""Common parts of the seven restart actions: whether one is legal, and how it enters the restart sequence."""
 
 from schemas.game import SIDED, Phase, RefereeAction
 from sim_host.referee.actions.legality import FIXED, bad_place, has_side, in_shoot_out, no_half, no_side, place_is_fixed
@@ -8,7 +8,7 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction, phase: Phase) -> str | None:
-    """A reason against ordering this restart, or nothing."""
+    """Why this restart cannot be ordered now, or None."""
     return (
         no_half(draft)
         or (in_shoot_out(draft) if phase is not Phase.PENALTY else None)
@@ -18,9 +18,9 @@ def why_illegal(draft: RulingDraft, action: RefereeAction, phase: Phase) -> str 
 
 
 def apply(draft: RulingDraft, action: RefereeAction, phase: Phase) -> None:
-    """Stop the game if it is not stopped, with this restart to follow in place of any other.
+    """Stop the game if it is not stopped, and let this restart follow in place of any other.
 
-    The spot follows from the place named, or from where the ball lies.
+    The named place, or else the place of the ball, determines the spot.
     """
     place = (action.place.x, action.place.y) if action.place is not None else draft.ball_spot
     ordered = restart_at(draft.match, draft.state, phase, action.side, place)

@@ -1,4 +1,4 @@
-"""Overrule: what the referee has proposed is not decided; the game goes on."""
+"""Overrule: the referee's proposal is dropped, and the game goes on."""
 
 from schemas.game import RefereeAction
 from sim_host.referee.actions.legality import no_proposal
@@ -6,10 +6,10 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return no_proposal(draft)
 
 
 def apply(draft: RulingDraft, _action: RefereeAction) -> None:
-    """Forget it."""
+    """Drop the proposal."""
     draft.state = draft.state._replace(proposal=None)

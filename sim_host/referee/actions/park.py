@@ -1,4 +1,4 @@
-"""Park a robot: it leaves the field until somebody has it enter."""
+"""Park a robot: it leaves the field until the action `enter` brings it back."""
 
 from schemas.game import OffField, RefereeAction
 from sim_host.referee.actions.legality import named_robot, no_match, no_robot, off_field
@@ -8,10 +8,10 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return no_match(draft) or no_robot(draft, action) or off_field(draft, action)
 
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
-    """Take it out."""
+    """Take the robot off the field."""
     discipline.take_out(draft, action.action, named_robot(action), Absence(OffField.PARKED))

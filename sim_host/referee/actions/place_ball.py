@@ -1,4 +1,4 @@
-"""Place the ball: sets it down while the game is halted, and moves the spot of the restart that is due or signalled."""
+"""Place the ball: places it while the game is halted, and moves the spot of the restart that is due or signalled."""
 
 from schemas.game import Phase, RefereeAction
 from sim_host.referee.actions.legality import FIXED, bad_place, no_half, place_is_fixed
@@ -9,7 +9,7 @@ from sim_host.referee.wording import place_text
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     if draft.state.running:
         return "the game is running; stop it first"
     if action.place is None:
@@ -20,7 +20,7 @@ def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
 
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
-    """Set the ball down; robots get their whole time to take positions around the new spot."""
+    """Place the ball; robots get the full time to take positions around the new spot."""
     if action.place is None:
         return
     spot = (action.place.x, action.place.y)
@@ -33,12 +33,12 @@ def apply(draft: RulingDraft, action: RefereeAction) -> None:
 
 
 def _on_an_obstacle(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """Nothing that nobody moves may stand where the ball is to lie."""
+    """No obstacle may stand at the place."""
     if action.place is None or has_room(draft.match, draft.snapshot, (action.place.x, action.place.y)):
         return None
     return f"an obstacle stands at {place_text((action.place.x, action.place.y))}; name another place, or remove it"
 
 
 def _due(draft: RulingDraft) -> Restart | None:
-    """The restart that will be, or is, signalled."""
+    """The restart that is due or signalled, or None."""
     return draft.state.pending or draft.state.restart

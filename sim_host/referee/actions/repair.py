@@ -8,17 +8,17 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return no_match(draft) or no_robot(draft, action) or off_field(draft, action) or _too_many(draft, action)
 
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
-    """Take it out."""
+    """Take the robot off the field."""
     discipline.take_out(draft, action.action, named_robot(action), Absence(OffField.REPAIR, draft.book.people.repair))
 
 
 def _too_many(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """So many robots of a side may be in repair at the same time."""
+    """Only a limited number of robots of a side may be in repair at the same time."""
     roster, limit = draft.match.roster, draft.book.people.repairs_at_once
     side = roster.side_of(named_robot(action))
     repaired = [

@@ -1,9 +1,9 @@
-"""Start: brings the game on by one step, whatever it is waiting for.
+"""Start: moves the game on by one step, whatever it is waiting for.
 
-Before the match it signals the first kick-off, in the break or while robots park the next half's. Of a signalled
-restart it gives START at once, also while robots stand wrong. After STOP it signals the restart that is due without
-waiting any longer; when none is due, because people stopped the game, it signals a drop ball where the ball lies, or
-the kick-off if the half has not begun.
+Before the match it signals the first kick-off; in the break, or while robots park, that of the next half. It gives
+START of a signalled restart at once, also while robots are in wrong positions. After STOP it signals the restart that
+is due without waiting any longer. If none is due, because people stopped the game, it signals a drop ball where the
+ball is, or the kick-off if the half has not begun.
 """
 
 from collections.abc import Callable, Mapping
@@ -15,7 +15,7 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     state = draft.state
     if state.running:
         return "the game is running"
@@ -24,12 +24,12 @@ def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
     drift = draft.match.book.restarts.drift
     if state.restart is not None and restart.from_spot(draft, state.restart) > drift:
         away = restart.from_spot(draft, state.restart)
-        return f"the ball is {away:.2f} m from its spot, at most {drift:.2f} m are allowed; it is being put back"
+        return f"the ball is {away:.2f} m from its spot, at most {drift:.2f} m allowed; it is being put back"
     return None
 
 
 def apply(draft: RulingDraft, _action: RefereeAction) -> None:
-    """Bring the game on."""
+    """Move the game on."""
     STEPS[draft.state.phase](draft)
 
 
@@ -55,4 +55,4 @@ STEPS: Mapping[Phase, Callable[[RulingDraft], None]] = {
     Phase.HALF_TIME: periods.begin_next_period,
     Phase.STOPPED: _after_stop,
 } | dict.fromkeys(RESTARTS, _signalled)
-"""Phase → what START means in it."""
+"""Phase → the effect of START in it."""

@@ -1,17 +1,18 @@
-"""Stop: halts the game at once; how it goes on is then for people to say, with a restart or with start.
+"""Stop: halts the game at once; people then decide how it goes on, with a restart or with `start`.
 
-In a shoot-out it ends the attempt that is on, without a goal; before START it changes nothing there but the time.
+In a shoot-out, it ends the present attempt without a goal; before START of an attempt, it only delays the attempt.
 """
 
 from schemas.game import EventKind, GameStage, Phase, RefereeAction
 from sim_host.referee.actions.legality import no_half
 from sim_host.referee.game.decision import Decision
-from sim_host.referee.procedures import periods, restart
+from sim_host.referee.procedures import restart
+from sim_host.referee.procedures.decision import carry_out
 from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return "the game is stopped already" if draft.state.phase is Phase.STOPPED else no_half(draft)
 
 
@@ -21,7 +22,7 @@ def apply(draft: RulingDraft, action: RefereeAction) -> None:
     if state.stage is not GameStage.SHOOT_OUT:
         restart.stop(draft, action.action, None)
     elif state.running:
-        text = f"penalty of {state.side} ended without a goal by the word of {action.source}"
-        periods.carry_out(draft, action.action, Decision(EventKind.SHOT, text, shot_scored=False, side=state.side))
+        text = f"penalty of {state.side} ended without a goal, decided by {action.source}"
+        carry_out(draft, action.action, Decision(EventKind.SHOT, text, shot_scored=False, side=state.side))
     else:
         restart.stop(draft, action.action, state.restart)

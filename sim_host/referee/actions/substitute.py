@@ -1,6 +1,7 @@
-"""Substitution: a robot leaves in a stoppage for good, and a sound one plays on under its name once its time is up.
+"""Substitution: in a stoppage, a robot leaves the field for good, and another plays on under its name after some time.
 
-Cards stay with the name: there is one robot of each number."""
+Cards stay with the name: there is one robot of each number.
+"""
 
 import dataclasses
 
@@ -12,12 +13,12 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return no_match(draft) or no_robot(draft, action) or sent_off(draft, action) or _too_late(draft, action)
 
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
-    """Take it out, and count."""
+    """Take the robot off the field, and count the substitution."""
     name, participation = named_robot(action), draft.state.participation
     side = draft.match.roster.side_of(name)
     made = {**participation.substitutions, side: participation.substitutions.get(side, 0) + 1}
@@ -26,7 +27,7 @@ def apply(draft: RulingDraft, action: RefereeAction) -> None:
 
 
 def _too_late(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """In a stoppage, and so many in a match."""
+    """Substitutions are allowed in a stoppage only, and limited in a match."""
     if draft.state.running:
         return "the game is running; stop it first"
     side, limit = draft.match.roster.side_of(named_robot(action)), draft.book.people.substitutions

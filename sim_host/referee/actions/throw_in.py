@@ -1,4 +1,4 @@
-"""Throw-in for a side: on the touch line nearer to the ball or to the place named, level with it."""
+"""Throw-in for a side: at the touch line nearer to the ball or to the named place, level with it."""
 
 from schemas.game import Phase, RefereeAction
 from sim_host.referee.actions import ordered_restart
@@ -6,10 +6,10 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return ordered_restart.why_illegal(draft, action, Phase.THROW_IN)
 
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
-    """Order it."""
+    """Order the throw-in."""
     ordered_restart.apply(draft, action, Phase.THROW_IN)

@@ -1,4 +1,4 @@
-"""Undo: the state before the last decision or action comes back, score and cards with it; the clock goes on."""
+"""Undo: restores the state before the last decision or action, with its score and cards; the clock goes on."""
 
 from schemas.game import RefereeAction
 from sim_host.referee import authority
@@ -7,10 +7,10 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, _action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return no_match(draft) or authority.why_not_undo(draft)
 
 
 def apply(draft: RulingDraft, _action: RefereeAction) -> None:
-    """Bring it back."""
+    """Restore the state."""
     authority.undo(draft)

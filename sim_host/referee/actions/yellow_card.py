@@ -1,4 +1,4 @@
-"""Yellow card for a robot, whichever it is; so many of them send it off as the rule book says."""
+"""Yellow card for any robot; the rule book says how many of them send it off."""
 
 from schemas.game import Card, RefereeAction
 from sim_host.referee.actions.legality import named_robot, no_match, no_robot, sent_off
@@ -7,10 +7,10 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def why_illegal(draft: RulingDraft, action: RefereeAction) -> str | None:
-    """A reason against it, or nothing."""
+    """Why the action is illegal now, or None."""
     return no_match(draft) or no_robot(draft, action) or sent_off(draft, action)
 
 
 def apply(draft: RulingDraft, action: RefereeAction) -> None:
-    """Show it."""
+    """Show the card."""
     discipline.show_card(draft, action.action, named_robot(action), Card.YELLOW)

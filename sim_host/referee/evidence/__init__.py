@@ -1,7 +1,7 @@
-"""What the referee has seen since START: pure functions over ticks, one idea a file, from contacts, kicks and poses.
+"""Evidence that the referee collects since START, from contacts, kicks and poses: pure functions, one idea a file.
 
-Knows no rule: the rules compare what is kept here with the numbers of the rule book. A part that nothing happened to
-stays the same object, so that a quiet tick makes nothing new.
+Evidence knows no rules: the rules compare it with the numbers of the rule book. A part that does not change stays the
+same object, so that a quiet tick creates no objects.
 """
 
 from typing import NamedTuple
@@ -19,26 +19,26 @@ from sim_host.snapshot import Snapshot
 
 
 class Evidence(NamedTuple):
-    """Everything seen since START; times in s, places in m in the field frame."""
+    """All evidence since START; times in s, places in m in the field frame."""
 
     play: Play = NO_TOUCHES
     """Touches, control and passes."""
     dribble: Dribble | None = None
     """The robot that has caught the ball and not visibly released it."""
     flight: Flight | None = None
-    """The last kick, until somebody touches the ball or a lob has landed."""
+    """The last kick, until the ball is touched or a lob has landed."""
     stays: Stays = NO_STAYS
-    """How long robots have been in areas where they may not stay."""
+    """Robots in areas where they may not stay, with their durations."""
     pushes: tuple[Push, ...] = ()
-    """Robots of different sides that lean on each other."""
+    """Pairs of robots of different sides that lean on each other."""
     contest: Contest | None = None
-    """Both sides at the ball."""
+    """The contest while both sides are at the ball."""
     outside: tuple[tuple[int, float], ...] = ()
-    """Robots that are wholly outside the lines, by their index in the roster, and since how many s."""
+    """Robots that are wholly outside the lines, by their index in the roster, each with its duration in s."""
 
 
 NO_EVIDENCE = Evidence()
-"""Before START."""
+"""The evidence before START."""
 
 
 def evidence_after(
@@ -49,7 +49,10 @@ def evidence_after(
     snapshot: Snapshot,
     dt: float,
 ) -> Evidence:
-    """The evidence after one more tick of `dt` in s; who keeps a goal, and the sign of the x that cyan attacks."""
+    """The evidence after one more tick of `dt` in s.
+
+    `is_keeper` is per robot of the roster; `cyan_attacks` is the sign of the x direction that cyan attacks.
+    """
     zones = find_zones(match, is_keeper, cyan_attacks, snapshot)
     play = play_after(match, before.play, cyan_attacks, snapshot) if snapshot.touches else before.play
     contest = before.contest

@@ -1,4 +1,4 @@
-"""A ball that both sides are at: since when, and how far it has come meanwhile."""
+"""A contest: a ball that both sides are at, with its duration and progress."""
 
 import math
 from typing import NamedTuple
@@ -8,28 +8,28 @@ from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import Snapshot
 
 GAP = 0.5
-"""s for which one side may leave the ball before the contest is over."""
+"""s; a contest ends when one side has been away from the ball for longer."""
 
 
 class Contest(NamedTuple):
     """Robots of both sides within reach of the ball."""
 
     place: tuple[float, float]
-    """m; where the ball was when it last made progress."""
+    """m; place of the ball when it last made progress."""
     stuck: float = 0.0
     """s since the ball last made progress."""
     lasted: float = 0.0
-    """s since both sides have been at the ball."""
+    """s since the contest began."""
     gap: float = 0.0
-    """s since both sides were at it last."""
+    """s since both sides were last at the ball."""
     robots: tuple[int, ...] = ()
-    """Who is or was at it last, by their indices in the roster."""
+    """Robots that are, or last were, at the ball while both sides were, by their indices in the roster."""
 
 
 def contest_after(
     match: MatchConstants, before: Contest | None, zones: Zones, snapshot: Snapshot, dt: float
 ) -> Contest | None:
-    """The contest after one more tick of `dt` in s, or nothing."""
+    """The contest after one more tick of `dt` in s, or None."""
     sides, ball = match.roster.sides, snapshot.ball
     near = zones.near
     both = len(near) > 1 and len({sides[index] for index in near}) > 1

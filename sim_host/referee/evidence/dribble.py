@@ -1,7 +1,7 @@
-"""A dribble: who has the ball since when, where it was caught, how it was carried, and how it ends.
+"""A dribble: the robot that has the ball, the time and place of the catch, and the motion since.
 
-It begins when a robot holds the ball, and goes on while the ball flickers out of the hold, until it is visibly
-released: as far from the hull as the rule book says, whether kicked or left, or taken or touched by somebody else.
+It begins when a robot holds the ball. It goes on while the hold is briefly interrupted, until the ball is visibly
+released: it is as far from the hull as the rule book requires, or another robot holds or touches it.
 """
 
 import math
@@ -12,41 +12,41 @@ from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import RobotState, Snapshot
 
 STANDS = 0.05
-"""m/s along the kick axis; slower is neither forward nor backward: below the noise of a robot that holds its place."""
+"""m/s along the kick axis; slower motion is neither forward nor backward, but noise of a robot that holds its place."""
 PAUSE = 0.5
-"""s without moving backward that end one backward movement; a shorter halt belongs to it."""
+"""s; a backward movement ends after this time without backward motion."""
 MOVES = 0.1
-"""m/s; a slower ball need not turn."""
+"""m/s; a slower ball is not required to turn."""
 TURNS = 0.5
-"""Share of the natural rate of turning below which a ball does not roll but is held against its turning."""
+"""Share of the natural spin below which a ball does not roll, but is kept from turning."""
 
 
 class Dribble(NamedTuple):
-    """One dribble, up to now."""
+    """One dribble, up to the present tick."""
 
     robot: str
     since: float
     """s; simulated time of the catch."""
     caught: tuple[float, float]
-    """m; where the ball was caught."""
+    """m; place of the ball at the catch."""
     backward: float = 0.0
     """m driven backward in the present backward movement."""
     halted: float = 0.0
     """s since it last moved backward."""
     spent: bool = False
-    """One backward movement was longer than the rule book lets be repeated."""
+    """One backward movement was so long that the rule book does not allow another."""
     slid: float = 0.0
-    """s for which the ball has moved with the robot without turning as it should."""
+    """s for which the ball has moved with the robot without rolling."""
     slid_way: float = 0.0
-    """m that it has moved so."""
+    """m that it has moved without rolling."""
     rolled: float = 0.0
-    """s since it last did so."""
+    """s since it last moved without rolling."""
 
 
 def dribble_after(
     match: MatchConstants, before: Dribble | None, contest: Contest | None, snapshot: Snapshot, dt: float
 ) -> Dribble | None:
-    """The dribble after one more tick of `dt` in s, or nothing."""
+    """The dribble after one more tick of `dt` in s, or None."""
     holder = snapshot.possession
     if holder is not None and (before is None or before.robot != holder):
         return Dribble(holder, snapshot.time, (snapshot.ball.x, snapshot.ball.y))
@@ -58,7 +58,7 @@ def dribble_after(
 
 
 def is_released(match: MatchConstants, dribble: Dribble, snapshot: Snapshot) -> bool:
-    """Whether everybody can see that the robot has let the ball go."""
+    """Whether the robot has visibly released the ball."""
     if snapshot.possession == dribble.robot:
         return False
     if any(name != dribble.robot for name in snapshot.touches):
@@ -70,7 +70,7 @@ def is_released(match: MatchConstants, dribble: Dribble, snapshot: Snapshot) -> 
 
 
 def _backing(match: MatchConstants, before: Dribble, contest: Contest | None, robot: RobotState, dt: float) -> Dribble:
-    """Ways driven backward; a struggle that lasts gives the right to drive back anew."""
+    """Update the backward movement; a long enough struggle with an opponent allows a new one."""
     handling = match.book.handling
     if contest is not None and contest.lasted > handling.struggle_duration:
         return before._replace(backward=0.0, halted=0.0, spent=False) if before.backward or before.spent else before
@@ -87,7 +87,7 @@ def _backing(match: MatchConstants, before: Dribble, contest: Contest | None, ro
 
 
 def _rolling(match: MatchConstants, before: Dribble, snapshot: Snapshot, dt: float) -> Dribble:
-    """Time and way of a held ball that moves and does not turn as it should."""
+    """Update time and way for which the held ball moves without rolling."""
     ball = snapshot.ball
     speed = math.hypot(ball.vx, ball.vy)
     wx, wy = snapshot.ball_spin

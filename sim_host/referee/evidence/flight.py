@@ -1,6 +1,6 @@
-"""The last kick: from where, how high the ball rose, and where it came down.
+"""The flight of the last kick: its origin, its apex, and where the ball came down.
 
-It lasts until somebody touches the ball; a ball that rose and comes down has landed in that tick.
+It ends when a robot touches the ball. A ball that has risen lands in the tick in which it is down again.
 """
 
 from typing import NamedTuple
@@ -9,11 +9,11 @@ from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import Snapshot
 
 AIR = 0.05
-"""m below the ball; with more it has left the ground, with less it has come down again."""
+"""m of air below the ball; with more it has left the ground, with less it is down again."""
 
 
 class Flight(NamedTuple):
-    """A kicked ball that nobody has touched since."""
+    """A kicked ball that no robot has touched since."""
 
     robot: str
     kicked_from: tuple[float, float]
@@ -21,15 +21,15 @@ class Flight(NamedTuple):
     time: float
     """s; simulated time of the kick."""
     apex: float = 0.0
-    """m; the highest that the underside of the ball has been above the ground."""
+    """m; greatest height of the underside of the ball above the ground."""
     landed: tuple[float, float] | None = None
-    """m; where it came down first."""
+    """m; place where it first came down."""
     just_landed: bool = False
-    """In this tick."""
+    """It came down in this tick."""
 
 
 def flight_after(match: MatchConstants, before: Flight | None, snapshot: Snapshot) -> Flight | None:
-    """The kick after one more tick, or nothing."""
+    """The flight after one more tick, or None."""
     kicker = snapshot.kicked
     if kicker is not None:
         robot = snapshot.robots[match.roster.names.index(kicker)]

@@ -1,7 +1,7 @@
-"""Who touched the ball, which side is in control of it since where, and whether a pass was received.
+"""The play since START: touches of the ball, the side in control, and received passes.
 
-A touch is a contact, a hold or a kick, as the world reports it. A side is in control since one of its robots held or
-kicked the ball, or touched it while nobody was: a ball that bounces off an opponent has not changed sides.
+A touch is a contact, a hold or a kick, as the world reports it. A side gains control when one of its robots holds or
+kicks the ball, or touches it while no side has control. A ball that bounces off an opponent does not change control.
 """
 
 import math
@@ -13,52 +13,52 @@ from sim_host.snapshot import Snapshot
 
 
 class Touch(NamedTuple):
-    """One touch: by whom, when in s, and where the ball was, m."""
+    """One touch: the robot, the time in s, and the place of the ball in m."""
 
     robot: str
     time: float
     place: tuple[float, float]
     kicked: bool
-    """By its kicking device, in that tick."""
+    """The robot kicked the ball in that tick."""
 
 
 class Play(NamedTuple):
     """Touches since START."""
 
     last: Touch | None = None
-    """The newest touch of all."""
+    """The last touch by any robot."""
     before: str | None = None
-    """The other robot that touched the ball before the last one did."""
+    """The last other robot that touched the ball before the robot of the last touch."""
     cyan: Touch | None = None
-    """The newest touch of cyan's."""
+    """Cyan's last touch."""
     magenta: Touch | None = None
-    """The newest touch of magenta's."""
+    """Magenta's last touch."""
     robots: tuple[str, ...] = ()
-    """Everyone who has touched the ball, in the order of their first touches."""
+    """All robots that have touched the ball, in the order of their first touches."""
     control: Side | None = None
-    """The side that held or kicked the ball last."""
+    """The side in control of the ball."""
     won: tuple[float, float] | None = None
-    """m; where the ball was when that side won it."""
+    """m; place of the ball when that side gained control."""
     received: bool = False
-    """Since then a teammate has received a pass in the opponents' half, after free roll as the rule book asks."""
+    """Since then, a teammate has received a pass in the opponents' half, after the free roll that the book requires."""
     rolled: float = 0.0
-    """m of free roll, straight, of the last pass that was received by a teammate, in whichever half."""
+    """m; straight free roll of the last pass that a teammate has received, in either half."""
 
     def of(self, side: Side) -> Touch | None:
-        """The newest touch of a side."""
+        """The last touch of a side."""
         return self.cyan if side is Side.CYAN else self.magenta
 
     def touched_by(self, match: MatchConstants, side: Side) -> int:
-        """How many robots of a side have touched the ball."""
+        """Number of robots of a side that have touched the ball."""
         return sum(match.roster.side_of(name) is side for name in self.robots)
 
 
 NO_TOUCHES = Play()
-"""Nobody has touched the ball."""
+"""No robot has touched the ball."""
 
 
 def play_after(match: MatchConstants, before: Play, cyan_attacks: int, snapshot: Snapshot) -> Play:
-    """The touches of one more tick, taken in one by one in the order of time."""
+    """The play after the touches of one more tick, in the order of time."""
     now = before
     for name in snapshot.touches:
         now = _touched(match, now, cyan_attacks, snapshot, name)

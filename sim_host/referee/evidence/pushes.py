@@ -1,6 +1,6 @@
-"""Robots of different sides that lean on each other: for how long, and how far one has moved the other.
+"""Pushes: robots of different sides that lean on each other, with the duration and the way of the push.
 
-The contacts are the engine's. One pushes the other as far as both move along the line between their centres.
+The engine reports the contacts. One robot pushes the other as far as both move along the line between their centres.
 """
 
 import math
@@ -10,20 +10,20 @@ from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import Snapshot
 
 GAP = 0.2
-"""s without contact after which two robots have parted."""
+"""s; two robots without contact for this long have separated."""
 
 
 class Push(NamedTuple):
-    """Two robots by their indices in the roster, the first one first."""
+    """Two robots by their indices in the roster, the smaller index first."""
 
     first: int
     second: int
     lasted: float = 0.0
     """s."""
     way: float = 0.0
-    """m that the first has pushed the second; negative: the second the first."""
+    """m that the first has pushed the second; negative if the second has pushed the first."""
     gap: float = 0.0
-    """s since they touched last."""
+    """s since they last touched."""
 
 
 def pushes_after(match: MatchConstants, before: tuple[Push, ...], snapshot: Snapshot, dt: float) -> tuple[Push, ...]:
@@ -43,7 +43,7 @@ def pushes_after(match: MatchConstants, before: tuple[Push, ...], snapshot: Snap
 
 
 def _pushed(snapshot: Snapshot, first: int, second: int) -> float:
-    """m/s at which both move along the line from the first to the second; 0 when they do not move the same way."""
+    """m/s at which both move along the line from the first to the second; 0 if they move in opposite directions."""
     a, b = snapshot.robots[first], snapshot.robots[second]
     dx, dy = b.x - a.x, b.y - a.y
     away = math.hypot(dx, dy)

@@ -1,4 +1,4 @@
-"""How long robots have been in goal areas that are not theirs to be in, and sides too many in a penalty area."""
+"""Durations of robots in goal areas where they may not stay, and of too many robots of a side in a penalty area."""
 
 from typing import NamedTuple
 
@@ -9,7 +9,7 @@ from sim_host.snapshot import Snapshot
 
 
 class Stay(NamedTuple):
-    """A robot, by its index in the roster, in a goal area; every robot but the goalkeeper in its own."""
+    """A robot in a goal area, by its index in the roster; not a goalkeeper in its own goal area."""
 
     robot: int
     end: int
@@ -19,25 +19,25 @@ class Stay(NamedTuple):
 
 
 class Crowd(NamedTuple):
-    """More robots of one side in a penalty area than may be there, without the goalkeeper in its own."""
+    """More robots of one side in a penalty area than allowed; a goalkeeper in its own area does not count."""
 
     robots: tuple[int, ...]
-    """By their places in the roster."""
+    """By their indices in the roster."""
     end: int
     """Sign of the x of the goal."""
     lasted: float
-    """s for which there have been too many, whoever they were."""
+    """s for which there have been too many, even if the robots changed."""
 
 
 class Stays(NamedTuple):
-    """All of them, in the order of the roster."""
+    """All stays and crowds, in the order of the roster."""
 
     robots: tuple[Stay, ...] = ()
     crowds: tuple[Crowd, ...] = ()
 
 
 NO_STAYS = Stays()
-"""Nobody is anywhere that he may not stay."""
+"""No robot is in an area where it may not stay."""
 
 
 def stays_after(match: MatchConstants, before: Stays, zones: Zones, snapshot: Snapshot, dt: float) -> Stays:
@@ -63,7 +63,7 @@ def stays_after(match: MatchConstants, before: Stays, zones: Zones, snapshot: Sn
 
 
 def _crowded(match: MatchConstants, before: Stays, crowd: list[int], end: int) -> float:
-    """s for which the same side has been too many there already."""
+    """s for which the same side has had too many robots there before this tick."""
     side = match.roster.sides[crowd[0]]
     return next(
         (old.lasted for old in before.crowds if old.end == end and match.roster.sides[old.robots[0]] is side), 0.0

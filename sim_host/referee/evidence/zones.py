@@ -1,4 +1,4 @@
-"""Where robots are in one tick: near the ball, deep before a goal, outside the lines; one pass over all of them."""
+"""Zones of the robots in one tick, found in one pass: near the ball, deep before a goal, outside the lines."""
 
 from typing import NamedTuple
 
@@ -7,12 +7,12 @@ from sim_host.snapshot import Snapshot
 
 
 class Zones(NamedTuple):
-    """Robots by their index in the roster, in its order."""
+    """Robots by their indices in the roster, in its order."""
 
     near: tuple[int, ...]
     """The hull is within `scrum.reach` of the ball's hull."""
     deep: tuple[int, ...]
-    """Beyond the front line of a penalty area, at whatever y; without who keeps a goal, before that goal."""
+    """Beyond the front line of a penalty area, at any y; without a goalkeeper before its own goal."""
     outside: tuple[int, ...]
     """The whole hull is outside the lines."""
 
@@ -21,7 +21,7 @@ _NO_ROBOTS: tuple[int, ...] = ()
 
 
 def find_zones(match: MatchConstants, is_keeper: tuple[bool, ...], cyan_attacks: int, snapshot: Snapshot) -> Zones:
-    """One tick's places; who keeps a goal, and the sign of the x direction that cyan attacks."""
+    """The zones of one tick; `is_keeper` is per robot, `cyan_attacks` the sign of the x direction that cyan attacks."""
     bx, by = snapshot.ball[0], snapshot.ball[1]
     near_squared, low, high = match.near_squared, bx - match.widest_near, bx + match.widest_near
     deep_x, touch = match.deep_x, match.pitch.touch_line

@@ -1,1 +1,1 @@
-"""The game as the referee remembers it: state, restarts, decisions, set pieces, participation, clocks."""
+"""The state of the game: restarts, decisions, set pieces, participation, clocks."""

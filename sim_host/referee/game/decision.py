@@ -1,4 +1,4 @@
-"""What a rule decides: a fact with its place and robots, and what follows from it."""
+"""The decision of a rule: a fact with its place and robots, and its consequences."""
 
 from dataclasses import dataclass
 
@@ -9,33 +9,33 @@ from sim_host.referee.game.restart import Restart, Spot
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """What a rule has found; the game is stopped, then goes on with the restart, or the half ends."""
+    """A decision: the game is stopped and goes on with a restart, or the half ends."""
 
     kind: EventKind
     text: str
     """One sentence for people, with the measured quantity."""
     restart: Restart | None = None
-    """How the game goes on; nothing when the half ends."""
+    """How the game goes on; None when the half ends."""
     goal_for: Side | None = None
     ends_half: bool = False
     shot_scored: bool | None = None
-    """The attempt of a shoot-out is over, with a goal or without."""
+    """Whether an attempt of a shoot-out has ended with a goal; None if none has ended."""
     side: Side | None = None
     robot: str | None = None
     robots: tuple[str, ...] = ()
-    """All robots that it is about, where there are more than one."""
+    """All robots that are involved, if more than one."""
     place: Spot | None = None
     measured: float | None = None
     """The quantity that broke the rule, in `unit`."""
     limit: float | None = None
     unit: str = ""
     card: Card | None = None
-    """What `robot` is shown for it."""
+    """The card that `robot` is shown."""
 
 
 @dataclass(frozen=True, slots=True)
 class Proposal:
-    """A decision that people may still overrule."""
+    """A decision that people may overrule."""
 
     rule: str
     decision: Decision
@@ -44,9 +44,9 @@ class Proposal:
 
     @property
     def text(self) -> str:
-        """The rule and its sentence."""
+        """The name of the rule and the text of its decision."""
         return f"{self.rule}: {self.decision.text}"
 
     def after(self, dt: float) -> "Proposal":
-        """The same `dt` s later."""
+        """The proposal `dt` s later."""
         return Proposal(self.rule, self.decision, self.left - dt)

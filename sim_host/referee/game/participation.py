@@ -1,4 +1,4 @@
-"""Who takes part: cards, robots off the field with the time that is left to them, programs that are gone."""
+"""Participation of the robots: cards, robots off the field with their remaining time, and silent agents."""
 
 import dataclasses
 from collections.abc import Collection, Mapping
@@ -9,14 +9,14 @@ from schemas.game import DisciplinaryRecord, OffField
 from schemas.side import Side
 
 IN_PLAYING_TIME = frozenset({OffField.SECOND_YELLOW, OffField.RED_CARD})
-"""Whose time off is playing time; a repair or a substitution goes on while the clock stands."""
+"""Reasons whose time off counts in playing time; a repair or a substitution goes on while the clock is stopped."""
 
 
 class CardCount(NamedTuple):
     """The cards of one robot."""
 
     yellow: int = 0
-    """Those that count toward the next punishment."""
+    """Yellow cards that count toward the next suspension or red card."""
     red: int = 0
 
 
@@ -25,29 +25,29 @@ class Absence(NamedTuple):
 
     why: OffField
     left: float | None = None
-    """s until it may come back, at the next stoppage; nothing when no time brings it back."""
+    """s until it may come back, at the next stoppage; None if its return does not depend on time."""
 
     @property
     def for_good(self) -> bool:
-        """It is sent off for the rest of the match."""
+        """Whether it is sent off for the rest of the match."""
         return self.why is OffField.RED_CARD and self.left is None
 
 
 @dataclass(frozen=True, slots=True)
 class Participation:
-    """Robots that are not simply there; the mappings are replaced, never changed."""
+    """Cards, absences and silence of the robots; the mappings are replaced, never modified."""
 
     cards: Mapping[str, CardCount] = field(default_factory=dict)
     """Robots that were shown a card."""
     absences: Mapping[str, Absence] = field(default_factory=dict)
     silent: Mapping[str, float] = field(default_factory=dict)
-    """Robots whose program is gone, and for how many s."""
+    """Robot whose agent does not answer → for how many s."""
     substitutions: Mapping[Side, int] = field(default_factory=dict)
     returned: Mapping[Side, int] = field(default_factory=dict)
     """Robots that have come back in this stoppage."""
 
     def after(self, silent: Collection[str], dt: float, playing: bool) -> "Participation":
-        """The same `dt` s later, with the robots whose program is gone; `playing` while the game clock runs."""
+        """The participation `dt` s later, with these robots silent; `playing` while the game clock runs."""
         if not (self.absences or self.silent or silent):
             return self
         absences = {name: _after(one, dt, playing) for name, one in self.absences.items()}
@@ -56,18 +56,18 @@ class Participation:
 
     @property
     def change_key(self) -> tuple[object, ...]:
-        """What changes only when somebody is shown a card, leaves or comes back."""
+        """A value that changes only when a robot is shown a card, leaves or comes back."""
         return (*self.cards.items(), *((name, away.why) for name, away in self.absences.items()))
 
     def of_robots(self, names: Collection[str]) -> "Participation":
-        """The same for those of these names: who left the match with its scene is forgotten."""
+        """The participation of these robots only, without those that a scene has removed."""
         cards = {name: record for name, record in self.cards.items() if name in names}
         absences = {name: one for name, one in self.absences.items() if name in names}
         silent = {name: time for name, time in self.silent.items() if name in names}
         return dataclasses.replace(self, cards=cards, absences=absences, silent=silent)
 
     def disciplinary_records(self, names: Collection[str]) -> dict[str, DisciplinaryRecord]:
-        """Those of these robots that have a card or are off the field, as they are published."""
+        """The published records of those of these robots that have a card or are off the field."""
         if not (self.cards or self.absences):
             return {}
         found = {}

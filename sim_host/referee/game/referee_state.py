@@ -1,4 +1,4 @@
-"""The referee's state between two ticks: everything it remembers, and nothing else."""
+"""The state of the referee between two ticks, which is its whole memory."""
 
 from typing import NamedTuple
 
@@ -19,35 +19,35 @@ class RefereeState(NamedTuple):
     phase: Phase
     timing: Timing
     kick_off: Side
-    """Who kicks off this half."""
+    """The side that kicks off this half."""
     side: Side | None = None
-    """Who takes the restart that is signalled."""
+    """The side that takes the signalled restart."""
     spot: Spot | None = None
-    """Where the ball lies for the restart that is signalled."""
+    """The spot of the signalled restart."""
     running: bool = False
     """START was given."""
     half: int = 1
-    """Counts on through extra time."""
+    """Number of the half, counted through extra time."""
     stage: GameStage = GameStage.REGULAR
     score: Score = Score()
     cyan_attacks: int = 1
     """Sign of the x direction that cyan attacks."""
     pending: Restart | None = None
-    """What will be signalled after STOP; nothing when people have to decide."""
+    """The restart to signal after STOP; None if people have to decide."""
     set_piece: SetPiece | None = None
-    """The restart that was started last, until nothing of it binds anybody."""
+    """The last started restart, as long as its rules restrict any robot."""
     participation: Participation = Participation()
     shoot_out: ShootOut | None = None
     proposal: Proposal | None = None
-    """Mixed officiating: what is decided unless people overrule it."""
+    """In mixed officiating, the decision that people may overrule."""
     before: "RefereeState | None" = None
     """The state before the last decision, for `undo`."""
     still: float = 0.0
-    """How long the ball in play has not moved."""
+    """s for which the ball in play has not moved."""
     ball: tuple[float, float, float] | None = None
-    """Where the ball's centre was at the last tick."""
+    """Position of the ball's centre at the last tick."""
     evidence: Evidence = NO_EVIDENCE
-    """What was seen since START."""
+    """The evidence since START."""
 
     @property
     def last_touch(self) -> str | None:
@@ -62,7 +62,7 @@ class RefereeState(NamedTuple):
 
     @property
     def restart(self) -> Restart | None:
-        """The restart that is signalled and not yet in play, or nothing."""
+        """The restart that is signalled and not yet in play, or None."""
         return Restart(self.phase, self.side, self.spot) if self.spot is not None else None
 
     def attack(self, side: Side) -> int:
@@ -70,7 +70,7 @@ class RefereeState(NamedTuple):
         return side.attack(self.cyan_attacks)
 
     def game_state(self, tick: int, time: float, episode: int = 1) -> GameState:
-        """The state as it is published, at that tick and simulated time in s, of that episode."""
+        """The published state of the game at this tick and simulated time in s, in this episode."""
         participation = self.participation
         return GameState(
             tick=tick,
@@ -94,5 +94,5 @@ class RefereeState(NamedTuple):
 
 
 def point(spot: Spot | None) -> Point | None:
-    """A spot as it is published."""
+    """A spot as a published point."""
     return None if spot is None else Point(x=spot[0], y=spot[1])

@@ -1,4 +1,4 @@
-"""A restart as the referee calls it: which, for whom, and from where."""
+"""A restart: its kind, the side that takes it, and its spot."""
 
 from typing import NamedTuple
 
@@ -11,7 +11,7 @@ CENTRE: Spot = (0.0, 0.0)
 
 
 class Restart(NamedTuple):
-    """A way to bring the ball back into play: which, for whom (nobody at a drop ball), and from where."""
+    """A way to bring the ball back into play: its kind, the side that takes it (None for a drop ball), and its spot."""
 
     phase: Phase
     side: Side | None
@@ -19,5 +19,5 @@ class Restart(NamedTuple):
 
 
 def kick_off_after_goal(scorers: Side) -> Restart:
-    """The kick-off of the side that conceded."""
+    """The kick-off by the side that conceded."""
     return Restart(Phase.KICK_OFF, scorers.opponent, CENTRE)

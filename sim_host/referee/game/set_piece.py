@@ -1,7 +1,7 @@
-"""A restart from its START until the taker's side may score: who touched the ball, and how far it rolled freely.
+"""A restart from its START until the taker's side may score: touches of the ball, and its free roll.
 
-The evidence is the snapshot's touches, kick and possession. A touch in the `KICK_DURATION` after a kick belongs to
-it: the ball is leaving the hull.
+The evidence is the snapshot's touches, kick and possession. A touch within `KICK_DURATION` after a kick belongs to the
+kick: the ball is leaving the hull.
 """
 
 import math
@@ -18,21 +18,21 @@ KICK_DURATION = 0.1
 
 
 class SetPiece(NamedTuple):
-    """One restart that was started; in play or not, the phase says."""
+    """One started restart; the phase of the game tells whether the ball is in play."""
 
     restart: Restart
     roll_start: Spot
-    """Where the ball's free roll began: its spot, or where it was touched last."""
+    """Start of the ball's free roll: its spot, or the place of its last touch."""
     rolled: float = 0.0
-    """m; the longest way that the ball has rolled freely."""
+    """m; the longest free roll of the ball."""
     moved: float = 0.0
-    """m between the ball and its spot."""
+    """m; distance between the ball and its spot."""
     touched: tuple[str, ...] = ()
-    """Robots that touched the ball since START, each once, in order."""
+    """Robots that have touched the ball since START, each once, in order."""
     now: tuple[str, ...] = ()
-    """Robots that touch it in this tick."""
+    """Robots that touch the ball in this tick."""
     kicker: str | None = None
-    """The taker's robot that has kicked it."""
+    """The robot of the taker's side that has kicked the ball."""
     since_kick: float = 0.0
     """s."""
 
@@ -42,17 +42,17 @@ class SetPiece(NamedTuple):
         return self.touched[0] if self.touched else None
 
     def touchers(self, roster: Roster, side: Side) -> int:
-        """How many robots of a side have touched the ball."""
+        """Number of robots of a side that have touched the ball."""
         return sum(roster.side_of(name) is side for name in self.touched)
 
 
 def started(restart: Restart) -> SetPiece:
-    """At START."""
+    """The set piece at START."""
     return SetPiece(restart, restart.spot)
 
 
 def set_piece_after(piece: SetPiece | None, snapshot: Snapshot, in_play: bool, dt: float) -> SetPiece | None:
-    """The set piece one tick of `dt` s later; once in play, only touches change it."""
+    """The set piece after one more tick of `dt` s; once the ball is in play, only touches change it."""
     if piece is None or (in_play and not snapshot.touches):
         return piece
     ball, touches = (snapshot.ball.x, snapshot.ball.y), snapshot.touches
@@ -75,10 +75,10 @@ def _kicker(piece: SetPiece, snapshot: Snapshot) -> str | None:
 
 
 def is_settled(piece: SetPiece, book: RuleBook, snapshot: Snapshot) -> bool:
-    """Whether, in play, nothing of the restart binds anybody any more.
+    """Whether, with the ball in play, the rules of the restart no longer restrict any robot.
 
-    So many robots have touched the ball as a goal asks for, or the other side has won it: a touch in passing, as of a
-    shot that grazes a defender, does not help the taker.
+    Enough robots have touched the ball for a goal, or the other side has won the ball. A mere touch by the other side,
+    such as a shot that grazes a defender, is not enough.
     """
     side, roster = piece.restart.side, snapshot.roster
     if side is None:
@@ -91,9 +91,9 @@ def is_settled(piece: SetPiece, book: RuleBook, snapshot: Snapshot) -> bool:
 
 
 def why_no_goal(piece: SetPiece | None, book: RuleBook, roster: Roster, side: Side) -> tuple[int, int] | None:
-    """Robots that have touched the ball since the restart and those that a goal of `side` asks for; nothing if enough.
+    """Robots that have touched the ball since the restart, and those that a goal of `side` requires; None if enough.
 
-    A penalty may go in directly. The other side of a restart is bound by nothing.
+    A penalty may be scored directly. The side that does not take the restart is not restricted.
     """
     if piece is None or piece.restart.side is side.opponent or piece.restart.phase is Phase.PENALTY:
         return None
@@ -105,5 +105,5 @@ def why_no_goal(piece: SetPiece | None, book: RuleBook, roster: Roster, side: Si
 
 
 def _asked(book: RuleBook) -> int:
-    """Robots of the taker's side that touch the ball before its goal counts."""
+    """Number of robots of the taker's side that have to touch the ball before a goal counts."""
     return 1 if book.fouls.direct_goal == "off" else book.scoring.robots_touched

@@ -1,4 +1,4 @@
-"""The clocks of a match: running time, effective playing time, and the timer of what is going on."""
+"""The clocks of a match: game clock, effective playing time, and the timer of the present phase."""
 
 from typing import NamedTuple
 
@@ -12,37 +12,34 @@ class Timing(NamedTuple):
     limit: float
     """Game clock at which this half ends."""
     clock: float = 0.0
-    """Playing time of this half and those before it."""
+    """Playing time of this half and the halves before it."""
     runs: bool = False
-    """From the first START of a half to its end, also through stoppages."""
+    """Whether the clock runs: from the first START of a half to its end, also in stoppages."""
     effective: float = 0.0
-    """How long the ball has been in play."""
+    """Time for which the ball has been in play."""
     timer: float = 0.0
     """Time since STOP, the signal, START, or the beginning of the break."""
     until: float | None = None
-    """What the timer is held against, as far as there is such a limit."""
+    """The limit of the timer, or None."""
 
     def after(self, dt: float, in_play: bool) -> "Timing":
-        """The clocks `dt` later."""
-        return Timing(
-            self.limit,
-            min(self.clock + dt, self.limit) if self.runs else self.clock,
-            self.runs,
-            self.effective + dt if in_play else self.effective,
-            self.timer + dt,
-            self.until,
+        """The clocks `dt` s later."""
+        return self._replace(
+            clock=min(self.clock + dt, self.limit) if self.runs else self.clock,
+            effective=self.effective + dt if in_play else self.effective,
+            timer=self.timer + dt,
         )
 
     def restart_timer(self, until: float | None, *, runs: bool | None = None) -> "Timing":
-        """The timer begins again and is held against `until`; the clock runs on as it does unless told."""
+        """The clocks with the timer at 0 and the limit `until`; the clock is stopped or started if `runs` is given."""
         return self._replace(timer=0.0, until=until, runs=self.runs if runs is None else runs)
 
     @property
     def left(self) -> float | None:
-        """Time until the limit of what is going on, to 1 ms."""
+        """Time until the timer reaches its limit, rounded to 1 ms; None without a limit."""
         return None if self.until is None else max(0.0, round(self.until - self.timer, 3))
 
 
 def reached(timer: float, limit: float) -> bool:
-    """Whether a timer has come to its limit, both in s."""
+    """Whether a timer has reached its limit, both in s."""
     return timer >= limit - ROUNDING

@@ -1,1 +1,1 @@
-"""Where the ball and the robots are set down: restart spots, legal positions, clear ground, the bench."""
+"""The places of the ball and the robots: restart spots, legal positions, clear ground, the bench."""

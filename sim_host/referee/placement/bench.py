@@ -1,8 +1,8 @@
-"""Beside the field: where robots that are off it stand, and where they come back.
+"""The benches: places of robots that are off the field, and places where they come back.
 
-Each side has its bench along the right touch line of its own half, as simatch parks its robots; off the field means
-beyond the boundary, where nothing of the game reaches them. They come back just inside that touch line, near the
-halfway line, where there is room.
+Each side has its bench along the right touch line of its own half, where simatch parks its robots. The bench is beyond
+the boundary, out of reach of the game. Robots come back just inside that touch line, near the halfway line, where there
+is room.
 """
 
 import math
@@ -13,17 +13,17 @@ from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import Snapshot
 
 _BEYOND = 0.5
-"""m between the border and the hull of a robot on the bench: more than the boundary is thick."""
+"""m between the border and the hull of a robot on the bench; more than the thickness of the boundary."""
 _SPACING = 0.2
 """m of air between two robots."""
 _FIRST = 0.5
-"""m between the halfway line and the hull of the first."""
+"""m between the halfway line and the hull of the first robot."""
 _PLACES = 12
-"""Places to come back that are tried; a longer row would not fit along half a touch line."""
+"""Number of places to come back that are tried; a longer row would not fit along half a touch line."""
 
 
 def bench_pose(match: MatchConstants, state: RefereeState, name: str) -> Pose:
-    """Where a robot stands while it is off the field."""
+    """The pose of a robot while it is off the field."""
     roster, pitch, reach = match.roster, match.pitch, max(match.reaches)
     side = roster.side_of(name)
     mates = [mate for mate in roster.names if roster.side_of(mate) is side]
@@ -33,9 +33,9 @@ def bench_pose(match: MatchConstants, state: RefereeState, name: str) -> Pose:
 
 
 def entry_pose(match: MatchConstants, state: RefereeState, snapshot: Snapshot, name: str) -> Pose | None:
-    """Where a robot comes back: the first place that is free, as far from the ball as a restart asks; nothing if none.
+    """The first free pose at which a robot can come back, as far from the ball as a restart requires; None if none.
 
-    `snapshot` has the robots where they are; those on the bench are in nobody's way.
+    `snapshot` has all robots; those on the bench are never in the way.
     """
     roster, pitch = match.roster, match.pitch
     own, side = roster.names.index(name), roster.side_of(name)
@@ -51,7 +51,7 @@ def entry_pose(match: MatchConstants, state: RefereeState, snapshot: Snapshot, n
 
 
 def _along(place: int, reach: float) -> float:
-    """The x of the nth place from the halfway line, m in the team frame."""
+    """x of a place, counted from 0 at the halfway line, m in the team frame."""
     return -(_FIRST + reach + place * (2.0 * reach + _SPACING))
 
 

@@ -1,9 +1,8 @@
-"""Ground that obstacles leave clear: where the ball is placed when one stands on its spot.
+"""Ground that is clear of obstacles: the place of the ball when an obstacle stands on its spot.
 
-As a league does it, the ball goes to the nearest place that is free: at a kick-off along the halfway line and at a
-penalty along the mark's distance to the goal, so that neither side gains, at a throw-in along the touch line, otherwise
-in any direction. It stays inside the lines, and out of penalty areas that it was not in, and a robot has room on every
-side of it where there is such a place.
+The ball is placed at the nearest free place: along the halfway line at a kick-off, at the same distance from the goal
+at a penalty, so that neither side gains, along the touch line at a throw-in, otherwise in any direction. It stays
+inside the lines, and out of penalty areas that it was not in. If possible, a robot has room on every side of it.
 """
 
 import math
@@ -19,13 +18,13 @@ from sim_host.referee.match_constants import MatchConstants
 from sim_host.snapshot import ObstacleState, Snapshot
 
 _TOUCHES = 0.02
-"""m that the ball may be set down in a hull, and is pushed out gently."""
+"""m that the ball may overlap a hull when it is placed; the engine pushes it out gently."""
 _STEP = 0.05
-"""m between the places that are tried."""
+"""m between two places that are tried."""
 _FARTHEST = 8.0
-"""m from the spot that are looked at."""
+"""m; greatest distance from the spot that is tried."""
 _BEARINGS = 32
-"""Directions that are tried where any may be taken."""
+"""Number of directions that are tried if any direction is allowed."""
 
 _ALONG_Y: Final = (math.pi / 2, -math.pi / 2)
 _ALONG_X: Final = (0.0, math.pi)
@@ -34,11 +33,11 @@ _LINES: Mapping[Phase, tuple[float, ...]] = {
     Phase.PENALTY: _ALONG_Y,
     Phase.THROW_IN: _ALONG_X,
 }
-"""Restart → the bearings that it is moved along, rad in the field frame, where there is a free place on them."""
+"""Restart → the bearings along which its spot is moved if possible, rad in the field frame."""
 
 
 def clear_restart(match: MatchConstants, snapshot: Snapshot, restart: Restart) -> Restart:
-    """The restart itself, or the same at the nearest spot that no obstacle stands on."""
+    """The restart, moved to the nearest spot without an obstacle if necessary."""
     if has_room(match, snapshot, restart.spot):
         return restart
     lines = _LINES.get(restart.phase, ())
@@ -51,12 +50,12 @@ def clear_restart(match: MatchConstants, snapshot: Snapshot, restart: Restart) -
 
 
 def has_room(match: MatchConstants, snapshot: Snapshot, spot: Spot) -> bool:
-    """Whether the ball can lie there, for all that obstacles do."""
+    """Whether obstacles leave room for the ball at a spot."""
     return clearance(snapshot, spot) >= match.ball.radius - _TOUCHES
 
 
 def clearance(snapshot: Snapshot, spot: Spot) -> float:
-    """m between a point on the ground and the hull of the nearest obstacle; 0 or less on one, infinite without any."""
+    """m between a point on the ground and the nearest obstacle; 0 or less on an obstacle, infinite without any."""
     return min((_to_hull(obstacle, spot) for obstacle in snapshot.obstacles), default=math.inf)
 
 
@@ -70,14 +69,14 @@ def _to_hull(obstacle: ObstacleState, spot: Spot) -> float:
 
 
 def _all_bearings(spot: Spot) -> tuple[float, ...]:
-    """From the one toward the centre of the field to both sides."""
+    """All bearings, beginning with the one toward the centre of the field, alternately to both sides."""
     inward = math.atan2(-spot[1], -spot[0]) if spot != (0.0, 0.0) else 0.0
     turns = [(step + 1) // 2 * (1 if step % 2 else -1) for step in range(_BEARINGS)]
     return tuple([inward + turn * math.tau / _BEARINGS for turn in turns])
 
 
 def _around(match: MatchConstants, spot: Spot, bearings: tuple[float, ...]) -> Iterator[Spot]:
-    """Places where the ball may lie, the nearest first."""
+    """Legal places of the ball around a spot, the nearest first."""
     pitch, inset = match.pitch, match.book.restarts.field_inset
     most_x, most_y = max(abs(spot[0]), pitch.goal_line - inset), max(abs(spot[1]), pitch.touch_line - inset)
     was_in_area = in_a_penalty_area(pitch, *spot)

@@ -1,12 +1,12 @@
-"""Positions before START: distances to the whole robot, own halves at a kick-off, areas at a penalty.
+"""Positions before START: distances from the ball, own halves at a kick-off, areas at a penalty.
 
-The taker is the robot of its side nearest to the ball. One defender besides the goalkeeper may stand nearer than the
-others in its own penalty area, not in the goal area. Nobody stands where the ball is to lie. Robots off
-the field are not looked at.
+The taker is the robot of its side nearest to the ball. In its own penalty area, but outside the goal area, one defender
+besides the goalkeeper may stand nearer than the others. No robot may stand on the ball's spot. Robots off the field are
+ignored.
 
 Section: restarts.
-Measures: the way between the ball's spot and the robot's hull, taken as the circle that holds it in any direction.
-Not judged: robots that change their places between START and the kick, as long as they do not touch the ball.
+Measures: the distance between the ball's spot and the robot's hull, taken as the smallest circle around it.
+Not judged: robots that move between START and the kick, as long as they do not touch the ball.
 """
 
 import dataclasses
@@ -24,29 +24,29 @@ from sim_host.referee.placement.clear_ground import clearance
 from sim_host.snapshot import RobotStates, Snapshot
 
 MAX_OVERLAP = 0.02
-"""m that a hull may reach into the ball on its spot: a taker may touch it."""
+"""m that a hull may overlap the ball on its spot, since a taker may touch it."""
 _ROOM = 0.2
-"""m; how much farther than the rules ask a robot is set down that is moved, and how much air it has to others."""
+"""m; distance that a moved robot gets beyond the required one, and from other robots."""
 _BEARINGS = 24
-"""Directions from the ball that are tried for it."""
+"""Number of directions from the ball that are tried for a moved robot."""
 _RINGS = 8
-"""Distances that are tried, 1 m apart."""
+"""Number of distances that are tried, 1 m apart."""
 
 
 class PositionFault(NamedTuple):
-    """One robot that stands wrong."""
+    """A robot in a wrong position."""
 
     robot: str
     text: str
-    """Who and how, in one phrase."""
+    """The robot and its fault, as one clause."""
     measured: float | None = None
     """m."""
     limit: float | None = None
-    """m that are asked."""
+    """m; the required value."""
 
 
 class Violation(NamedTuple):
-    """What is wrong with one robot's place: a phrase, and what was measured and asked, m."""
+    """A violation by one robot's position: a phrase, and the measured and the required value in m."""
 
     phrase: str
     measured: float | None = None
@@ -54,7 +54,7 @@ class Violation(NamedTuple):
 
 
 class LineUp(NamedTuple):
-    """The robots before a restart; robots by their index in the roster."""
+    """The positions of the robots before a restart; robots by their index in the roster."""
 
     match: MatchConstants
     state: RefereeState
@@ -63,9 +63,9 @@ class LineUp(NamedTuple):
     on_field: tuple[int, ...]
     """Robots on the field."""
     kicker: int | None
-    """The taker's robot nearest to the ball; a drop ball has none."""
+    """The robot of the taker's side nearest to the ball; None at a drop ball."""
     free: tuple[int, ...]
-    """Defenders who may stand near the ball before their own goal."""
+    """Defenders that may stand near the ball before their own goal."""
 
     def own_end(self, index: int) -> int:
         """Sign of the x of the goal that a robot defends."""
@@ -76,14 +76,14 @@ class LineUp(NamedTuple):
         return self.match.keepers(self.state.participation.absences)[index]
 
     def takes(self, index: int) -> bool:
-        """Whether a robot is of the side that takes the restart."""
+        """Whether a robot is on the side that takes the restart."""
         return self.match.roster.sides[index] is self.restart.side
 
 
 def position_faults(
     match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot
 ) -> tuple[PositionFault, ...]:
-    """Who stands wrong for the restart and by how much, each once, in the order of the roster."""
+    """The robots in wrong positions for the restart, each with its first fault, in the order of the roster."""
     line_up = _line_up(match, state, restart, snapshot)
     checks = _checks(state, restart)
     faults = []
@@ -100,7 +100,7 @@ def position_faults(
 
 
 def is_spot_covered(match: MatchConstants, state: RefereeState, spot: Spot, snapshot: Snapshot) -> bool:
-    """Whether a robot stands where the ball is to lie: it cannot be set down in a hull."""
+    """Whether a robot stands on a spot, so that the ball cannot be placed there."""
     line_up = _line_up(match, state, Restart(state.phase, state.side, spot), snapshot)
     return any(_on_spot(line_up, index) for index in line_up.on_field)
 
@@ -108,9 +108,9 @@ def is_spot_covered(match: MatchConstants, state: RefereeState, spot: Spot, snap
 def legal_pose(
     match: MatchConstants, state: RefereeState, restart: Restart, snapshot: Snapshot, fault: PositionFault
 ) -> Pose:
-    """Where a robot that stands wrong is moved: on the field, near its bearing from the ball, in nobody's way.
+    """A legal pose for a robot in a wrong position: on the field, near its bearing from the ball, clear of others.
 
-    It stays where it is when there is no such place.
+    The present pose if there is no such place.
     """
     line_up = _line_up(match, state, restart, snapshot)
     index = match.roster.names.index(fault.robot)
@@ -131,7 +131,7 @@ def _line_up(match: MatchConstants, state: RefereeState, restart: Restart, snaps
 
 
 def _around(line_up: LineUp, index: int) -> Iterator[Spot]:
-    """Places on the field around the ball, the nearest ring first, from the robot's own bearing to both sides."""
+    """Places on the field around the ball: nearest ring first, from the robot's bearing alternately to both sides."""
     pitch, robot, (x, y) = line_up.match.pitch, line_up.snapshot.robots[index], line_up.restart.spot
     if line_up.is_keeper(index):
         yield line_up.own_end(index) * (pitch.goal_line - line_up.match.reaches[index] - _ROOM), 0.0
@@ -164,7 +164,7 @@ def _kicker(line_up: LineUp) -> int | None:
 
 
 def _free_defenders(line_up: LineUp) -> tuple[int, ...]:
-    """The goalkeeper in its own penalty area (ours), one more there outside the goal area (rule book, set pieces)."""
+    """The goalkeeper in its penalty area (ours), one more defender outside the goal area (rule book, set pieces)."""
     match, robots = line_up.match, line_up.snapshot.robots
     inside = [
         index
@@ -190,7 +190,7 @@ def _from_ball(line_up: LineUp, index: int) -> float:
 
 
 def _min_distance(line_up: LineUp, index: int) -> float:
-    """m that a robot other than the kicker keeps from the ball."""
+    """m; required distance from the ball for a robot other than the kicker."""
     numbers = line_up.match.book.restarts
     if line_up.restart.phase is Phase.DROP_BALL:
         return numbers.drop_ball_distance
@@ -202,28 +202,28 @@ def _near_ball(line_up: LineUp, index: int) -> Violation | None:
     is_dropped = line_up.restart.phase is Phase.DROP_BALL
     if not is_dropped and (index == line_up.kicker or index in line_up.free):
         return None
-    distance, asked = _from_ball(line_up, index), _min_distance(line_up, index)
-    if distance >= asked:
+    distance, required = _from_ball(line_up, index), _min_distance(line_up, index)
+    if distance >= required:
         return None
-    return Violation(f"{distance:.2f} m from the ball, {asked:.2f} m asked", distance, asked)
+    return Violation(f"{distance:.2f} m from the ball, {required:.2f} m required", distance, required)
 
 
 def _on_spot(line_up: LineUp, index: int) -> Violation | None:
-    """Nobody's hull is where the ball lies, not even the kicker's."""
+    """No hull may cover the ball's spot, not even the kicker's."""
     room = line_up.match.ball.radius - MAX_OVERLAP
     distance = _from_ball(line_up, index)
     return Violation("on the ball's spot", distance, room) if distance < room else None
 
 
 def _in_other_half(line_up: LineUp, index: int) -> Violation | None:
-    """The whole robot stays in its own half, of the kicker its centre."""
+    """A robot has to be in its own half with its whole hull, the kicker with its centre."""
     hull = 0.0 if index == line_up.kicker else line_up.match.reaches[index]
     over = hull - line_up.snapshot.robots[index].x * line_up.own_end(index)
     return Violation(f"{over:.2f} m in the other half", over, 0.0) if over > 0 else None
 
 
 def _wrong_at_penalty(line_up: LineUp, index: int) -> Violation | None:
-    """The defending goalkeeper waits in its goal area, all but the kicker out of the penalty area and away."""
+    """The defending goalkeeper has to be in its goal area, all others but the kicker outside the penalty area."""
     if index == line_up.kicker:
         return None
     pitch, robot = line_up.match.pitch, line_up.snapshot.robots[index]
@@ -236,7 +236,7 @@ def _wrong_at_penalty(line_up: LineUp, index: int) -> Violation | None:
 
 
 def _wrong_at_shoot_out(line_up: LineUp, index: int) -> Violation | None:
-    """The kicker waits in the centre circle, the goalkeeper in its goal area, all others beyond the halfway line."""
+    """The kicker has to be in the centre circle, the goalkeeper in its goal area, others beyond the halfway line."""
     pitch, robot = line_up.match.pitch, line_up.snapshot.robots[index]
     end = 1 if line_up.restart.spot[0] > 0 else -1
     away = math.hypot(robot.x, robot.y)
@@ -269,5 +269,5 @@ CHECKS: Mapping[Phase, tuple[Check, ...]] = {
     Phase.PENALTY: (_on_spot, _wrong_at_penalty),
     Phase.DROP_BALL: (_on_spot, _near_ball),
 }
-"""Restart → what is asked of every robot."""
+"""Restart → the checks of every robot."""
 SHOOT_OUT: tuple[Check, ...] = (_wrong_at_shoot_out,)

@@ -1,6 +1,6 @@
-"""Where the ball is placed for each restart: from the place where something happened to the spot the rules name.
+"""The spot of each restart, from the place of the incident.
 
-Everywhere, `attack` is the sign of the x direction that the taker attacks; places and spots are in m, field frame.
+`attack` is the sign of the x direction that the taker attacks. Places and spots are in m, field frame.
 """
 
 import math
@@ -15,7 +15,7 @@ from sim_host.referee.match_constants import MatchConstants
 
 
 def restart_at(match: MatchConstants, state: RefereeState, phase: Phase, side: Side | None, place: Spot) -> Restart:
-    """The restart that follows from something that happened at `place`."""
+    """The restart after an incident at `place`."""
     attack = state.attack(side) if side is not None else 1
     return Restart(phase, side, SPOTS[phase](match, attack, place))
 
@@ -29,7 +29,7 @@ def _penalty_mark(match: MatchConstants, attack: int, _place: Spot) -> Spot:
 
 
 def _corner(match: MatchConstants, attack: int, place: Spot) -> Spot:
-    """The corner of the attacked end on the side of the place."""
+    """The corner of the attacked end that is on the same side as the place."""
     inset = match.book.restarts.corner_inset
     return attack * (match.pitch.goal_line - inset), math.copysign(match.pitch.touch_line - inset, place[1])
 
@@ -42,12 +42,12 @@ def _throw_in(match: MatchConstants, _attack: int, place: Spot) -> Spot:
 
 
 def _goal_kick(match: MatchConstants, attack: int, place: Spot) -> Spot:
-    """The nearest restart marker of the taker's own half."""
+    """The nearest restart marker in the taker's own half."""
     return _nearest(place, (spot for spot in match.pitch.restart_spots if spot[0] * attack < 0))
 
 
 def _in_field(match: MatchConstants, _attack: int, place: Spot) -> Spot:
-    """The place itself, moved inside the lines; out of a penalty area, the nearest restart spot."""
+    """The place itself, moved inside the lines; for a place in a penalty area, the nearest restart spot outside."""
     pitch, inset = match.pitch, match.book.restarts.field_inset
     x, y = _within(place[0], pitch.goal_line - inset), _within(place[1], pitch.touch_line - inset)
     if in_a_penalty_area(pitch, x, y):
@@ -60,7 +60,7 @@ def _within(value: float, limit: float) -> float:
 
 
 def _nearest(place: Spot, spots: Iterable[Spot]) -> Spot:
-    """The nearest spot; of two equally near, the one nearer to the long axis, so that both halves are treated alike."""
+    """The nearest spot; of two equally near spots, the one nearer to the long axis, to treat both halves alike."""
     return min(spots, key=lambda spot: (math.dist(place, spot), abs(spot[1])))
 
 
@@ -73,4 +73,4 @@ SPOTS: Mapping[Phase, Callable[[MatchConstants, int, Spot], Spot]] = {
     Phase.PENALTY: _penalty_mark,
     Phase.DROP_BALL: _in_field,
 }
-"""Restart → how its spot follows from the place."""
+"""Restart → the function from the place of the incident to its spot."""

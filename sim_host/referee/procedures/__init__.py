@@ -1,1 +1,1 @@
-"""What follows from decisions and time: the restart sequence, periods, discipline, the shoot-out, the end."""
+"""The procedures that follow from decisions and time: restarts, periods, discipline, the shoot-out, the end."""

@@ -1,13 +1,15 @@
-"""Cards and people: who is shown what, who leaves the field and for how long, and who comes back when.
+"""Cards, and robots that leave the field and come back.
 
-Yellow cards of one robot add up to a suspension and then to a red card. A robot off the field stands beyond the
-boundary, and its commands rest. Suspensions are served in playing time, repairs and substitutions also while the clock
-stands; then the robot comes back by itself at the next stoppage, at its side's right touch line, where there is room. A
-robot whose program is gone is taken out, and comes back when it is heard again; one that people parked, when they say.
+Yellow cards of one robot add up to a suspension, and then to a red card. A robot off the field stands beyond the
+boundary, and its commands have no effect. Suspensions count in playing time, repairs and substitutions also while the
+clock is stopped. When the time is up, the robot comes back by itself at the next stoppage, at its side's right touch
+line, where there is room. A robot whose agent does not answer is taken off the field, and comes back when the agent
+answers again. A robot that people have parked comes back when they request it.
 
 Section: misconduct; repair and substitution.
-Measures: cards by robot, red cards by side, the time off; how long a program has not answered, as the host tells it.
-Not judged: who is fit to play; cards stay with the name, also of a substitute.
+Measures: cards of each robot, red cards of each side, the time off the field, and the time for which an agent has not
+answered, as the host reports it.
+Not judged: whether a robot is fit to play. Cards stay with the name of a robot, also after a substitution.
 """
 
 import dataclasses
@@ -23,13 +25,13 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 RULE = "discipline"
 WAITS_FOR_PEOPLE = frozenset({OffField.PARKED})
-"""Robots that come back only when somebody asks for it."""
+"""Reasons that only a person ends: the robot comes back on request."""
 STOPPAGES = RESTARTS | {Phase.STOPPED, Phase.HALF_TIME, Phase.PARKING}
 """Phases in which robots may come back, before START is given."""
 
 
 def show_card(draft: RulingDraft, rule: str, name: str, card: Card) -> None:
-    """Show a robot a card, and send it off when the rule book says so."""
+    """Show a robot a card, and send it off if the rule book requires it."""
     participation, book = draft.state.participation, draft.book.discipline
     record = participation.cards.get(name, CardCount())
     absence = None
@@ -60,7 +62,7 @@ def show_card(draft: RulingDraft, rule: str, name: str, card: Card) -> None:
 
 
 def take_out(draft: RulingDraft, rule: str, name: str, absence: Absence) -> None:
-    """Have a robot leave the field; one that has left already is off for the new reason from now on."""
+    """Take a robot off the field; for one that is off already, the new reason replaces the old one."""
     participation, was_there = draft.state.participation, name not in draft.state.participation.absences
     draft.state = draft.state._replace(
         participation=dataclasses.replace(participation, absences={**participation.absences, name: absence})
@@ -79,27 +81,27 @@ def take_out(draft: RulingDraft, rule: str, name: str, absence: Absence) -> None
 
 
 def why_stays_out(draft: RulingDraft, name: str) -> str | None:
-    """Why a robot off the field may not come back now, or nothing."""
+    """Why a robot off the field may not come back now, or None."""
     state, participation = draft.state, draft.state.participation
     absence, side = participation.absences[name], draft.match.roster.side_of(name)
     if absence.for_good:
         return "it is sent off for good"
     if absence.left is not None and not reached(0.0, absence.left):
-        return f"its time is not up, {absence.left:.1f} s are left"
+        return f"its time is not up, {absence.left:.1f} s left"
     if name in participation.silent:
-        return "its program does not answer"
+        return "its agent does not answer"
     if state.phase not in STOPPAGES or state.running:
         return f"it comes back in a stoppage, the phase is {state.phase}"
     limit = draft.book.people.returns_per_stoppage
     if participation.returned.get(side, 0) >= limit:
-        return f"{limit} of its side came back in this stoppage already, which is the limit"
+        return f"{limit} robots of its side have come back in this stoppage, which is the limit"
     if entry_pose(draft.match, state, draft.snapshot, name) is None:
         return "there is no room at its touch line"
     return None
 
 
 def bring_back(draft: RulingDraft, rule: str, name: str) -> None:
-    """Have a robot come back, where there is room; `why_stays_out` has been asked."""
+    """Bring a robot back to the field; the caller has checked `why_stays_out`."""
     state, participation = draft.state, draft.state.participation
     pose = entry_pose(draft.match, state, draft.snapshot, name)
     if pose is None:
@@ -120,7 +122,7 @@ def bring_back(draft: RulingDraft, rule: str, name: str) -> None:
 
 
 def advance(draft: RulingDraft) -> None:
-    """What time brings: robots whose program is gone are taken out, those whose time is up come back."""
+    """Apply the effects of time: robots with a silent agent are taken off, those whose time is up come back."""
     participation, limit = draft.state.participation, draft.book.people.silent_limit
     if participation.silent and limit and draft.state.phase not in (Phase.PRE_GAME, Phase.FULL_TIME):
         for name in draft.match.roster.names:
@@ -139,11 +141,11 @@ def advance(draft: RulingDraft) -> None:
             continue
         if why_stays_out(draft, name) is None:
             bring_back(draft, RULE, name)
-            arrived = True  # the next looks for room in the next tick, when this one is seen where it came
+            arrived = True  # one in a tick: the next snapshot shows where it is, and where there is room
 
 
 def for_next_half(participation: Participation, book: Discipline) -> Participation:
-    """The people of the next half: yellow cards are forgotten where the rule book says so."""
+    """The participation at the start of the next half: yellow cards are reset if the rule book says so."""
     if not book.reset_each_half:
         return participation
     cards = {name: record._replace(yellow=0) for name, record in participation.cards.items()}
@@ -151,12 +153,12 @@ def for_next_half(participation: Participation, book: Discipline) -> Participati
 
 
 def for_new_stoppage(participation: Participation) -> Participation:
-    """The people at STOP: nobody has come back yet."""
+    """The participation at STOP: no robot has come back yet."""
     return dataclasses.replace(participation, returned={}) if participation.returned else participation
 
 
 def count_playable(draft: RulingDraft, side: Side) -> int:
-    """How many robots a side has that are on the field or may come back to it."""
+    """Number of robots of a side that are on the field or may come back to it."""
     participation, roster = draft.state.participation, draft.match.roster
     mine = [name for name, its in zip(roster.names, roster.sides, strict=True) if its is side]
     gone = [name for name in mine if name in participation.absences and _is_gone(participation.absences[name])]
@@ -164,7 +166,7 @@ def count_playable(draft: RulingDraft, side: Side) -> int:
 
 
 def reason_text(why: OffField) -> str:
-    """A reason in words."""
+    """A reason as people read it."""
     return REASONS[why]
 
 
@@ -173,7 +175,7 @@ REASONS: Mapping[OffField, str] = {
     OffField.RED_CARD: "red card",
     OffField.REPAIR: "repair",
     OffField.SUBSTITUTION: "substitution",
-    OffField.SILENT: "its program is gone",
+    OffField.SILENT: "its agent does not answer",
     OffField.PARKED: "parked",
 }
 
@@ -183,20 +185,20 @@ def _is_gone(absence: Absence) -> bool:
 
 
 def _why(absence: Absence) -> str:
-    words = reason_text(absence.why)
+    reason = reason_text(absence.why)
     if absence.left is not None:
-        return f"{words}, {absence.left:g} s"
-    return f"{words}, for good" if absence.for_good else words
+        return f"{reason}, {absence.left:g} s"
+    return f"{reason}, for good" if absence.for_good else reason
 
 
 def _count_reds(draft: RulingDraft, side: Side) -> int:
-    """Red cards that robots of a side have been shown."""
+    """Number of red cards that robots of a side have been shown."""
     cards, roster = draft.state.participation.cards, draft.match.roster
     return sum(record.red for name, record in cards.items() if name in roster.names and roster.side_of(name) is side)
 
 
 def _red_duration(book: Discipline, before: int) -> float | None:
-    """s off the field for a red card of a side that had so many before; nothing when it is for good."""
+    """s off the field for a red card of a side with `before` earlier ones; None if it is for good."""
     if not book.red_duration or (book.reds_to_removal and (before + 1) % book.reds_to_removal == 0):
         return None
     return book.red_duration + before * book.red_growth

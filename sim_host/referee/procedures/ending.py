@@ -1,4 +1,4 @@
-"""How play comes to rest: a break, full time, or a side that cannot field enough robots."""
+"""The end of play: a break, full time, or a forfeit by a side that cannot field enough robots."""
 
 from schemas.game import EventKind, Phase
 from schemas.side import Side
@@ -6,11 +6,11 @@ from sim_host.referee.procedures import discipline
 from sim_host.referee.ruling_draft import RulingDraft
 
 RULE = "periods"
-"""The rule that a forfeit is decided by."""
+"""The name of the rule in the events of a forfeit."""
 
 
 def suspend_play(draft: RulingDraft, phase: Phase, until: float | None) -> None:
-    """Nobody plays in this phase; it lasts until the timer is at `until` s, or for good."""
+    """Enter a phase without play; it lasts until the timer reaches `until` s, or for good."""
     state = draft.state
     draft.state = state._replace(
         phase=phase,
@@ -26,15 +26,15 @@ def suspend_play(draft: RulingDraft, phase: Phase, until: float | None) -> None:
 
 
 def end_match(draft: RulingDraft, rule: str, text: str) -> None:
-    """Full time."""
+    """End the match at full time."""
     suspend_play(draft, Phase.FULL_TIME, None)
     draft.add_event(EventKind.FULL_TIME, rule, text, score=draft.state.score)
 
 
 def end_if_forfeited(draft: RulingDraft) -> bool:
-    """End the match if a side cannot field as many robots as the rule book asks for; whether it was ended.
+    """End the match if a side cannot field as many robots as the rule book requires; returns whether it was ended.
 
-    Of two such sides the one with fewer robots forfeits; where both have as few, neither has won.
+    Of two such sides, the one with fewer robots forfeits; if both have equally few, neither has won.
     """
     least = draft.book.people.least_robots
     fielded = {side: discipline.count_playable(draft, side) for side in Side}
@@ -48,7 +48,7 @@ def end_if_forfeited(draft: RulingDraft) -> bool:
 
 
 def _forfeit(draft: RulingDraft, loser: Side) -> None:
-    """End the match: won by the other side, by as many goals as the rule book says at least."""
+    """End the match: the other side wins, at least by the number of goals that the rule book sets."""
     state, winner = draft.state, loser.opponent
     goals = max(0, state.score.of(loser) + draft.book.people.forfeit_goals - state.score.of(winner))
     draft.state = state._replace(score=state.score.plus(winner, goals))
@@ -56,7 +56,7 @@ def _forfeit(draft: RulingDraft, loser: Side) -> None:
     draft.add_event(
         EventKind.FORFEIT,
         RULE,
-        f"{loser} forfeits: it can field {left} robots, {least} are asked",
+        f"{loser} forfeits: it can field {left} robots, {least} required",
         side=loser,
         score=draft.state.score,
         measured=left,

@@ -1,11 +1,11 @@
-"""The penalty shoot-out from attempt to attempt: sides alternate until one cannot be caught up with.
+"""The penalty shoot-out: sides alternate until one cannot be caught up with.
 
-The side that would have kicked off begins. A level shoot-out is repeated as often as the rule book says, the other side
-beginning, and then said to be undecided.
+The side that would have kicked off begins. A level shoot-out is repeated as often as the rule book allows, begun by the
+other side, and is undecided after that.
 
 Section: match, play-offs; penalty shoot-out.
-Measures: penalties taken and goals of each side; the clock stands.
-Not judged: who wins an undecided match.
+Measures: penalties taken and goals of each side; the clock is stopped.
+Not judged: which side wins an undecided match.
 """
 
 from schemas.game import GameStage, Phase
@@ -19,7 +19,7 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 
 def begin(draft: RulingDraft) -> None:
-    """Signal the first penalty, of the side that would have kicked off."""
+    """Signal the first penalty, for the side that would have kicked off."""
     state = draft.state
     out = ShootOut(state.kick_off.opponent)
     draft.state = state._replace(stage=GameStage.SHOOT_OUT, shoot_out=out, before=None)
@@ -27,27 +27,27 @@ def begin(draft: RulingDraft) -> None:
 
 
 def count(draft: RulingDraft, scored: bool) -> None:
-    """An attempt is over."""
+    """Count an attempt that has ended."""
     state = draft.state
     if state.shoot_out is not None and state.side is not None:
         draft.state = state._replace(shoot_out=state.shoot_out.after_attempt(state.side, scored))
 
 
 def next_penalty(draft: RulingDraft, rule: str) -> None:
-    """After an attempt: the other side's, another series, or the end."""
+    """Stop for the next attempt, begin another series, or end the match."""
     state, periods = draft.state, draft.book.periods
     out = state.shoot_out
     if out is None:
         return
     kicks = periods.shoot_out_kicks
     leader = out.leader(kicks)
-    said = f"cyan {out.goals.cyan} : {out.goals.magenta} magenta"
+    result = f"cyan {out.goals.cyan} : {out.goals.magenta} magenta"
     if leader is not None:
-        end_match(draft, rule, f"{leader} wins the penalty shoot-out, {said}")
+        end_match(draft, rule, f"{leader} wins the penalty shoot-out, {result}")
         return
     if out.is_played(kicks):
         if out.series >= periods.shoot_out_series:
-            end_match(draft, rule, f"the penalty shoot-out is undecided after {out.series} series, {said}")
+            end_match(draft, rule, f"the penalty shoot-out is undecided after {out.series} series, {result}")
             return
         out = out.next_series()
         draft.state = state._replace(shoot_out=out)
@@ -55,5 +55,5 @@ def next_penalty(draft: RulingDraft, rule: str) -> None:
 
 
 def penalty_for(draft: RulingDraft, side: Side) -> Restart:
-    """A penalty of a side, from the mark it attacks."""
+    """A penalty for a side, from the penalty mark that it attacks."""
     return restart_at(draft.match, draft.state, Phase.PENALTY, side, CENTRE)

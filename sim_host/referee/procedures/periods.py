@@ -1,22 +1,20 @@
-"""The match from before its first half to full time: kick-offs, stoppages, halves, and what a decision leads to.
+"""The periods of a match, from before the first half to full time: kick-offs, halves, breaks, extra time, shoot-out.
 
-Each half ends at once when its playing time is up; robots park, and after the break they are carried to their start
-poses and play in the other direction, the other side kicking off. A level match whose match file or rule book asks for
-a winner goes on with extra time, as much shorter or longer than the rule book says as the halves are, and then with a
-penalty shoot-out. A side that cannot field enough robots, because they are sent off for good or their programs are
-gone, forfeits; where both sides have as few, the match ends as it stands.
+Each half ends at once when its playing time is up. Robots park; after the break they are placed at their start poses,
+play in the other direction, and the other side kicks off. A level match whose match file or rule book requires a winner
+goes on with extra time, and then with a penalty shoot-out. If a match file shortens or lengthens the halves, extra time
+changes by the same factor. A side forfeits if it cannot field enough robots, because they are sent off for good or
+their agents do not answer; if both sides are left with equally few, the match ends with the present score.
 
 Section: match.
-Measures: the clock, which runs from the first START of a half to its end, also through stoppages; beside it the
-effective playing time, while the ball is in play. In a shoot-out both stand.
+Measures: the game clock, which runs from the first START of a half to its end, also in stoppages; and the effective
+playing time, while the ball is in play. Both are stopped in a shoot-out.
 Not judged: added time.
 """
 
 from collections.abc import Callable, Mapping
 
-from schemas.game import RESTARTS, EventKind, GameStage, Phase, Score
-from sim_host.referee.game.decision import Decision
-from sim_host.referee.game.referee_state import RefereeState
+from schemas.game import RESTARTS, EventKind, GameStage, Phase
 from sim_host.referee.game.restart import CENTRE, Restart
 from sim_host.referee.game.timing import reached
 from sim_host.referee.placement.bench import bench_pose
@@ -26,48 +24,17 @@ from sim_host.referee.ruling_draft import RulingDraft
 
 RULE = "periods"
 HALF_PHASES = RESTARTS | {Phase.STOPPED, Phase.PLAY}
-"""Phases in which a half is being played."""
-
-
-def carry_out(draft: RulingDraft, rule: str, decision: Decision) -> None:
-    """Let what a rule or action decided happen."""
-    if decision.ends_half:
-        end_half(draft, rule, decision.text)
-        return
-    if decision.goal_for is not None:
-        draft.state = draft.state._replace(score=draft.state.score.plus(decision.goal_for))
-    if decision.shot_scored is not None:
-        penalties.count(draft, decision.shot_scored)
-    draft.add_event(
-        decision.kind,
-        rule,
-        decision.text,
-        side=decision.side,
-        robot=decision.robot,
-        robots=decision.robots,
-        place=decision.place,
-        score=_published_score(draft.state, decision),
-        measured=decision.measured,
-        limit=decision.limit,
-        unit=decision.unit,
-        card=decision.card,
-    )
-    if decision.card is not None and decision.robot is not None:
-        discipline.show_card(draft, rule, decision.robot, decision.card)
-    if decision.shot_scored is not None:
-        penalties.next_penalty(draft, rule)
-    else:
-        restart.stop(draft, rule, decision.restart)
+"""Phases that are part of a half."""
 
 
 def begin_half(draft: RulingDraft) -> None:
-    """Signal the kick-off of the half."""
+    """Signal the kick-off of the half, unless a side forfeits."""
     if not end_if_forfeited(draft):
         restart.signal(draft, Restart(Phase.KICK_OFF, draft.state.kick_off, CENTRE))
 
 
 def end_half(draft: RulingDraft, rule: str, text: str) -> None:
-    """End the half at once: robots park, then comes a break, or full time when nothing follows."""
+    """End the half at once: robots park, then a break follows, or full time after the last period."""
     kind = EventKind.HALF_TIME if what_follows(draft) is not None else EventKind.PARKING
     if kind is EventKind.PARKING and not draft.book.periods.parking:
         end_match(draft, rule, text)
@@ -80,7 +47,7 @@ def end_half(draft: RulingDraft, rule: str, text: str) -> None:
 
 
 def what_follows(draft: RulingDraft) -> GameStage | None:
-    """The stage of the next half or of the shoot-out, or nothing when the match is over with this one."""
+    """The stage of the next half or of the shoot-out; None after the last period."""
     state, periods = draft.state, draft.book.periods
     if state.stage is GameStage.SHOOT_OUT:
         return None
@@ -96,7 +63,7 @@ def what_follows(draft: RulingDraft) -> GameStage | None:
 
 
 def begin_next_period(draft: RulingDraft) -> None:
-    """Begin what follows after a break, or end the match."""
+    """Begin the next period after a break, or end the match."""
     stage = what_follows(draft)
     if stage is None:
         score = draft.state.score
@@ -109,7 +76,7 @@ def begin_next_period(draft: RulingDraft) -> None:
 
 
 def advance(draft: RulingDraft) -> None:
-    """What the time that has passed brings about in this phase."""
+    """Apply the effects of time in this phase."""
     step = ADVANCE_BY_PHASE.get(draft.state.phase)
     if step is not None:
         step(draft)
@@ -119,14 +86,8 @@ def advance(draft: RulingDraft) -> None:
         end_if_forfeited(draft)
 
 
-def _published_score(state: RefereeState, decision: Decision) -> Score | None:
-    if decision.shot_scored is not None and state.shoot_out is not None:
-        return state.shoot_out.goals
-    return state.score if decision.goal_for is not None else None
-
-
 def _change_sides(draft: RulingDraft, stage: GameStage) -> None:
-    """Begin the next half: other direction, everybody at the start poses of it, the other side kicks off."""
+    """Begin the next half: the direction changes, robots are at their start poses, the other side kicks off."""
     state, match = draft.state, draft.match
     duration = match.half_duration if stage is GameStage.REGULAR else match.extra_half_duration
     draft.state = state._replace(
@@ -143,7 +104,7 @@ def _change_sides(draft: RulingDraft, stage: GameStage) -> None:
 
 
 def _place_at_start_poses(draft: RulingDraft) -> None:
-    """Carry everybody to the start poses, and who is off the field to the bench of the half."""
+    """Place all robots at their start poses, and those off the field on the bench of this half."""
     for name in draft.match.roster.names:
         if name in draft.state.participation.absences:
             draft.place_robot(name, bench_pose(draft.match, draft.state, name))
@@ -188,10 +149,10 @@ ADVANCE_BY_PHASE: Mapping[Phase, Callable[[RulingDraft], None]] = {
     Phase.PARKING: _while_parking,
     Phase.HALF_TIME: _during_break,
 } | dict.fromkeys(RESTARTS, _while_restarting)
-"""Phase → what time brings about in it; in the others, nothing."""
+"""Phase → the effects of time in it; the other phases have none."""
 
 
 def _break_duration(draft: RulingDraft) -> float:
-    """s of the break before what follows."""
+    """Duration in s of the break before the next period."""
     periods = draft.book.periods
     return periods.shoot_out_break if what_follows(draft) is GameStage.SHOOT_OUT else periods.half_time_break

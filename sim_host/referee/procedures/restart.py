@@ -1,14 +1,16 @@
 """The restart sequence: STOP, ball placed and restart signalled, START, ball in play.
 
-Robots take positions from the signal on. START comes after the rule book's pause, as soon as everybody stands legally
-and the ball lies on its spot, at the latest after the positions limit: who stands wrong then is named, and moved or
-shown a card as the rule book says. The ball is in play once it has rolled freely far enough, or when the taker's time
-is over, from when on anybody may take it; a dropped ball at once. Where an obstacle stands on the spot, the restart is
-taken from the nearest free place, a kick-off on the halfway line, a penalty as far from the goal.
+Robots take positions after the signal. START is given after the rule book's pause, as soon as all positions are legal
+and the ball is on its spot, and at the latest when the positions limit is over. A robot that is in a wrong position
+then is named, and moved or shown a card if the rule book says so. The ball is in play once it has rolled freely far
+enough, or when the taker's time is over, after which any robot may play it; a dropped ball is in play at once. If an
+obstacle stands on the spot, the restart is taken from the nearest free place: a kick-off on the halfway line, a penalty
+at the same distance from the goal.
 
 Section: restarts.
-Measures: the time since STOP, signal and START; the ball's way from its spot, and its longest way between two touches.
-Not judged: who let the time go by.
+Measures: the time since STOP, signal and START; the distance of the ball from its spot, and its longest way between two
+touches.
+Not judged: which side wasted the time.
 """
 
 import math
@@ -29,7 +31,7 @@ POSITIONS = "positions"
 
 
 def stop(draft: RulingDraft, rule: str, restart: Restart | None) -> None:
-    """Halt the game at once; without a restart, people have to decide how it goes on."""
+    """Stop the game at once; without a restart, people have to decide how it goes on."""
     follows = f"{restart_text(restart)} follows" if restart is not None else "the referee decides how it goes on"
     draft.add_event(EventKind.STOP, rule, f"STOP; {follows}")
     state = draft.state
@@ -49,8 +51,8 @@ def stop(draft: RulingDraft, rule: str, restart: Restart | None) -> None:
 def signal(draft: RulingDraft, restart: Restart) -> None:
     """Place the ball and signal the restart; robots take their positions.
 
-    Where a robot stands on the spot, the ball is placed as soon as it has gone; where an obstacle does, which nobody
-    moves, beside it.
+    If a robot stands on the spot, the ball is placed as soon as the robot has left. If an obstacle does, the ball is
+    placed beside it.
     """
     state, meant = draft.state, restart
     restart = clear_restart(draft.match, draft.snapshot, meant)
@@ -72,7 +74,7 @@ def signal(draft: RulingDraft, restart: Restart) -> None:
 
 
 def start(draft: RulingDraft, restart: Restart, remark: str = "") -> None:
-    """Give START of the signalled restart; the first of a half sets the clock going, a drop ball is in play at once."""
+    """Give START of the signalled restart; the first of a half starts the clock, and a drop ball is in play at once."""
     state = draft.state
     draft.state = state._replace(
         running=True,
@@ -89,7 +91,7 @@ def start(draft: RulingDraft, restart: Restart, remark: str = "") -> None:
 
 
 def advance(draft: RulingDraft, restart: Restart) -> None:
-    """What time and the ball bring about while a restart is signalled or taken."""
+    """Apply the effects of time and of the ball while a restart is signalled or taken."""
     if not draft.state.running:
         _before_start(draft, restart)
     elif draft.state.stage is not GameStage.SHOOT_OUT:
@@ -97,7 +99,7 @@ def advance(draft: RulingDraft, restart: Restart) -> None:
 
 
 def drop_settled_set_piece(draft: RulingDraft) -> None:
-    """Forget the set piece as soon as nothing of it binds anybody any more."""
+    """Drop the set piece as soon as its rules no longer restrict any robot."""
     piece = draft.state.set_piece
     if piece is None or draft.state.phase is not Phase.PLAY:
         return
@@ -106,7 +108,7 @@ def drop_settled_set_piece(draft: RulingDraft) -> None:
 
 
 def time_limit(draft: RulingDraft, restart: Restart) -> float:
-    """s after START until anybody may take the restart; in a shoot-out, until the attempt is over."""
+    """s after START until any robot may take the restart; in a shoot-out, until the attempt is over."""
     if draft.state.stage is GameStage.SHOOT_OUT:
         return draft.book.periods.shoot_out_limit
     numbers = draft.book.restarts
@@ -120,10 +122,10 @@ def from_spot(draft: RulingDraft, restart: Restart) -> float:
 
 
 def _before_start(draft: RulingDraft, restart: Restart) -> None:
-    """Between signal and START: the ball is kept on its spot, then START as soon as everybody stands legally."""
+    """Between signal and START: keep the ball on its spot, and give START as soon as all positions are legal."""
     numbers, timer = draft.book.restarts, draft.state.timing.timer
     if clear_restart(draft.match, draft.snapshot, restart) != restart:
-        signal(draft, restart)  # anew, beside the obstacle that somebody has put there meanwhile
+        signal(draft, restart)  # again, beside an obstacle that was added meanwhile
         return
     on_spot = from_spot(draft, restart) <= numbers.drift
     has_room = on_spot or not is_spot_covered(draft.match, draft.state, restart.spot, draft.snapshot)
@@ -141,7 +143,7 @@ def _before_start(draft: RulingDraft, restart: Restart) -> None:
 
 
 def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: tuple[PositionFault, ...]) -> None:
-    """The positions limit is over: who stands wrong is named, moved and shown a card as the rule book says."""
+    """START when the positions limit is over: name robots in wrong positions, move them or show them a card."""
     numbers = draft.book.restarts
     for fault in wrong:
         robot = draft.snapshot.robots[draft.match.roster.names.index(fault.robot)]
@@ -164,14 +166,14 @@ def _start_with_faults(draft: RulingDraft, restart: Restart, wrong: tuple[Positi
 
 
 def _before_play(draft: RulingDraft, restart: Restart) -> None:
-    """Between START and ball in play."""
+    """Between START and ball in play: the ball is in play after its free roll, or when the time is over."""
     numbers, piece = draft.book.restarts, draft.state.set_piece
     limit = time_limit(draft, restart)
     rolled = piece.rolled if piece is not None and numbers.restart_fouls else from_spot(draft, restart)
     if rolled >= numbers.in_play_distance:
-        _in_play(draft, restart, f"ball in play after {rolled:.2f} m, {numbers.in_play_distance:.2f} m asked")
+        _in_play(draft, restart, f"ball in play after {rolled:.2f} m, {numbers.in_play_distance:.2f} m required")
     elif reached(draft.state.timing.timer, limit):
-        _in_play(draft, restart, f"ball in play {limit:g} s after START: anybody may take it")
+        _in_play(draft, restart, f"ball in play {limit:g} s after START: any robot may take it")
 
 
 def _in_play(draft: RulingDraft, restart: Restart, text: str) -> None:

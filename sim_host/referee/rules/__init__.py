@@ -1,8 +1,9 @@
-"""The rules, in order: the first that decides in a tick is the only one to decide; a new rule is a file and a row."""
+"""The rules, in order: the first that decides in a tick is the only one. A new rule is a module and a row here."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
+from itertools import compress
 
 from schemas.game import GameStage
 from sim_host.referee.evidence.stays import NO_STAYS
@@ -37,16 +38,16 @@ from sim_host.referee.situation import Situation
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """One row: the file's name, its judgement, its numbers, and whether it judges only while the game runs."""
+    """One row: the name of the module, its judgement, its numbers, and when it is asked."""
 
     name: str
     judge: Callable[[Situation], Decision | None]
     numbers: tuple[str, ...] = ()
-    """What it looks up in the rule book, as `section.field`."""
+    """The numbers of the rule book that it uses, as `section.field`."""
     while_running: bool = True
-    """After START alone."""
+    """It judges only after START."""
     occasion: str = "always"
-    """What must be there for it to have anything to judge, by its name in `OCCASIONS`: a quiet tick asks few rules."""
+    """The occasion, from `OCCASIONS`, without which it has nothing to judge: in a quiet tick few rules are asked."""
 
 
 RESTART_FOUL = ("restarts.restart_fouls", "restarts.in_play_distance")
@@ -120,11 +121,11 @@ RULES_BY_TIME: Mapping[str, tuple[Rule, ...]] = {
     "halted": tuple(rule for rule in RULES if not rule.while_running),
     "shoot-out": SHOOT_OUT,
 }
-"""When → the rules that judge: after START; at any time, which is all where people officiate; in a shoot-out."""
+"""The rules that judge after START, while the game is halted or people officiate, and in a shoot-out."""
 
 
 def first_decision(situation: Situation, *, clocks_alone: bool = False) -> tuple[Rule, Decision] | None:
-    """The first rule that decides in this tick, with what it decides."""
+    """The first rule that decides in this tick, with its decision."""
     for rule in rules_to_ask(situation, clocks_alone=clocks_alone):
         decision = rule.judge(situation)
         if decision is not None:
@@ -138,11 +139,11 @@ def rules_to_ask(situation: Situation, *, clocks_alone: bool = False) -> tuple[R
 
 
 OCCASIONS = ("set piece", "crossing", "kick", "dribble", "pushes", "stays", "outside", "contest", "still ball")
-"""What rules wait for, in the order of `_occasions`."""
+"""The occasions that rules depend on, in the order of `_occasions`."""
 
 
 def _occasions(situation: Situation) -> tuple[bool, ...]:
-    """Which of these are there in this tick."""
+    """Which of `OCCASIONS` are present in this tick."""
     state = situation.state
     seen = state.evidence
     return (
@@ -160,8 +161,8 @@ def _occasions(situation: Situation) -> tuple[bool, ...]:
 
 @cache
 def _rules_for(time: str, there: tuple[bool, ...]) -> tuple[Rule, ...]:
-    """The rules of this time that have anything to judge."""
-    occasions = {"always", *(name for name, is_there in zip(OCCASIONS, there, strict=True) if is_there)}
+    """The rules of this time that may have anything to judge."""
+    occasions = {"always", *compress(OCCASIONS, there)}
     return tuple([rule for rule in RULES_BY_TIME[time] if rule.occasion in occasions])
 
 

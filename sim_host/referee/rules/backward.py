@@ -1,11 +1,11 @@
 """Backward dribble: a robot may drive backward with the ball for a short way, and a long way only once.
 
-A movement longer than `backward_once` is not repeated until the ball was visibly released or a new struggle with an
-opponent has lasted. The other side gets a free kick.
+A movement longer than `backward_once` may not be repeated until the ball was visibly released, or a new struggle with
+an opponent has lasted long enough. The other side gets a free kick.
 
 Section: play, backward dribble.
-Measures: the way against the kick axis, summed from the robot's velocity while it has the ball; half a second without
-moving backward ends a movement.
+Measures: the way against the kick axis, integrated from the robot's velocity while it has the ball; half a second
+without backward motion ends a movement.
 Not judged: driving sideways, and turning with the ball.
 """
 
@@ -15,7 +15,7 @@ from sim_host.referee.situation import Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A free kick for the other side where the ball is, or nothing."""
+    """A free kick for the other side where the ball is, or None."""
     dribble = situation.state.evidence.dribble
     if dribble is None or not dribble.backward:
         return None

@@ -1,4 +1,4 @@
-"""Double touch: the taker kicks, and touches the ball again before it is in play; the other side gets the restart.
+"""Double touch: the taker kicks, and touches the ball again before it is in play. The other side gets the restart.
 
 Section: restarts.
 Measures: the free roll between the kick and the second touch. Contacts in the first tenth of a second belong to the
@@ -14,7 +14,7 @@ from sim_host.referee.situation import Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """The restart for the other side, or nothing."""
+    """The restart for the other side, or None."""
     piece = being_taken(situation)
     if piece is None or piece.kicker is None or piece.kicker not in piece.now or piece.since_kick <= KICK_DURATION:
         return None

@@ -1,10 +1,10 @@
 """Dragged ball: at a restart, the taker moves the ball with its body instead of kicking it.
 
-The kick is to be instantaneous: before it, a ball that the taker touches may move as far as the rule book says. The
-restart goes to the other side.
+The kick has to be instantaneous: before it, a ball that the taker touches may move no farther than the rule book
+allows. The other side gets the restart.
 
-Section: restarts; 20 cm at a penalty since 2019, ours: at every restart.
-Measures: the way from the spot to the ball while the taker touches it, before its kick.
+Section: restarts; 20 cm at a penalty since 2019; ours: at every restart.
+Measures: the distance from the spot to the ball while the taker touches it, before its kick.
 Not judged: how the dribbler turns the ball on its spot.
 """
 
@@ -15,7 +15,7 @@ from sim_host.referee.situation import Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """The restart for the other side, or nothing."""
+    """The restart for the other side, or None."""
     piece = being_taken(situation)
     if piece is None or not piece.now or piece.kicker is not None:
         return None

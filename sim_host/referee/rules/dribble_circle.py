@@ -1,11 +1,12 @@
-"""Dribbling circle: a robot that has caught the ball may dribble it within a circle around that place.
+"""Dribbling circle: a robot that has caught the ball may dribble it within a circle around the place of the catch.
 
-To go on, it must visibly release the ball and catch it again, which moves the circle. The other side gets a free kick.
+To dribble farther, it must visibly release the ball and catch it again, which moves the circle. Otherwise the other
+side gets a free kick.
 
 Section: play, dribbling.
-Measures: the straight distance from where the ball was when it was caught to where it is while the robot holds it.
-The ball is released when there is air between it and the hull, or another robot touches it.
-Not judged: whether a release was meant as one.
+Measures: the straight distance between the places of the ball at the catch and now, while the robot holds it. The ball
+is released when there is enough air between it and the hull, or when another robot touches it.
+Not judged: whether a release was intended.
 """
 
 import math
@@ -16,7 +17,7 @@ from sim_host.referee.situation import Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A free kick for the other side where the ball is, or nothing."""
+    """A free kick for the other side where the ball is, or None."""
     dribble = situation.state.evidence.dribble
     if dribble is None or situation.snapshot.possession != dribble.robot:
         return None

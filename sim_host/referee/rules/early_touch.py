@@ -1,11 +1,11 @@
-"""Early touch: somebody else than the taker touches the ball before it is in play.
+"""Early touch: a robot other than the taker touches the ball before it is in play.
 
-A teammate of the taker gives the restart to the other side; an opponent has it repeated.
+If it is a teammate of the taker, the other side gets the restart. If it is an opponent, the restart is repeated.
 
 Section: restarts.
-Measures: who touches the ball, and how far it had rolled freely since the taker's touch; nothing after the time limit,
-when anybody may take it.
-Not judged: whether the opponent could have got out of the way.
+Measures: the robots that touch the ball, and its free roll since the taker's touch. The rule does not apply after the
+time limit, when any robot may play the ball.
+Not judged: whether the opponent could have avoided the ball.
 """
 
 from schemas.game import EventKind, Phase
@@ -15,7 +15,7 @@ from sim_host.referee.situation import Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """The restart for the other side, or the same again, or nothing."""
+    """The restart for the other side, or the same restart again, or None."""
     piece = being_taken(situation)
     if piece is None or not piece.now or piece.restart.phase is Phase.DROP_BALL:
         return None
@@ -24,18 +24,18 @@ def judge(situation: Situation) -> Decision | None:
         is_mate = roster.side_of(name) is side
         if is_mate and name in (piece.kicker, _first_of_side(situation)):
             continue
-        asked = situation.match.book.restarts.in_play_distance
+        required = situation.match.book.restarts.in_play_distance
         who = "a teammate of the taker" if is_mate else "an opponent"
         place = (situation.snapshot.ball.x, situation.snapshot.ball.y)
         return Decision(
             kind=EventKind.FOUL,
-            text=f"{name}, {who}, touched the ball after {piece.rolled:.2f} m, in play after {asked:.2f} m",
+            text=f"{name}, {who}, touched the ball after {piece.rolled:.2f} m, in play after {required:.2f} m",
             restart=given_away(situation, piece) if is_mate else piece.restart,
             side=roster.side_of(name),
             robot=name,
             place=place,
             measured=piece.rolled,
-            limit=asked,
+            limit=required,
             unit="m",
         )
     return None

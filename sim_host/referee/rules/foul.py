@@ -1,6 +1,6 @@
-"""What all fouls share: whether the rule book calls them, what the event says, and which restart follows from where.
+"""Common parts of all fouls: whether the rule book calls them, the text of the event, and the restart.
 
-The referee stops at once and plays no advantage: that is left to people, who may undo.
+The referee stops the game at once and plays no advantage. People may undo the decision.
 """
 
 from schemas.game import Card, EventKind, Phase
@@ -11,18 +11,18 @@ from sim_host.referee.placement.spots import restart_at
 from sim_host.referee.situation import Situation
 
 CARDS = {"on": None, "yellow": Card.YELLOW}
-"""The rule book's word → the card that goes with the restart."""
+"""The rule book's choice → the card that goes with the restart."""
 
 
 def exceeds(measured: float, limit: float) -> bool:
-    """Whether a measure is beyond its limit, and not by the rounding of a sum of ticks alone."""
+    """Whether a measured quantity exceeds its limit by more than the rounding of a sum of ticks."""
     return measured > limit + ROUNDING
 
 
 def is_called(situation: Situation, name: str) -> bool:
-    """Whether the rule book has the foul of that name called at all."""
-    word: str = getattr(situation.match.book.fouls, name)
-    return word != "off"
+    """Whether the rule book calls the foul of that name."""
+    choice: str = getattr(situation.match.book.fouls, name)
+    return choice != "off"
 
 
 def foul(
@@ -38,19 +38,19 @@ def foul(
     phase: Phase = Phase.FREE_KICK,
     restart_from: tuple[float, float] | None = None,
 ) -> Decision:
-    """The decision on a foul: the other side's restart from where the ball is, the first offender's card.
+    """The decision on a foul: a restart for the other side where the ball is, and a card for the first offender.
 
     Args:
-        scene: the tick it is found in.
-        name: of the foul in the rule book's section `fouls`.
+        situation: the tick in which the foul was found.
+        name: name of the foul in the rule book's section `fouls`.
         offenders: robots of one side, the one that is shown a card first.
         text: what they did, with quantity and limit.
         measured: the quantity that broke the rule, in `unit`.
-        limit: what the rule book allows, in `unit`.
-        unit: of both.
+        limit: the limit of the rule book, in `unit`.
+        unit: the unit of both.
         place: m; where it happened.
         phase: the restart.
-        restart_from: m; the place that its spot follows from, when that is not the ball's.
+        restart_from: m; the place that determines the spot of the restart, if not the ball's.
     """
     side = situation.match.roster.side_of(offenders[0])
     ball = situation.snapshot.ball
@@ -71,5 +71,5 @@ def foul(
 
 
 def is_own_half(situation: Situation, side: Side, x: float) -> bool:
-    """Whether a ball whose centre is at `x` lies wholly in the half that a side defends."""
+    """Whether a ball whose centre is at `x` is wholly in the half that a side defends."""
     return x * situation.state.attack(side) < -situation.match.ball.radius

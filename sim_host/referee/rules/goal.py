@@ -1,13 +1,14 @@
 """Goal: the whole ball over the goal line, between the posts and under the bar; own goals count for the other side.
 
-After a restart a goal of the side that took it counts once a second robot of that side has touched the ball, after a
-drop ball once two robots have, in a penalty at once. A ball that goes in before is a goal kick.
+After a restart, a goal of the side that took it counts only if a second robot of that side has touched the ball; after
+a drop ball, if two robots have touched it. A penalty may be scored directly. If a goal does not count for this reason,
+the other side has a goal kick.
 
 Section: play, scoring; restarts.
-Measures: the place where the whole ball had passed the line, and how many robots have touched the ball since START; the
-other side's having won the ball ends that. A goal is an own goal when a defender held or kicked the ball last, or
-nobody else touched it.
-Not judged: whether a defender who deflected the ball could help it.
+Measures: the place where the whole ball had passed the line, and the number of robots that have touched the ball since
+START, until the other side has won the ball. A goal is an own goal if a defender was the last robot to hold or kick the
+ball, or no attacker has touched it.
+Not judged: whether a defender who deflected the ball could avoid it.
 """
 
 from schemas.game import Card, EventKind, Phase
@@ -21,7 +22,7 @@ from sim_host.referee.wording import last_touch_text, place_text
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A goal, or nothing."""
+    """A goal, or one that does not count, or None."""
     crossing = situation.crossing
     if crossing is None or not is_in_goal(situation, crossing):
         return None
@@ -33,16 +34,16 @@ def judge(situation: Situation) -> Decision | None:
     place = (crossing.x, crossing.y)
     lack = why_no_goal(situation.state.set_piece, situation.match.book, situation.match.roster, scorers)
     if lack is not None:
-        touched_by, asked = lack
+        touched_by, required = lack
         return Decision(
             kind=EventKind.NO_GOAL,
-            text=f"no goal: {touched_by} robots have touched the ball since the restart, {asked} are asked",
+            text=f"no goal: {touched_by} robots have touched the ball since the restart, {required} required",
             restart=restart_at(situation.match, situation.state, Phase.GOAL_KICK, scorers.opponent, place),
             side=scorers,
             robot=robot,
             place=place,
             measured=touched_by,
-            limit=asked,
+            limit=required,
             unit="robots",
             card=Card.YELLOW if situation.match.book.fouls.direct_goal == "yellow" else None,
         )
@@ -60,6 +61,6 @@ def judge(situation: Situation) -> Decision | None:
 
 
 def is_in_goal(situation: Situation, crossing: Crossing) -> bool:
-    """Whether the ball passed the goal line through the mouth of the goal."""
+    """Whether the ball crossed the goal line between the posts and under the bar."""
     pitch = situation.match.pitch
     return crossing.line is Line.GOAL and abs(crossing.y) < pitch.goal_width / 2 and crossing.z < pitch.goal_height

@@ -1,12 +1,13 @@
-"""Goal area: nobody but the goalkeeper of the side that defends it is in a goal area.
+"""Goal area: only the goalkeeper of the defending side may stay in a goal area.
 
-While a goalkeeper is off the field, the first robot of its side that is on it keeps the goal (ours: the rule book lets
-teams choose). Another robot of that side is illegal defence, one of the other side illegal attack. The other side gets
-a free kick.
+While a goalkeeper is off the field, the first robot of its side that is on the field keeps the goal (ours: the rule
+book lets teams choose). Any other robot of the defending side commits illegal defence, a robot of the attacking side
+illegal attack. The opponents of the offender get a free kick.
 
 Section: play, illegal defence and attack.
-Measures: how long the centre of a robot has been inside the outer edges of the area's lines, or in the goal behind it.
-Not judged: who pushed it there; a hull that reaches over the line.
+Measures: the time for which the centre of a robot has been inside the outer edges of the area's lines, or in the goal
+behind it.
+Not judged: whether it was pushed there; a hull that reaches over the line.
 """
 
 from sim_host.referee.game.decision import Decision
@@ -15,7 +16,7 @@ from sim_host.referee.situation import Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A free kick for the other side, out of the area at the nearest restart spot, or nothing."""
+    """A free kick for the other side, at the restart spot nearest to the area, or None."""
     stays, limit = situation.state.evidence.stays.robots, situation.match.book.areas.goal_area_duration
     for stay in stays:
         if exceeds(stay.lasted, limit) and is_called(situation, "goal_area"):

@@ -1,11 +1,11 @@
 """Ball over the goal line outside the goal: a corner if a defender touched it last, a goal kick if an attacker did.
 
-A ball that the attackers kicked from their own half and that grazes a defender on its way out is a goal kick, too.
+A ball that the attackers kicked from their own half and that grazes a defender on its way out is also a goal kick.
 
 Section: restarts, corner and goal kick; play, scoring.
-Measures: the place where the whole ball had passed the line, who touched it last, and where the ball was at the last
-touch of the side that held or kicked it last.
-Not judged: whether a defender meant to touch it; a defender who held or kicked it has.
+Measures: the place where the whole ball had passed the line, the robot that touched it last, and the place of the ball
+at the last touch of the side that held or kicked it last.
+Not judged: whether a defender intended to touch the ball; one that held or kicked it did.
 """
 
 from schemas.game import Phase
@@ -18,7 +18,7 @@ from sim_host.referee.situation import Line, Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A corner, a goal kick, a drop ball when nobody touched the ball, or nothing."""
+    """A corner, a goal kick, a drop ball if no robot has touched the ball, or None."""
     crossing, robot = situation.crossing, situation.state.last_touch
     if crossing is None or crossing.line is not Line.GOAL or is_in_goal(situation, crossing):
         return None
@@ -33,7 +33,7 @@ def judge(situation: Situation) -> Decision | None:
 
 
 def _kicked_from_afar(situation: Situation, attackers: Side) -> bool:
-    """Whether the attackers played the ball last but for a touch in passing, and from their own half."""
+    """Whether the attackers, apart from a mere touch by a defender, played the ball last, and from their own half."""
     play = situation.state.evidence.play
     touch = play.of(attackers)
     return (

@@ -1,8 +1,8 @@
 """End of a half: its playing time is up.
 
 Section: match.
-Measures: the game clock, which runs from the first START of a half on, also through stoppages.
-Not judged: lost time, which nobody adds.
+Measures: the game clock, which runs from the first START of a half, also in stoppages.
+Not judged: lost time, which is not added.
 """
 
 from schemas.game import EventKind
@@ -12,7 +12,7 @@ from sim_host.referee.situation import Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """The end of the half at once, or nothing."""
+    """The immediate end of the half, or None."""
     state = situation.state
     if not state.timing.runs or not reached(state.clock, state.timing.limit):
         return None

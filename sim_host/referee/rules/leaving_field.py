@@ -1,8 +1,8 @@
-"""Leaving the field: a robot that takes part stays on the field; the other side gets a free kick.
+"""Leaving the field: a robot that takes part must stay on the field. Otherwise the other side gets a free kick.
 
-Section: play; the rule book lets a robot leave with the referee's leave alone, for repair, substitution or a card.
-Measures: how long the whole hull of a robot has been outside the lines, the goals included.
-Not judged: why it left, and who pushed it out; robots that the referee has off the field.
+Section: play; a robot may leave only with the referee's permission, for repair, substitution or a card.
+Measures: the time for which the whole hull of a robot has been outside the lines, also in a goal.
+Not judged: why it left, and whether it was pushed out; robots that are off the field by decision of the referee.
 """
 
 from sim_host.referee.game.decision import Decision
@@ -11,7 +11,7 @@ from sim_host.referee.situation import Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A free kick for the other side where the ball is, or nothing."""
+    """A free kick for the other side where the ball is, or None."""
     limit = situation.match.book.contact.outside_duration
     for index, lasted in situation.state.evidence.outside:
         name = situation.match.roster.names[index]
@@ -21,7 +21,7 @@ def judge(situation: Situation) -> Decision | None:
             and is_called(situation, "leaving_field")
         ):
             robot = situation.snapshot.robots[index]
-            text = f"{name} is outside the field for {lasted:.1f} s, limit {limit:.1f}"
+            text = f"{name} has been outside the field for {lasted:.1f} s, limit {limit:.1f}"
             return foul(
                 situation,
                 "leaving_field",

@@ -1,12 +1,12 @@
 """Lob from the own half: a high kick from the own half must be a pass.
 
-It is a foul when the kicker's side has at least three robots on the field, none of its teammates is near where the
-ball comes down, and the ball rose above 60 cm. The other side gets a free kick on the halfway line.
+It is a foul if the ball rose above 60 cm, no teammate of the kicker is near the place where it comes down, and the
+kicker's side has at least three robots on the field. The other side gets a free kick on the halfway line.
 
 Section: play, lob shots.
-Measures: where the kicker's centre was at the kick, the highest place of the ball's underside, and where it first came
-down; robots whose hull is wholly outside the lines are not on the field.
-Not judged: a ball that somebody touches, or that leaves the field, before it comes down.
+Measures: the place of the kicker's centre at the kick, the greatest height of the ball's underside, and the place where
+it first came down. Robots whose hull is wholly outside the lines do not count as on the field.
+Not judged: a ball that is touched, or that leaves the field, before it comes down.
 """
 
 import math
@@ -20,7 +20,7 @@ from sim_host.referee.wording import place_text
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A free kick for the other side on the halfway line, or nothing."""
+    """A free kick for the other side on the halfway line, or None."""
     flight = situation.state.evidence.flight
     if flight is None or not flight.just_landed or flight.landed is None:
         return None
@@ -59,6 +59,6 @@ def judge(situation: Situation) -> Decision | None:
 
 
 def _across(flight: Flight, landed: tuple[float, float]) -> float:
-    """y, m; where the way of the lob crosses the halfway line, or where it came down if it did not come so far."""
+    """y in m where the lob crosses the halfway line, or where it came down if it did not get that far."""
     (x, y), (to_x, to_y) = flight.kicked_from, landed
     return y + (to_y - y) * x / (x - to_x) if x * to_x < 0 else to_y

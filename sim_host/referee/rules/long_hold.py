@@ -1,7 +1,7 @@
-"""Long hold: no robot keeps the ball for longer than the rule book says; the other side gets a free kick.
+"""Long hold: a robot may not keep the ball for longer than the rule book allows. The other side gets a free kick.
 
-Section: China simulation league 2020, yellow cards; the league's own rule book has no such limit.
-Measures: time since the ball was caught, as long as it was not visibly released.
+Section: China simulation league 2020, yellow cards; the rule book of the Middle Size League has no such limit.
+Measures: the time since the ball was caught, as long as it was not visibly released.
 Not judged: whether the robot could have played it.
 """
 
@@ -11,7 +11,7 @@ from sim_host.referee.situation import Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A free kick for the other side where the ball is, or nothing."""
+    """A free kick for the other side where the ball is, or None."""
     dribble = situation.state.evidence.dribble
     if dribble is None or situation.snapshot.possession != dribble.robot:
         return None

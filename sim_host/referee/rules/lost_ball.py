@@ -1,10 +1,10 @@
-"""Lost ball: it lies outside the field or under the ground, and no line that it crossed explains it.
+"""Lost ball: the ball is outside the field or under the ground without having crossed a line.
 
 It is dropped at the nearest legal place.
 
-Section: none; ours, against what only a simulation can do to a ball.
+Section: none; ours, since only a simulation can lose a ball in this way.
 Measures: the place of the ball's centre.
-Not judged: how it came there.
+Not judged: how it got there.
 """
 
 from schemas.game import EventKind, Phase
@@ -15,7 +15,7 @@ from sim_host.referee.wording import place_text
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A drop ball at the nearest legal place, or nothing; the rules on the lines have judged before."""
+    """A drop ball at the nearest legal place, or None; the rules on the lines are asked before."""
     match, ball = situation.match, situation.snapshot.ball
     outside = abs(ball.x) > match.out_x or abs(ball.y) > match.out_y
     if not outside and ball.z >= -match.ball.radius:

@@ -1,12 +1,13 @@
-"""Ball holding: a robot that moves the ball lets it turn as a rolling ball does.
+"""Ball holding: a robot that moves the ball must let it turn like a rolling ball.
 
-It may be kept from turning for a second and 30 cm, and after a wait again. The other side gets a free kick.
+It may keep the ball from turning for one second and 30 cm, and again after a pause. Otherwise the other side gets a
+free kick.
 
 Section: play, ball handling.
-Measures: time and way for which a ball in the hold moves faster than 0.1 m/s and turns at less than half the natural
-rate, by the spin that the engine gives it; both begin anew after the rule book's wait.
-Not judged: how deep the ball lies in the hull, which the robot's model fixes; a ball that stands still; a ball
-that an opponent is at, too, which he may keep from turning.
+Measures: time and way for which a held ball moves faster than 0.1 m/s and has less than half the spin of a rolling
+ball, as the engine reports it; both start again at zero after the rule book's pause.
+Not judged: the depth of the ball in the hull, which the robot's model fixes; a ball at rest; a ball that an opponent is
+also at, since the opponent may keep it from turning.
 """
 
 from sim_host.referee.game.decision import Decision
@@ -15,7 +16,7 @@ from sim_host.referee.situation import Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A free kick for the other side where the ball is, or nothing."""
+    """A free kick for the other side where the ball is, or None."""
     dribble = situation.state.evidence.dribble
     if dribble is None or not dribble.slid:
         return None

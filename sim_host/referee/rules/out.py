@@ -1,4 +1,4 @@
-"""What both ball-out rules say: over which line, where, last touched by whom, and how the game goes on."""
+"""The common decision of both ball-out rules: line, place, last touch, and restart."""
 
 from schemas.game import EventKind, Phase
 from schemas.side import Side
@@ -9,7 +9,7 @@ from sim_host.referee.wording import last_touch_text, place_text
 
 
 def ball_out(situation: Situation, crossing: Crossing, phase: Phase, taker: Side | None) -> Decision:
-    """The restart of `taker`, or a drop ball when nobody touched the ball since START."""
+    """The decision on a ball that is out: a restart of `taker`, or of neither side if it is None."""
     robot = situation.state.last_touch
     place = (crossing.x, crossing.y)
     return Decision(

@@ -1,11 +1,11 @@
 """Own goal from the own restart: a ball that goes straight from a restart into the taker's own goal is a corner.
 
-Once the ball is being played, an own goal counts for the other side as any goal.
+Once another robot has touched the ball, an own goal counts for the other side like any goal.
 
-Section: restarts; as the laws of the game have it, since the league's rule book counts no goal of one robot alone.
-Measures: whether a single robot, of the taker's side, has touched the ball since START; a rule book that asks for no
-second robot lets the goal count.
-Not judged: whether another robot's touch was more than one in passing.
+Section: restarts; follows the Laws of the Game, since in the league's rule book one robot alone cannot score.
+Measures: whether a single robot, of the taker's side, has touched the ball since START; with a rule book that requires
+no second robot, the goal counts.
+Not judged: whether another robot's touch was more than a deflection.
 """
 
 from schemas.game import EventKind, Phase
@@ -18,14 +18,14 @@ from sim_host.referee.wording import last_touch_text, place_text
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A corner for the other side, or nothing."""
+    """A corner for the other side, or None."""
     crossing, piece = situation.crossing, situation.state.set_piece
     if crossing is None or piece is None or not is_in_goal(situation, crossing):
         return None
     scorers = next(side for side in Side if situation.state.attack(side) * crossing.x > 0)
-    taker, asked = piece.restart.side, situation.match.book.scoring.robots_touched
+    taker, required = piece.restart.side, situation.match.book.scoring.robots_touched
     alone = len(piece.touched) == piece.touchers(situation.match.roster, taker) == 1 if taker is not None else False
-    if taker is not scorers.opponent or not alone or asked == 1:
+    if taker is not scorers.opponent or not alone or required == 1:
         return None
     place = (crossing.x, crossing.y)
     return Decision(
@@ -37,6 +37,6 @@ def judge(situation: Situation) -> Decision | None:
         robot=situation.state.last_touch,
         place=place,
         measured=1,
-        limit=asked,
+        limit=required,
         unit="robots",
     )

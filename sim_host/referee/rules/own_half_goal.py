@@ -1,14 +1,14 @@
-"""Goals from the own half: a goal counts when it is kicked in the other half, and prepared by a pass if need be.
+"""Goals from the own half: a goal counts only if it is scored from the other half, in some cases after a pass.
 
-If the side won the ball in its own half, a teammate must have received a pass in the other half, after a metre of free
-roll. Otherwise the goal does not count, and the other side has a goal kick. A touch of a defender on the way changes
-nothing; a defender who held or kicked the ball into its own goal has scored for the other side.
+If the side won the ball in its own half, a teammate must have received a pass in the other half, after one metre of
+free roll. Otherwise the goal does not count, and the other side has a goal kick. A defender's touch on the way does not
+matter; a defender that held or kicked the ball into its own goal has scored for the other side.
 
 Section: play, scoring.
-Measures: where the ball was at the last touch of the side that would score, where that side came into control of it,
-and the straight way between the touches of two of its robots; a ball that reaches over the halfway line is in the other
-half.
-Not judged: whether the receiver meant to receive.
+Measures: the place of the ball at the last touch of the side that would score, the place where that side gained control
+of it, and the straight distance between the touches of two of its robots. A ball that reaches over the halfway line is
+in the other half.
+Not judged: whether the receiver intended to receive the ball.
 """
 
 from schemas.game import EventKind, Phase
@@ -23,7 +23,7 @@ from sim_host.referee.wording import place_text
 
 
 def judge(situation: Situation) -> Decision | None:
-    """No goal, and a goal kick for the defenders; or nothing."""
+    """No goal, and a goal kick for the defenders; or None."""
     crossing = situation.crossing
     if crossing is None or not is_in_goal(situation, crossing) or not is_called(situation, "own_half_goal"):
         return None
@@ -38,8 +38,8 @@ def judge(situation: Situation) -> Decision | None:
         return _no_goal(situation, crossing, side, touch, text, measured, 0.0)
     if play.won is not None and is_own_half(situation, side, play.won[0]) and not play.received:
         text = (
-            f"{touch.robot} played the ball last, won in its own half at {place_text(play.won)}, and nobody received a "
-            f"pass in the other; the last one rolled {play.rolled:.2f} m, limit {limit:.2f}"
+            f"{touch.robot} played the ball last, won in its own half at {place_text(play.won)}, and no teammate "
+            f"received a pass in the other; the last one rolled {play.rolled:.2f} m, limit {limit:.2f}"
         )
         return _no_goal(situation, crossing, side, touch, text, play.rolled, limit)
     return None

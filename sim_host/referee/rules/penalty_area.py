@@ -1,11 +1,12 @@
-"""Penalty area: at most one robot of each side, besides the goalkeeper in its own, is in a penalty area for long.
+"""Penalty area: only one robot of each side, besides the goalkeeper in its own area, may stay in a penalty area.
 
-More of the defending side is illegal defence, more of the other illegal attack. The other side gets a free kick.
+More robots of the defending side commit illegal defence, more of the attacking side illegal attack. The opponents of
+the offenders get a free kick.
 
 Section: play, illegal defence and attack.
-Measures: how long more robots of one side than allowed have had their centres in the area, whoever they were; of these
-the one farthest from the ball is named first.
-Not judged: who came last, and who was pushed there.
+Measures: the time for which more robots of one side than allowed have had their centres in the area, even if the robots
+changed. The one farthest from the ball is named first.
+Not judged: which of them came last, and whether one was pushed there.
 """
 
 import math
@@ -16,7 +17,7 @@ from sim_host.referee.situation import Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A free kick for the other side, out of the area at the nearest restart spot, or nothing."""
+    """A free kick for the other side, at the restart spot nearest to the area, or None."""
     crowds, areas = situation.state.evidence.stays.crowds, situation.match.book.areas
     limit = areas.penalty_area_duration
     for crowd in crowds:
@@ -28,8 +29,8 @@ def judge(situation: Situation) -> Decision | None:
             names = tuple([roster.names[index] for index in order])
             defends = situation.state.attack(roster.sides[farthest]) != crowd.end
             text = (
-                f"illegal {'defence' if defends else 'attack'}: {' and '.join(names)} are in a penalty area, "
-                f"{areas.penalty_area_robots} of a side may be, for {crowd.lasted:.1f} s, limit {limit:.1f}"
+                f"illegal {'defence' if defends else 'attack'}: {' and '.join(names)} in a penalty area, at most "
+                f"{areas.penalty_area_robots} of a side allowed, for {crowd.lasted:.1f} s, limit {limit:.1f}"
             )
             at = robots[farthest]
             return foul(

@@ -1,11 +1,11 @@
-"""Pushing: a robot that leans on an opponent must not drive it away.
+"""Pushing: a robot that leans on an opponent must not push it away.
 
-The other side gets a free kick; in the offender's own penalty area, a penalty.
+The other side gets a free kick, or a penalty if the offender is in its own penalty area.
 
 Section: play, pushing.
-Measures: how far both robots have moved along the line between their centres, toward the one that is pushed, while
-the engine reports them in contact.
-Not judged: intent, and who had the right to the ball: who moves the other is the offender.
+Measures: the way that both robots have moved along the line between their centres, toward the pushed robot, while the
+engine reports them in contact.
+Not judged: intent, and the right to the ball; the robot that moves the other is the offender.
 """
 
 from schemas.game import Phase
@@ -16,7 +16,7 @@ from sim_host.referee.situation import Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A free kick or a penalty for the other side, or nothing."""
+    """A free kick or a penalty for the other side, or None."""
     limit = situation.match.book.contact.push_distance
     for push in situation.state.evidence.pushes:
         if not exceeds(abs(push.way), limit) or not is_called(situation, "pushing"):

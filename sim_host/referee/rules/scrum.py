@@ -1,12 +1,12 @@
-"""Scrum: a ball that both sides are at and nobody gets away with is dropped where it is.
+"""Scrum: a ball that both sides are at, and that makes no progress, is dropped where it is.
 
-The drop is fair: it lies where both had it, or outside a penalty area at the nearest restart spot, belongs to nobody,
-and everybody keeps the same distance.
+The drop is fair: the ball is where both sides had it, or at the nearest restart spot outside a penalty area; neither
+side has it, and all robots keep the same distance.
 
-Section: play, pushing: stand-off; ours where no two robots touch each other.
-Measures: how long robots of both sides have been within `reach` of the ball, hull to hull, with gaps shorter than
-0.5 s, since the ball last came as far as `progress`.
-Not judged: who of them holds the ball meanwhile.
+Section: play, pushing: stand-off; ours if no two robots touch each other.
+Measures: the time for which robots of both sides have been within `reach` of the ball, hull to hull, with gaps shorter
+than 0.5 s, since the ball last moved by `progress`.
+Not judged: which robot holds the ball in this time.
 """
 
 from schemas.game import EventKind, Phase
@@ -17,7 +17,7 @@ from sim_host.referee.wording import place_text
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A drop ball, or nothing."""
+    """A drop ball, or None."""
     contest = situation.state.evidence.contest
     numbers = situation.match.book.scrum
     if contest is None or contest.stuck < numbers.duration:

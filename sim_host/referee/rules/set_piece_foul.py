@@ -1,4 +1,4 @@
-"""What the rules on taking a restart share: when they judge, and who gets the restart when it is fouled."""
+"""Common parts of the rules on taking a restart: when they judge, and the restart after a foul."""
 
 from schemas.game import Phase
 from sim_host.referee.game.restart import Restart
@@ -7,11 +7,11 @@ from sim_host.referee.placement.spots import restart_at
 from sim_host.referee.situation import Situation
 
 KEPT = frozenset({Phase.KICK_OFF, Phase.THROW_IN})
-"""Restarts that stay what they are when the other side gets them; the others become free kicks."""
+"""Restarts that keep their kind when the other side gets them; the others become free kicks."""
 
 
 def being_taken(situation: Situation) -> SetPiece | None:
-    """The restart that was started and is not in play yet, where the rule book has fouls in it."""
+    """The started restart that is not in play yet, or None; None also if the rule book has no restart fouls."""
     state = situation.state
     piece = state.set_piece
     if piece is None or state.phase is Phase.PLAY:

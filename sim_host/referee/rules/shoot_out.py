@@ -1,13 +1,13 @@
 """Penalty shoot-out: one attempt ends with a goal or without one.
 
-The kicker starts in the centre circle, catches the ball, and from then on moves it toward the goal alone; it kicks
-once, before the ball enters the penalty area. The attempt is over without a goal when the ball leaves the field, enters
-the penalty area without a kick, moves away from the goal in the kicker's hold, is touched by the kicker's side again
-after its kick, is held by the other side, lies still after the kick, or when the time is up.
+The kicker starts in the centre circle, catches the ball, moves it only toward the goal, and kicks once, before the ball
+enters the penalty area. The attempt ends without a goal when the ball leaves the field, enters the penalty area without
+a kick, moves away from the goal while the kicker holds it, is touched again by the kicker's side after the kick, is
+held by the other side, is at rest after the kick, or when the time is up.
 
 Section: match, play-offs; penalty shoot-out.
 Measures: the place of the ball, the kick, touches after it, and the time since START.
-Not judged: what robots do that wait behind the halfway line, after START.
+Not judged: what the robots behind the halfway line do after START.
 """
 
 from schemas.game import EventKind
@@ -20,13 +20,13 @@ from sim_host.referee.rules.goal import is_in_goal
 from sim_host.referee.situation import Situation
 
 BACKWARD = 0.2
-"""m that a held ball may come away from the goal: the noise of a robot that turns with it (ours)."""
+"""m that a held ball may move away from the goal, as when a robot turns with it (ours)."""
 SLOW = 1.0
-"""s after the kick from which a ball that lies still ends the attempt (ours)."""
+"""s after the kick, from when on a ball at rest ends the attempt (ours)."""
 
 
 def judge(situation: Situation) -> Decision | None:
-    """The end of the attempt, or nothing."""
+    """The end of the attempt, or None."""
     piece, side = situation.state.set_piece, situation.state.side
     if piece is None or side is None:
         return None
@@ -40,7 +40,7 @@ def judge(situation: Situation) -> Decision | None:
 
 
 def _missed(situation: Situation, piece: SetPiece, side: Side) -> tuple[str, float | None, float | None, str] | None:
-    """Why the attempt is over without a goal: sentence, measured, limit and unit."""
+    """Why the attempt has ended without a goal: text, measured quantity, limit and unit; or None."""
     state, snapshot, match = situation.state, situation.snapshot, situation.match
     ball, end, limit = snapshot.ball, state.attack(side), match.book.periods.shoot_out_limit
     if reached(state.timing.timer, limit):
@@ -56,12 +56,12 @@ def _missed(situation: Situation, piece: SetPiece, side: Side) -> tuple[str, flo
     if again and piece.since_kick > KICK_DURATION:
         return f"{again[-1]} touched the ball again after the kick, one kick is allowed", None, None, ""
     if piece.since_kick > SLOW and ball.vx**2 + ball.vy**2 + ball.vz**2 < match.book.stall.still_speed**2:
-        return "the ball lies still after the kick", None, None, ""
+        return "the ball is at rest after the kick", None, None, ""
     return None
 
 
 def _backward(situation: Situation, side: Side) -> tuple[str, float, float, str] | None:
-    """The ball is held and comes away from the goal."""
+    """The end of the attempt because the kicker has moved the held ball away from the goal; or None."""
     out, snapshot = situation.state.shoot_out, situation.snapshot
     holder = snapshot.possession
     if out is None or out.nearest is None or holder is None or situation.match.roster.side_of(holder) is not side:

@@ -1,8 +1,8 @@
-"""Stalled ball: nobody has moved the ball in play for long, so it is dropped.
+"""Stalled ball: a ball in play that has not moved for a long time is dropped.
 
-Section: play, pushing: stand-off; ours where no robot is near.
-Measures: how long the ball in play has been slower than the rule book's speed.
-Not judged: why nobody plays it.
+Section: play, pushing: stand-off; ours if no robot is near.
+Measures: the time for which the ball in play has been slower than the rule book's speed.
+Not judged: why no robot plays it.
 """
 
 from schemas.game import EventKind, Phase
@@ -14,7 +14,7 @@ from sim_host.referee.wording import place_text
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A drop ball where the ball lies, out of a penalty area at the nearest restart spot, or nothing."""
+    """A drop ball where the ball is, in a penalty area at the nearest restart spot outside it, or None."""
     still = situation.state.still
     if not reached(still, situation.match.book.stall.still_duration):
         return None

@@ -1,7 +1,7 @@
-"""Stand-off: two opponents that lean on each other for long, neither giving way, end it by a dropped ball.
+"""Stand-off: the ball is dropped when two opponents have leaned on each other for a long time.
 
 Section: play, pushing: stand-off.
-Measures: how long the engine has reported the two in contact, with gaps shorter than 0.2 s.
+Measures: the time for which the engine has reported the two in contact, with gaps shorter than 0.2 s.
 Not judged: which of them began.
 """
 
@@ -12,7 +12,7 @@ from sim_host.referee.situation import Situation
 
 
 def judge(situation: Situation) -> Decision | None:
-    """A drop ball where the ball is, out of a penalty area at the nearest restart spot, or nothing."""
+    """A drop ball where the ball is, in a penalty area at the nearest restart spot outside it, or None."""
     limit = situation.match.book.contact.stand_off_duration
     for push in situation.state.evidence.pushes:
         if push.lasted < limit:
@@ -22,7 +22,7 @@ def judge(situation: Situation) -> Decision | None:
         place = (ball.x, ball.y)
         return Decision(
             kind=EventKind.STALL,
-            text=f"stand-off: {' and '.join(robots)} lean on each other for {push.lasted:.1f} s, limit {limit:.1f}",
+            text=f"stand-off: {' and '.join(robots)} leaned on each other for {push.lasted:.1f} s, limit {limit:.1f}",
             restart=restart_at(situation.match, situation.state, Phase.DROP_BALL, None, place),
             robots=robots,
             place=place,

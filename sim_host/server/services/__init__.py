@@ -1,4 +1,4 @@
-"""Where others put questions to the host: one handler for each kind, all attended to between two ticks."""
+"""The services of the host on the bus: one handler for each kind of request, all processed between two ticks."""
 
 from collections.abc import Callable, Sequence
 
@@ -14,7 +14,7 @@ from sim_host.server.services.query_handler import QueryHandler
 
 
 class Services:
-    """Answers between two ticks."""
+    """All services of a host, processed between two ticks."""
 
     def __init__(
         self,
@@ -24,7 +24,8 @@ class Services:
         batches: BatchPublisher,
         has_referee_box: Callable[[], bool],
     ) -> None:
-        """`has_referee_box` tells whether a league's referee box decides: then nobody else does."""
+        """`has_referee_box` returns whether a league's referee box is connected, which then officiates alone."""
+        self._batches = batches
         self._setup = QueryHandler(bus, SETUP, lambda _: simulation.setup(), invalid_log)
         self._parameters = QueryHandler(bus, PARAMETERS, simulation.handle_parameters, invalid_log)
         self._scene = QueryHandler(bus, SCENE, simulation.handle_scene, invalid_log)
@@ -33,25 +34,30 @@ class Services:
 
     @property
     def actions(self) -> Sequence[RefereeAction]:
-        """Noted, and to be put to the referee in the next tick."""
+        """Requested actions, which the referee decides on in the next tick."""
         return self._actions.actions
 
     def process(self) -> None:
-        """Take in orders, answer what can be answered at once, and note the actions asked for.
+        """Receive orders, reply to queries, and queue the requested actions.
 
-        Who asks for the setup after giving an order knows by the answer that the order was taken in.
+        Orders come first: a client that queries the setup after sending an order sees the order in the reply.
         """
         for handler in (self._orders, self._parameters, self._scene, self._setup, self._actions):
             handler.process()
+        self._batches.process()
 
-    def answer_setup(self) -> None:
-        """Say how the match is set up to whoever asks; an agent that is waited for may have to know first."""
+    def attend_meanwhile(self) -> None:
+        """Answer what may not wait for the end of a tick.
+
+        An agent that is waited for may have to know the setup first, a recorder that is waited for may need batches.
+        """
         self._setup.process()
+        self._batches.process()
 
     def reply(self, replies: Sequence[ActionReply]) -> None:
-        """Answer the actions noted, in order, and forget them."""
+        """Reply to the queued actions, in order, and clear the queue."""
         self._actions.reply(replies)
 
     def refuse(self, reason: str) -> None:
-        """Answer the actions noted with a refusal, and forget them."""
+        """Refuse the queued actions, and clear the queue."""
         self._actions.refuse(reason)

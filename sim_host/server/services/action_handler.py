@@ -1,4 +1,4 @@
-"""The handler that takes actions to the referee: each is noted, judged in the next tick, and answered after it."""
+"""The handler of referee actions: each is queued, decided in the next tick, and replied to after that tick."""
 
 from collections.abc import Callable, Sequence
 
@@ -9,24 +9,24 @@ from schemas.topics import ACTION
 from sim_host.server.invalid_log import InvalidLog
 
 REFEREE_BOX_DECIDES = ActionReply(
-    accepted=False, reason="a league's referee box is connected and officiates; only stop is left"
+    accepted=False, reason="a league's referee box is connected and officiates; only stop is accepted"
 )
 
 
 class ActionHandler:
-    """Notes what the referee is asked for; while a league's referee box officiates, others may only stop the game."""
+    """Queues requested actions; while a league's referee box officiates, other clients may only stop the game."""
 
     def __init__(self, bus: Bus, invalid_log: InvalidLog, has_referee_box: Callable[[], bool]) -> None:
-        """`has_referee_box` tells whether a referee box is connected."""
+        """`has_referee_box` returns whether a referee box is connected."""
         self._questions = bus.serve(ACTION)
         self._invalid_log = invalid_log
         self._has_referee_box = has_referee_box
         self._pending: list[Query] = []
         self.actions: list[RefereeAction] = []
-        """Noted, and to be put to the referee in the next tick."""
+        """Requested actions, which the referee decides on in the next tick."""
 
     def process(self) -> None:
-        """Note the actions asked for."""
+        """Queue the actions that have been requested."""
         while (query := self._questions.receive()) is not None:
             try:
                 action: RefereeAction = query.message()
@@ -41,12 +41,12 @@ class ActionHandler:
                 self._pending.append(query)
 
     def reply(self, replies: Sequence[ActionReply]) -> None:
-        """Answer the actions noted, in order, and forget them."""
+        """Reply to the queued actions, in order, and clear the queue."""
         for query, reply in zip(self._pending, replies, strict=True):
             query.reply(reply)
         self._pending.clear()
         self.actions.clear()
 
     def refuse(self, reason: str) -> None:
-        """Answer the actions noted with a refusal, and forget them."""
+        """Refuse the queued actions, and clear the queue."""
         self.reply([ActionReply(accepted=False, reason=reason)] * len(self._pending))

@@ -1,4 +1,4 @@
-"""The handler that takes in the coaches' orders: the newest of each side stands."""
+"""The handler of the coaches' orders: the newest order of each side is active."""
 
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, ReceivedMessage
@@ -15,14 +15,14 @@ class OrderHandler:
     def __init__(
         self, bus: Bus, active: dict[Side, CoachOrder], invalid_log: InvalidLog, batches: BatchPublisher
     ) -> None:
-        """`active` is where the orders are kept: side → its newest."""
+        """`active` maps each side to its newest order, and is updated in place."""
         self._orders = bus.subscribe(ORDER)
         self._active = active
         self._invalid_log = invalid_log
         self._batches = batches
 
     def process(self) -> None:
-        """Take in what has come."""
+        """Process all orders that have arrived."""
         while (received := self._orders.receive()) is not None:
             self._batches.add_received(received)
             try:
@@ -32,7 +32,7 @@ class OrderHandler:
                 continue
             active = self._active.get(side)
             if order == active:
-                continue  # said twice
+                continue  # sent twice
             reason = order.refusal_after(active)
             if reason:
                 self._invalid_log.add(received.key, reason, received.payload)

@@ -1,4 +1,4 @@
-"""A handler that answers each question of one topic as soon as it is read."""
+"""A handler that replies to each query of one topic as soon as it is received."""
 
 from collections.abc import Callable
 from typing import Any
@@ -10,16 +10,16 @@ from sim_host.server.invalid_log import InvalidLog
 
 
 class QueryHandler:
-    """Answers one topic."""
+    """Replies to the queries of one topic."""
 
     def __init__(self, bus: Bus, topic: Topic, answer: Callable[[Any], Message], invalid_log: InvalidLog) -> None:
-        """`answer` is given the valid query, and gives the reply."""
+        """`answer` returns the reply to a valid query."""
         self._questions = bus.serve(topic)
         self._answer = answer
         self._invalid_log = invalid_log
 
     def process(self) -> None:
-        """Answer all that were asked."""
+        """Reply to all queries that have arrived."""
         while (query := self._questions.receive()) is not None:
             try:
                 asked = query.message()

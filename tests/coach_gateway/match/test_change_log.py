@@ -3,7 +3,6 @@ import threading
 import pytest
 
 from coach_gateway.match.change_log import log_changes
-from coach_gateway.match.host_presence import HostPresence
 from schemas.bus.in_process_bus import Medium
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, GameEvent, GameState, Phase, Score
@@ -13,7 +12,7 @@ from schemas.topics import EVENT, STATE
 
 
 class HostOf:
-    """A host whose next words come whenever the watcher's clock moves on, one at a time; then it leaves."""
+    """A host that publishes its next message whenever the watcher's clock advances, and leaves after the last."""
 
     def __init__(self, *messages: GameState | GameEvent) -> None:
         self.medium = Medium()
@@ -53,7 +52,7 @@ def state(clock: float, phase: Phase = Phase.PLAY, side: Side | None = None, run
     return GameState(tick=1, time=clock, clock=clock, phase=phase, side=side, running=running, score=Score(cyan=2))
 
 
-def test_a_line_is_said_when_something_changes_and_not_when_only_the_clock_runs() -> None:
+def test_a_line_is_logged_when_something_changes_and_not_when_only_the_clock_runs() -> None:
     said = lines_of(state(0.0), state(1.0), state(61.25, Phase.THROW_IN, Side.MAGENTA), state(62.0))
     assert said == [
         " 0:00.0  half 1  cyan 2 : 0 magenta  play",
@@ -62,12 +61,12 @@ def test_a_line_is_said_when_something_changes_and_not_when_only_the_clock_runs(
     ]
 
 
-def test_every_event_is_said_in_its_own_words() -> None:
+def test_every_event_is_logged_with_its_text() -> None:
     event = GameEvent(tick=5, time=0.1, clock=0.1, kind=EventKind.BALL_OUT, rule="ball_out", text="over the touch line")
     assert lines_of(event, event) == [" 0:00.1  ball out: over the touch line"] * 2
 
 
-def test_watching_a_match_that_nobody_plays_says_so() -> None:
+def test_watching_a_match_without_a_host_is_an_error_with_the_reason() -> None:
     bus = Medium().open_bus("cup", SteppedClock())
     with pytest.raises(TouchlineError, match='match "cup": no host plays it there'):
         log_changes(bus, lambda line: None, threading.Event())
@@ -79,14 +78,3 @@ def test_a_stop_ends_the_watch_while_the_host_goes_on() -> None:
     stop.set()
     log_changes(host.medium.open_bus("friendly", SteppedClock()), lambda line: None, stop)
     assert host.bus.connected()
-
-
-def test_a_host_that_was_never_seen_is_not_gone() -> None:
-    medium = Medium()
-    presence = HostPresence(medium.open_bus("friendly", SteppedClock()))
-    assert not presence.gone()
-    host = medium.open_bus("friendly", SteppedClock())
-    host.declare_alive("host", "host")
-    assert not presence.gone()
-    host.close()
-    assert presence.gone()

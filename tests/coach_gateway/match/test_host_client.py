@@ -15,7 +15,7 @@ from schemas.topics import ACTION, ACTIVE_ORDER, ORDER, SETUP
 from support.messages import make_setup
 
 MICROSECONDS = 1_795_275_009_214_000
-"""Since 1970: far beyond what a clock in ms will say."""
+"""Since 1970: far beyond any clock in ms."""
 
 
 @pytest.fixture
@@ -70,7 +70,7 @@ def test_an_action_reaches_the_referee_and_its_answer_comes_back(medium: Medium,
 
 
 def test_an_action_without_a_host_names_the_match_and_what_to_do(medium: Medium) -> None:
-    with pytest.raises(TouchlineError, match=r'match "friendly": nobody answers game/action; name the match'):
+    with pytest.raises(TouchlineError, match=r'match "friendly": no process answers game/action; name the match'):
         HostClient(seat(medium)).act(RefereeAction(action=ActionName.STOP))
 
 
@@ -111,7 +111,7 @@ def test_an_order_that_contradicts_itself_is_refused_with_the_reason(medium: Med
         HostClient(seat(medium)).order(Side.CYAN, mode=CoachMode.TEST, test="move")
 
 
-def test_an_order_is_numbered_after_the_one_that_stands_whatever_the_clock_says(
+def test_an_order_is_numbered_after_the_active_one_whatever_the_clock_has(
     medium: Medium, host: list[RefereeAction]
 ) -> None:
     gateway = HostClient(seat(medium))
@@ -122,7 +122,7 @@ def test_an_order_is_numbered_after_the_one_that_stands_whatever_the_clock_says(
     assert gateway.order(Side.CYAN).sequence == ahead.sequence + 1
 
 
-def test_a_coach_who_has_just_come_goes_on_from_the_number_that_stands_however_large(
+def test_a_new_coach_goes_on_from_the_number_of_the_active_order_however_large(
     medium: Medium, host: list[RefereeAction]
 ) -> None:
     first = HostClient(seat(medium)).order(Side.MAGENTA)
@@ -131,7 +131,7 @@ def test_a_coach_who_has_just_come_goes_on_from_the_number_that_stands_however_l
 
 
 class AnsweringClock(SteppedClock):
-    """Has another robot acknowledge whenever somebody waits."""
+    """Has another robot acknowledge whenever the clock is waited on."""
 
     __slots__ = ("say",)
 

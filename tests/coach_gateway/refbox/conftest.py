@@ -1,4 +1,4 @@
-"""The league's schema of a world state, written from the table of reference 9.4 and from nothing of ours."""
+"""The league's schema of a world state, written from MSLWMD of RefBox and from nothing of ours."""
 
 import math
 from collections.abc import Callable

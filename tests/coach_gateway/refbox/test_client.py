@@ -51,7 +51,7 @@ def asked(bench: Any) -> list[str]:
 
 
 def test_every_restart_in_json_reaches_the_referee_for_the_right_side(met: Any, until: Any) -> None:
-    """Reference 13, row 33: with the addresses of the box, of which the first welcomed is ours."""
+    """With the addresses of the box; the first that is welcomed is ours."""
 
     async def play() -> None:
         async with met() as (bench, box, _):
@@ -79,9 +79,7 @@ def test_every_restart_as_a_character_reaches_the_referee_for_the_right_side(met
 
 
 @pytest.mark.parametrize("protocol", [BoxProtocol.AUTO, BoxProtocol.JSON])
-def test_fragments_and_several_commands_in_one_packet_are_all_heard(
-    protocol: BoxProtocol, met: Any, until: Any
-) -> None:
+def test_fragments_and_several_commands_in_one_packet_are_all_read(protocol: BoxProtocol, met: Any, until: Any) -> None:
     async def play() -> None:
         async with met(protocol) as (bench, box, _):
             bench.stage.say(phase=Phase.STOPPED)
@@ -98,7 +96,7 @@ def test_fragments_and_several_commands_in_one_packet_are_all_heard(
     asyncio.run(play())
 
 
-def test_garbage_between_commands_is_counted_and_the_next_one_heard(met: Any, until: Any) -> None:
+def test_garbage_between_commands_is_counted_and_the_next_command_read(met: Any, until: Any) -> None:
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
@@ -108,7 +106,7 @@ def test_garbage_between_commands_is_counted_and_the_next_one_heard(met: Any, un
             await until(lambda: bench.stage.asked)
             assert asked(bench) == ["corner magenta"]
             await until(lambda: client.counts["unreadable"] == 5)  # a broken piece counts what is before its brace, too
-            assert any('"DANCE" is no command' in line for line in bench.said)
+            assert any('"DANCE" is not a command' in line for line in bench.said)
 
     asyncio.run(play())
 
@@ -124,7 +122,7 @@ def test_cards_repairs_and_substitutions_find_their_robot_by_its_number(met: Any
             box.say("REPAIR_END", MAGENTA_AT, robotID=3)
             await until(lambda: len(bench.stage.asked) == 3)
             assert asked(bench) == ["yellow_card cyan2", "repair magenta3", "enter magenta3"]
-            assert client.counts["untold"] == 2
+            assert client.counts["not forwarded"] == 2
             assert any("RED_CARD for magenta names no robot" in line for line in bench.said)
 
     asyncio.run(play())
@@ -195,7 +193,6 @@ def test_park_is_ordered_to_the_robots_and_the_next_command_has_them_play(met: A
 def test_the_world_is_uploaded_at_ten_hertz_or_more_in_the_leagues_schema(
     met: Any, until: Any, check_world_state: Callable[[Any], None]
 ) -> None:
-    """Reference 13, row 35."""
 
     async def play() -> None:
         async with met(team=Side.MAGENTA) as (bench, box, client):
@@ -227,7 +224,7 @@ def test_manual_actions_are_locked_while_the_link_is_up_and_not_after(met: Any, 
     asyncio.run(play())
 
 
-def test_a_referee_of_ours_that_decides_beside_the_box_is_told_of(met: Any, until: Any) -> None:
+def test_a_referee_of_ours_that_decides_beside_the_box_is_logged(met: Any, until: Any) -> None:
     async def play() -> None:
         async with met() as (bench, _, _):
             await until(lambda: any("--referee manual" in line for line in bench.said))
@@ -239,7 +236,7 @@ def test_a_link_that_breaks_in_the_middle_of_a_command_is_made_again(met: Any, u
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
-            box.came = 0  # whoever comes next is welcomed as the first one was
+            box.came = 0  # the next base station is welcomed as the first one was
             box.send(b'{"command": "CORNER", "targetTe')
             await asyncio.sleep(0.02)
             box.hang_up()
@@ -251,8 +248,8 @@ def test_a_link_that_breaks_in_the_middle_of_a_command_is_made_again(met: Any, u
     asyncio.run(play())
 
 
-def test_a_box_that_lets_everybody_go_unheard_is_tried_less_and_less_often(opened: Any, until: Any) -> None:
-    """As a tunnel is whose other end is not there: it takes each link, and drops it."""
+def test_a_box_that_drops_every_link_is_tried_less_and_less_often(opened: Any, until: Any) -> None:
+    """Like a tunnel whose other end is missing: it accepts each link, and drops it."""
 
     async def play() -> None:
         came: list[float] = []
@@ -272,38 +269,39 @@ def test_a_box_that_lets_everybody_go_unheard_is_tried_less_and_less_often(opene
     asyncio.run(play())
 
 
-def test_a_box_that_says_more_than_can_be_done_is_heard_in_what_it_said_last(
-    met: Any, until: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_of_too_many_commands_the_newest_count(met: Any, until: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(client_module, "_MOST_WAITING", 3)
 
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
-            state, bench.live.state = bench.live.state, None  # nothing is passed on as long as no match is known
+            state, bench.live.follower.state = (
+                bench.live.state,
+                None,
+            )  # no command is forwarded before the match is known
             box.hang_up()
             box.came = 0
             await until(lambda: client.counts["connections"] == 2 and box.links)
             box.send(
                 b"".join(json.dumps({"command": name, "targetTeam": CYAN_AT}).encode() + b"\0" for name in RESTARTS)
             )
-            await until(lambda: client.counts["heard"] >= len(RESTARTS) + 1)
-            bench.live.state = state
+            await until(lambda: client.counts["received"] >= len(RESTARTS) + 1)
+            bench.live.follower.state = state
             await until(lambda: len(bench.stage.asked) == 3)
             assert asked(bench) == [f"{word} cyan" for word in list(RESTARTS.values())[-3:]]
-            assert client.counts["passed over"] >= 3
+            assert client.counts["dropped"] >= 3
 
     asyncio.run(play())
 
 
-def test_a_box_that_says_nothing_that_is_known_does_not_fill_the_log(met: Any, until: Any) -> None:
+def test_unknown_commands_do_not_fill_the_log(met: Any, until: Any) -> None:
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
             for _ in range(500):
                 box.say("DANCE")
             await until(lambda: client.counts["unreadable"] == 500)
-            assert 5 <= sum("is no command" in line for line in bench.said) < 60
+            assert 5 <= sum("is not a command" in line for line in bench.said) < 60
 
     asyncio.run(play())
 
@@ -326,7 +324,7 @@ def test_a_box_that_comes_late_is_met(opened: Any, until: Any) -> None:
     asyncio.run(play())
 
 
-def test_a_box_that_never_reads_misses_world_states_and_holds_nobody_up(
+def test_a_box_that_never_reads_misses_world_states_and_delays_nothing(
     met: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("coach_gateway.refbox.client._UNREAD", 20_000)
@@ -359,8 +357,8 @@ def test_a_box_that_has_not_read_for_long_is_left_and_met_again(
     asyncio.run(play())
 
 
-def test_a_gateway_that_waits_for_a_box_ends_when_it_is_told(opened: Any, until: Any) -> None:
-    """The box's machine is there, and nothing accepts."""
+def test_a_gateway_that_waits_for_a_box_ends_when_stopped(opened: Any, until: Any) -> None:
+    """The box's machine is there, but does not accept."""
 
     async def play() -> None:
         with socket.socket() as full:

@@ -1,4 +1,4 @@
-"""What a base station of ours tells the box: the league's schema, its axes, the robots' own words."""
+"""The world state of a base station of ours: the league's schema, its axes, the robots' own beliefs."""
 
 import math
 from collections.abc import Callable
@@ -63,7 +63,7 @@ def word(robot: str, time: float = 9.9, **said: Any) -> Belief:
 
 
 def test_the_view_has_the_schema_and_the_axes_of_the_league(view: View) -> None:
-    """+y toward the opponents' goal, +x to the right of it (reference 9.4; reference 13, row 35)."""
+    """+y toward the opponents' goal, +x to the right of it, as in the schema MSLWMD of RefBox."""
     cyan = view(Side.CYAN)
     assert cyan["teamName"] == SETUP.teams[Side.CYAN].name
     assert [robot["id"] for robot in cyan["robots"]] == [1, 2]
@@ -83,12 +83,12 @@ def test_after_the_teams_have_changed_ends_each_still_looks_ahead(view: View) ->
     assert view(Side.MAGENTA, cyan_attacks=-1)["robots"][0]["pose"] == [1.0, 8.0, 3.142]
 
 
-def test_who_is_off_the_field_is_no_robot_and_no_obstacle(view: View) -> None:
+def test_a_robot_off_the_field_is_neither_a_robot_nor_an_obstacle(view: View) -> None:
     assert [robot["id"] for robot in view(Side.MAGENTA)["robots"]] == [1]
     assert len(view(Side.CYAN)["obstacles"]) == 1
 
 
-def test_robots_are_where_they_say_that_they_are(view: View) -> None:
+def test_robots_have_the_poses_that_they_send(view: View) -> None:
     """Magenta's robot speaks in its own team's frame."""
     said = Motion(x=-7.5, y=0.5, heading=0.1, vx=1.0, vy=0.0, omega=0.0)
     seen = view(Side.MAGENTA, magenta1=word("magenta1", self=said, intention="keep the goal"))
@@ -98,7 +98,7 @@ def test_robots_are_where_they_say_that_they_are(view: View) -> None:
     assert seen["ageMs"] == 100
 
 
-def test_what_was_said_long_ago_does_not_count(view: View) -> None:
+def test_old_beliefs_do_not_count(view: View) -> None:
     old = word("cyan1", time=8.0, self=Motion(x=5.0, y=5.0, heading=0.0))
     assert view(Side.CYAN, cyan1=old)["robots"][0]["pose"] == [-1.0, -8.0, 0.0]
 
@@ -119,7 +119,7 @@ def test_the_ball_is_where_it_was_seen_last_and_the_less_sure_the_longer_ago(
     assert ball["confidence"] == pytest.approx(confidence, abs=1e-3)
 
 
-def test_a_team_that_sees_no_ball_says_of_none(view: View) -> None:
+def test_a_team_that_sees_no_ball_sends_none(view: View) -> None:
     assert view(Side.CYAN, cyan1=word("cyan1", role="searcher"))["balls"] == []
 
 

@@ -15,7 +15,7 @@ from support.referee_box import CYAN_AT, MAGENTA_AT, Box
 
 @asynccontextmanager
 async def officiated(kicked_off: Callable[..., Any], until: Any) -> AsyncIterator[tuple[Any, Box]]:
-    """A match whose referee only does as he is told, and a box that cyan's base station has come to."""
+    """A match with manual officiating, and a box that cyan's base station is connected to."""
     async with kicked_off(**{"referee.mode": "manual", "rules": "friendly", "duration": 3600.0}) as bench:
         box = Box()
         port = await box.open()
@@ -70,7 +70,7 @@ def test_a_whole_match_is_played_by_the_commands_of_the_box(kicked_off: Callable
 
 
 def test_a_box_need_not_wait_between_its_commands(kicked_off: Callable[..., Any], until: Any) -> None:
-    """All in one breath: each is taken as what the one before has led to asks for."""
+    """All in one packet: each command is carried out in the state that the one before has led to."""
 
     async def play() -> None:
         async with officiated(kicked_off, until) as (bench, box):
@@ -90,7 +90,7 @@ def test_a_box_need_not_wait_between_its_commands(kicked_off: Callable[..., Any]
     asyncio.run(play())
 
 
-def test_a_team_of_the_league_hears_the_match_that_our_referee_officiates(
+def test_a_team_of_the_league_receives_the_match_that_our_referee_officiates(
     kicked_off: Callable[..., Any], until: Any
 ) -> None:
     """By itself: kick-off, START, and a stall that is dropped."""

@@ -1,4 +1,4 @@
-"""The words and numbers of the paper's coach record, both ways (reference 5; reference 13, row 31)."""
+"""The words and numbers of the NuBot coach record, both ways."""
 
 import pytest
 

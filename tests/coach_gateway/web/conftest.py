@@ -2,7 +2,6 @@
 
 import threading
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +23,7 @@ from schemas.topics import (
     SCENE,
 )
 from support.fake_host import Answer, FakeHost
-from support.page_gateway import SOON, Gateway, settings_in
+from support.page_gateway import SOON, Gateway, tokens_in
 from support.visitor import Visitor
 
 
@@ -34,15 +33,15 @@ def medium() -> Medium:
 
 
 @pytest.fixture
-def settings(tmp_path: Path) -> WebSettings:
-    return settings_in(tmp_path)
+def tokens(tmp_path: Path) -> Path:
+    return tokens_in(tmp_path)
 
 
 @pytest.fixture
 def host_of(medium: Medium) -> Iterator[Callable[..., FakeHost]]:
     """Makes hosts of two a side that refuse every action but `stop` and `repair`.
 
-    With `recorded` it is a replay of these events; with `slow` parameters are answered only when that is set.
+    With `recorded` it is a replay of these events; with `slow` parameters are answered once it is set.
     """
     made: list[FakeHost] = []
     match = load_match(None, {f"teams.{side}.size": 2 for side in Side})
@@ -82,11 +81,11 @@ def host(host_of: Callable[..., FakeHost]) -> FakeHost:
 
 
 @pytest.fixture
-def gateway_of(medium: Medium, settings: WebSettings) -> Iterator[Callable[..., Gateway]]:
+def gateway_of(medium: Medium, tokens: Path) -> Iterator[Callable[..., Gateway]]:
     made: list[Gateway] = []
 
-    def make(**words: Any) -> Gateway:
-        made.append(Gateway(medium, replace(settings, **words)))
+    def make(tokens_file: Path | None = tokens, **words: Any) -> Gateway:
+        made.append(Gateway(medium, WebSettings(**{"port": 0, **words}), tokens_file))
         return made[-1]
 
     yield make

@@ -1,4 +1,4 @@
-"""Commands from pages, over real sockets: who may do what, and what reaches the match."""
+"""Commands from pages, over real sockets: rights, and what reaches the match."""
 
 import threading
 from collections.abc import Callable
@@ -7,12 +7,12 @@ from typing import Any
 import pytest
 
 from coach_gateway.match.host_client import HostClient
-from coach_gateway.web.manual_control import KEPT_S, ManualControl
+from coach_gateway.web.manual_control import ManualControl
 from coach_gateway.web.pages import Page
 from coach_gateway.web.protocol import PageDrive
 from schemas.game import ActionName
 from schemas.messages.coach import CoachMode, CoachOrder
-from schemas.messages.manual import ManualDrive
+from schemas.messages.manual import TIMEOUT_S, ManualDrive
 from schemas.side import Side
 from support.fake_host import FakeHost
 from support.page_gateway import SOON, TOKENS, Gateway
@@ -43,7 +43,6 @@ def test_a_spectator_cannot_command(deed: str, content: dict[str, Any], visit: V
 
 
 def test_a_stop_of_the_referee_reaches_the_match_and_is_named_after_the_page(visit: Visit, host: FakeHost) -> None:
-    """Reference 13, row 37."""
     page = visit("referee")
     assert page.ask("action", action={"action": "stop", "source": "somebody else"})["accepted"]
     refused = page.ask("action", action={"action": "corner", "side": "cyan"})
@@ -56,7 +55,6 @@ def test_a_stop_of_the_referee_reaches_the_match_and_is_named_after_the_page(vis
 
 
 def test_cyan_s_token_cannot_stop_magenta_s_robots(visit: Visit, host: FakeHost) -> None:
-    """Reference 13, row 51."""
     page = visit("cyan")
     for deed, content in (
         ("action", {"action": {"action": "stop"}}),
@@ -77,7 +75,7 @@ def test_cyan_s_token_cannot_stop_magenta_s_robots(visit: Visit, host: FakeHost)
 
 @pytest.mark.parametrize("side", ["cyan", "magenta"])
 def test_a_coach_stops_drives_and_repairs_its_own_robots(side: str, visit: Visit, host: FakeHost) -> None:
-    """Reference 14, defect 7; reference 13, row 43."""
+    """In simatch, the stop of cyan's coach counts for both teams."""
     page = visit(side)
     given = page.ask("order", side=side, order={"mode": "hold", "max_speed": 1.5})
     received = host.orders.receive(SOON)
@@ -108,7 +106,7 @@ def test_an_order_that_makes_no_sense_is_refused_with_the_reason(visit: Visit, h
     assert (reply["accepted"], "no robot of cyan" in reply["reason"]) == (False, True)
 
 
-def test_the_token_counts_in_each_message_and_not_who_the_page_was(visit: Visit) -> None:
+def test_the_token_of_each_message_counts_and_not_the_role_of_the_page(visit: Visit) -> None:
     page = visit("referee")
     assert page.ask("action", action={"action": "stop"})["accepted"]
     assert not page.ask("action", token="", action={"action": "stop"})["accepted"]
@@ -129,7 +127,7 @@ def test_questions_that_wait_hold_up_neither_a_stop_nor_another_role(
         for _ in range(8):
             page.say("parameters", request={"operation": "list"})
         refused = page.ask("parameters", request={"operation": "list"})
-        assert refused["reason"] == "8 questions of this page still wait for their answers"
+        assert refused["reason"] == "8 requests of this page still wait for their replies"
     assert referee.ask("action", action={"action": "stop"})["accepted"]
     assert not slow.is_set()
     slow.set()
@@ -140,7 +138,7 @@ def test_questions_that_wait_hold_up_neither_a_stop_nor_another_role(
 def test_orders_of_one_side_hold_up_none_of_the_other(
     visit: Visit, host: FakeHost, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A coach whose orders take their time keeps nobody else's robots from being stopped."""
+    """A coach with slow orders does not delay a stop of other robots."""
     held, order = threading.Event(), HostClient.order
 
     def slow(self: HostClient, side: Side, **content: Any) -> CoachOrder:
@@ -181,4 +179,4 @@ def test_a_second_hand_on_a_robot_is_refused_until_the_first_has_let_go() -> Non
     assert hands.refusal(second, drive, 10.8) is not None
     assert hands.refusal(first, release, 10.8) is None
     assert hands.refusal(second, drive, 10.8) is None
-    assert hands.refusal(first, drive, 10.8 + KEPT_S) is None  # silent for so long, it has let go
+    assert hands.refusal(first, drive, 10.8 + TIMEOUT_S) is None  # silent for so long, it has let go

@@ -1,4 +1,4 @@
-"""What pages are told, over real sockets: in which order, to whom, and when hosts and servers come and go."""
+"""Messages to pages, over real sockets: their order, their receivers, and hosts and servers that come and go."""
 
 from collections.abc import Callable
 from typing import Any
@@ -21,7 +21,7 @@ from support.visitor import Visitor
 Visit = Callable[..., Visitor]
 
 
-def test_a_page_is_welcomed_and_then_told_how_things_stand_in_order(visit: Visit, host: FakeHost) -> None:
+def test_a_page_is_welcomed_and_then_sent_the_state_in_order(visit: Visit, host: FakeHost) -> None:
     watcher = visit()
     host.happen(1, "first")
     host.happen(2, "second")
@@ -39,7 +39,7 @@ def test_a_page_is_welcomed_and_then_told_how_things_stand_in_order(visit: Visit
     assert heard[-1]["world"]["ball"]["x"] == 3
 
 
-def test_everything_that_is_said_is_as_the_protocol_has_it(visit: Visit, host: FakeHost) -> None:
+def test_every_message_of_the_server_is_one_of_the_protocol(visit: Visit, host: FakeHost) -> None:
     page = visit("referee")
     host.play(1)
     host.happen(1, "kick-off")
@@ -79,7 +79,7 @@ def test_in_a_serious_match_a_team_s_beliefs_are_its_own(
     page.close()
 
 
-def test_orders_are_shown_to_their_side_and_to_the_referee_with_who_has_taken_them_in(
+def test_orders_are_shown_to_their_side_and_to_the_referee_with_their_acknowledgements(
     visit: Visit, host: FakeHost
 ) -> None:
     pages = {role: visit(role) for role in ("spectator", "cyan", "magenta", "referee")}
@@ -150,7 +150,7 @@ def test_a_scene_with_other_robots_welcomes_all_pages_anew(visit: Visit, host: F
     page.hear("welcome")
 
 
-def test_what_is_told_again_when_a_link_comes_back_is_neither_news_nor_another_host(
+def test_messages_repeated_when_a_link_comes_back_are_neither_news_nor_another_host(
     visit: Visit, host: FakeHost, medium: Medium
 ) -> None:
     page = visit()
@@ -204,7 +204,7 @@ def test_a_server_that_is_started_again_has_the_same_tokens_and_all_events(
     again.close()
 
 
-def test_a_replay_tells_all_its_events_at_once_and_none_again(
+def test_a_replay_sends_all_its_events_at_once_and_none_again(
     host_of: Callable[..., FakeHost], gateway_of: Callable[..., Gateway]
 ) -> None:
     host = host_of(recorded=[make_event(1, "first"), make_event(900, "last")])
@@ -225,7 +225,7 @@ def test_a_replay_tells_all_its_events_at_once_and_none_again(
     page.close()
 
 
-def test_a_referee_box_that_connects_is_told(visit: Visit, host: FakeHost, medium: Any) -> None:
+def test_pages_are_notified_of_a_referee_box_that_connects(visit: Visit, host: FakeHost, medium: Any) -> None:
     page = visit()
     host.bus.declare_alive("refbox", "cyan")
     page.hear("refbox", connected=True, team="cyan")
@@ -237,11 +237,11 @@ def test_a_referee_box_that_connects_is_told(visit: Visit, host: FakeHost, mediu
     page.hear("refbox", connected=False)
 
 
-def test_what_the_server_says_first_has_no_token_where_they_stand_in_a_file(gateway_of: Callable[..., Gateway]) -> None:
+def test_the_first_lines_of_the_server_have_no_token_where_a_file_has_them(gateway_of: Callable[..., Gateway]) -> None:
     gateway = gateway_of()
     said = list(gateway.binding.lines())
     assert said[0] == f"page: {gateway.origin}/"
     assert not any(token in line for line in said for token in TOKENS.values())
-    own = list(gateway_of(tokens=None).binding.lines())
+    own = list(gateway_of(None).binding.lines())
     assert [line.partition(":")[0] for line in own] == ["page", "referee", "cyan", "magenta"]
     assert all("/#token=" in line for line in own[1:])

@@ -31,7 +31,13 @@ Get = Callable[..., tuple[HTTPResponse, bytes]]
 
 
 @pytest.mark.parametrize(
-    ("path", "kind"), [("/", "text/html"), ("/main.js", "text/javascript"), ("/page.css", "text/css")]
+    ("path", "kind"),
+    [
+        ("/", "text/html"),
+        ("/main.js", "text/javascript"),
+        ("/shared/pitch.js", "text/javascript"),
+        ("/page.css", "text/css"),
+    ],
 )
 def test_a_file_has_its_type_and_lets_a_browser_load_nothing_from_elsewhere(path: str, kind: str, get: Get) -> None:
     response, body = get(path)

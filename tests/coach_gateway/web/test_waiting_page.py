@@ -1,4 +1,4 @@
-"""A page that is opened before there is a host: it is there, says so, and goes on by itself when one comes."""
+"""A page that is opened before there is a host: it shows that it waits, and continues by itself when one comes."""
 
 import asyncio
 import contextlib
@@ -10,17 +10,20 @@ import sys
 import threading
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from coach_gateway.access.tokens import tokens_of
+from coach_gateway.settings import GatewaySettings
 from coach_gateway.web.binding import PageBinding, bind_page
 from coach_gateway.web.settings import WebSettings
 from coach_gateway.web.waiting_page import WaitingPage
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_host
 from schemas.process.clock import WallClock
+from schemas.process.settings_file import write_settings
 from schemas.topics import SETUP
 from support.messages import make_setup
 from support.page_gateway import SOON, TOKENS
@@ -42,14 +45,22 @@ def waiting_page(binding: PageBinding) -> Iterator[None]:
         loop.close()
 
 
+def served(settings: GatewaySettings, folder: Path) -> subprocess.Popen[str]:
+    """A gateway process that reads these settings."""
+    write_settings(settings, folder / "page.json")
+    command = [sys.executable, "-m", "coach_gateway", "--settings", "page.json"]
+    pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+    return subprocess.Popen(command, text=True, env=os.environ, cwd=folder, **pipes)
+
+
 @pytest.fixture
-def binding(settings: WebSettings) -> Iterator[PageBinding]:
-    binding = bind_page(settings, tokens_of(settings.tokens))
+def binding(tokens: Path) -> Iterator[PageBinding]:
+    binding = bind_page(WebSettings(port=0), tokens_of(tokens), tokens)
     yield binding
     binding.listener.close()
 
 
-def test_a_page_that_waits_is_served_and_told_that_nobody_plays(binding: PageBinding) -> None:
+def test_a_waiting_page_is_served_and_shows_that_there_is_no_host(binding: PageBinding) -> None:
     with waiting_page(binding):
         files = http.client.HTTPConnection(*binding.listener.getsockname(), timeout=SOON)
         files.request("GET", "/")
@@ -64,7 +75,7 @@ def test_a_page_that_waits_is_served_and_told_that_nobody_plays(binding: PageBin
         page.say("action", action={"action": "stop"})
         page.send(b"garbage")
         told = [json.loads(page.socket.recv(SOON))["kind"] for _ in range(2)]
-        assert told == ["alive", "alive"]  # nothing else is said there
+        assert told == ["alive", "alive"]  # no other message is sent there
         with pytest.raises(InvalidStatus):
             Visitor(binding.origin, claims="http://evil.example")
     with pytest.raises(ConnectionClosed) as closed:
@@ -72,7 +83,7 @@ def test_a_page_that_waits_is_served_and_told_that_nobody_plays(binding: PageBin
     assert closed.value.rcvd is not None and closed.value.rcvd.code == 1012  # come again
 
 
-def test_whoever_serves_next_takes_the_same_address(binding: PageBinding) -> None:
+def test_the_next_server_has_the_same_address(binding: PageBinding) -> None:
     for _ in range(2):
         with waiting_page(binding):
             page = Visitor(binding.origin)
@@ -84,10 +95,7 @@ def test_whoever_serves_next_takes_the_same_address(binding: PageBinding) -> Non
 def test_a_served_page_waits_for_its_host_and_meets_it(tmp_path: Path) -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
     tokens = tmp_path / "tokens.json"
-    command = [sys.executable, "-m", "coach_gateway", "--connect", endpoint, "--web", "--port", "0"]
-    process = subprocess.Popen(
-        [*command, "--tokens", str(tokens)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=os.environ
-    )
+    process = served(GatewaySettings(connect=endpoint, tokens=tokens, web=WebSettings(port=0)), tmp_path)
     try:
         assert process.stdout is not None
         said = [process.stdout.readline().rstrip() for _ in range(3)]
@@ -117,12 +125,9 @@ def test_a_served_page_waits_for_its_host_and_meets_it(tmp_path: Path) -> None:
 
 
 @pytest.mark.processes
-def test_a_page_that_waits_for_a_host_ends_when_it_is_told(tmp_path: Path) -> None:
+def test_a_server_that_waits_for_a_host_ends_on_a_signal(tmp_path: Path) -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
-    command = [sys.executable, "-m", "coach_gateway", "--connect", endpoint, "--web", "--port", "0"]
-    process = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=os.environ, cwd=tmp_path
-    )
+    process = served(GatewaySettings(connect=endpoint, web=WebSettings(port=0)), tmp_path)
     try:
         assert process.stdout is not None
         while "waiting for it" not in process.stdout.readline():

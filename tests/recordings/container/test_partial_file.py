@@ -8,7 +8,7 @@ import pytest
 
 from recordings.container.numbering import files_at
 from recordings.container.partial_file import PartialFile
-from recordings.editing.copying import filter_recording
+from recordings.editing.filtering import filter_recording
 from recordings.editing.recovery import recover
 from recordings.reading.recording import open_recording
 from recordings.recorder.sink import FileLimits

@@ -3,7 +3,8 @@
 import pytest
 
 from recordings.container.key_selection import KeySelection
-from recordings.editing.copying import filter_recording, merge_recordings
+from recordings.editing.filtering import filter_recording
+from recordings.editing.merging import merge_recordings
 from recordings.inspection.difference import compare
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.recording import open_recording

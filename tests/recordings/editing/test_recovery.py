@@ -37,7 +37,8 @@ def several_chunks(make_rig) -> Path:
         rig.recorder.pump()
         if tick % 13 == 12:
             rig.sink.sync()  # ends a chunk, however busy the machine is
-    rig.host.goal(207)
+    rig.host.bus.clock.sim_ns += 20_000_000  # no two chunks share a log time
+    rig.host.goal(208)
     rig.leave()
     return rig.path
 
@@ -202,6 +203,33 @@ def test_a_chunk_without_a_checksum_that_ends_within_a_record_is_left_out(tmp_pa
     assert check_with_the_stock_readers(path) == 2
 
 
+def test_a_chunk_whose_schema_is_lost_is_cut_off_and_kept_beside_the_file(tmp_path):
+    """Without a summary, a schema stands only in the chunk that introduced it; stock readers need it by the index."""
+    path = tmp_path / "match.mcap"
+    with path.open("wb") as file:
+        writer = Writer(file, compression=CompressionType.NONE)
+        writer.start()
+        writer.add_metadata("note", {"text": "whole"})
+        schema = writer.register_schema("touchline.Command", "jsonschema", b"{}")
+        for number in range(3):
+            channel = writer.register_channel(f"robot/cyan{number}/command", "json", schema)
+            writer.add_message(channel, number, b"content %d" % number, number)
+            writer.flush()
+        end = file.tell()
+        writer.finish()
+    content = bytearray(path.read_bytes()[:end])
+    content[content.index(b"content 0")] ^= 1
+    path.write_bytes(content)
+
+    done = recover(path)
+    assert (done.messages, done.damaged) == (0, 1)
+    assert check_with_the_stock_readers(path) == 0
+    assert done.rest is not None
+    rest = done.rest.read_bytes()
+    assert b"content 0" not in rest
+    assert b"content 1" in rest and b"content 2" in rest
+
+
 @pytest.mark.parametrize(
     ("what", "bit"), [*product(("chunk", "index"), range(8)), *product(("metadata",), (0, 1, 2, 3, 7))]
 )
@@ -259,7 +287,7 @@ from pathlib import Path
 sys.path.insert(0, sys.argv[1])
 from support.recorder_rig import make_world
 import recordings.recorder.recording_writer as module
-from recordings.container.header import make_manifest
+from recordings.container.manifest import make_manifest
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.process.clock import WallClock
 from schemas.topics import WORLD

@@ -56,7 +56,7 @@ def test_events_states_and_commands_have_a_row_each(folder: Path, recorded: Reco
 
 
 def test_what_is_there_already_is_not_overwritten(folder: Path, recorded: Recording) -> None:
-    with pytest.raises(TouchlineError, match="is there already; remove it"):
+    with pytest.raises(TouchlineError, match="already exists; remove it"):
         export(recorded, folder)
 
 

@@ -50,7 +50,7 @@ def records(log: Path, letter: str) -> list[dict]:  # type: ignore[type-arg]
 
 
 def test_poses_and_velocities_come_back_within_the_precision_of_the_log(real: Recording, back: Recording) -> None:
-    """Reference 13, row 35: positions in mm, both halves, that is both directions of play."""
+    """Positions in mm, both halves, that is both directions of play."""
     before, after = worlds(real), worlds(back)
     halves = {state.half for state in states(real)}
     assert halves == {1, 2}
@@ -107,7 +107,7 @@ def test_a_signal_is_an_event_at_its_time(real: Recording, back: Recording) -> N
 
 
 def test_the_log_has_the_leagues_axes_for_each_team(real: Recording, log: Path) -> None:
-    """+y toward the opponents' goal, +x to the right of it, heading 0 toward it (reference 9.4)."""
+    """+y toward the opponents' goal, +x to the right of it, heading 0 toward it (schema MSLWMD of RefBox)."""
     world = worlds(real)[min(worlds(real))]
     first, second = records(log, "A")[0]["worldstate"], records(log, "B")[0]["worldstate"]
     cyan, magenta = world.robots["cyan1"], world.robots["magenta1"]
@@ -118,7 +118,7 @@ def test_the_log_has_the_leagues_axes_for_each_team(real: Recording, log: Path) 
 
 
 def test_every_record_has_what_the_leagues_schema_requires(log: Path) -> None:
-    """Reference 13, row 35; the fields and types of reference 9.4."""
+    """The required fields and their types, from MSLWMD of RefBox."""
     for letter in "AB":
         for record in records(log, letter):
             assert set(record) == {"teamName", "timestamp", "gametimeMs", "worldstate"}
@@ -145,7 +145,7 @@ def test_the_commands_say_what_they_wrote_and_read(real: Recording, tmp_path: Pa
     assert said["not_read"] == []
     assert said["score"] == open_recording(back).result.score.model_dump()  # type: ignore[union-attr]
     again = run.invoke(app, ["import", str(out), "--out", str(back)])
-    assert again.exit_code == 2 and "is there already" in again.stderr
+    assert again.exit_code == 2 and "already exists" in again.stderr
 
 
 def test_figures_of_an_imported_match_are_those_of_the_match(real: Recording, back: Recording) -> None:

@@ -1,6 +1,7 @@
 import json
 
-from recordings.inspection.recording_facts import CUT_OFF, HEADINGS, facts_of, key_rows, summary_lines
+from recordings.inspection.facts_table import HEADINGS, key_rows, summary_lines
+from recordings.inspection.recording_facts import CUT_OFF, facts_of
 from recordings.reading.recording import open_recording
 
 

@@ -86,7 +86,7 @@ def test_a_cut_off_recording_can_be_drawn(recorded, tmp_path):
 
 @pytest.mark.parametrize("time", [-1.0, 100.0])
 def test_a_time_outside_the_recording_is_named_with_what_it_holds(recorded, tmp_path, time):
-    with pytest.raises(TouchlineError, match=r"nothing at .* it holds 0 to 3\.98 s"):
+    with pytest.raises(TouchlineError, match=r"no world at .* it has 0 to 3\.98 s"):
         draw(recorded.path, tmp_path / "match.png", [time])
 
 
@@ -97,7 +97,7 @@ def test_a_picture_of_another_kind_is_refused(recorded, tmp_path):
 
 def test_without_matplotlib_the_pip_line_is_named(recorded, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(TouchlineError, match=r"pip install touchline\[viz\]"):
+    with pytest.raises(TouchlineError, match=r"pip install 'touchline\[viz\]'"):
         draw(recorded.path, tmp_path / "match.png")
 
 

@@ -2,8 +2,9 @@ import pytest
 from mcap.reader import make_reader
 from mcap.writer import Writer
 
-from recordings.container.manifest import MANIFEST, sealed
+from recordings.container.manifest import MANIFEST
 from recordings.container.mcap_file import open_mcap_file
+from recordings.container.sealed_metadata import sealed
 from recordings.reading.recording import open_recording
 from schemas.errors import TouchlineError
 from schemas.messages.world import World
@@ -124,15 +125,15 @@ def test_somebody_elses_mcap_file_is_not_a_recording_of_a_match(tmp_path):
         open_recording(path)
 
 
-def test_another_major_version_is_refused_with_both_versions(recorded, tmp_path):
-    path = tmp_path / "old.mcap"
+def test_a_recording_of_a_newer_major_version_is_refused_with_the_versions(recorded, tmp_path):
+    path = tmp_path / "newer.mcap"
     metadata = open_mcap_file(recorded.path).metadata[MANIFEST]
     with path.open("wb") as file:
         writer = Writer(file)
         writer.start()
-        writer.add_metadata("manifest", sealed({**metadata, "contract": "2.3"}))
+        writer.add_metadata("manifest", sealed({**metadata, "contract": "3.1"}))
         writer.finish()
-    with pytest.raises(TouchlineError, match=r"version 2\.3.*speaks 1\.0"):
+    with pytest.raises(TouchlineError, match=r"version 3\.1, this program reads 1\.x and 2\.x"):
         open_recording(path)
 
 

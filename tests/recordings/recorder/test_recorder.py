@@ -1,3 +1,5 @@
+from collections.abc import Callable
+
 from mcap.reader import make_reader
 from mcap.records import Message, Metadata
 from mcap.stream_reader import StreamReader
@@ -93,7 +95,7 @@ def test_channels_say_what_they_carry(rig):
         "topic": "command",
         "row": "robot/{robot}/command",
         "message": "Command",
-        "version": "1.0",
+        "version": "2.0",
         "robot": "cyan1",
         "side": "cyan",
         "team": "Team cyan",
@@ -157,7 +159,7 @@ def test_a_sender_without_simulated_time_is_recorded_at_the_hosts(make_rig):
     rig.begin()
     rig.play(range(50))
     rig.recorder.pump()
-    order.put_payload(b'{"version":"1.0","sequence":1}')
+    order.put_payload(b'{"version":"2.0","sequence":1}')
     rig.host.relay(49)
     rig.recorder.pump()
     rig.play(range(50, 100))
@@ -224,12 +226,21 @@ def test_sights_are_recorded_on_demand_and_then_all_of_them(make_rig, tmp_path):
     for sights, expected in ((True, 30), (False, 0)):
         rig = make_rig(sights=sights, path=tmp_path / f"{sights}.mcap")
         rig.begin()
-        sight = rig.host.bus.publisher(SIGHT, robot="cyan1")
+        sight = rig.host.batches.publisher(SIGHT, recorded=True, robot="cyan1")
         for _ in range(30):
             sight.put_payload(b"{}")
         rig.leave()
         assert len(list(rig.read().messages("robot/cyan1/sight"))) == expected
         assert rig.read().manifest.sights is sights
+
+
+def test_a_recorder_of_sights_asks_the_host_for_them(make_rig, tmp_path):
+    for sights in (True, False):
+        rig = make_rig(sights=sights, path=tmp_path / f"{sights}.mcap")
+        heard = reports(rig.host.bus)
+        rig.begin()
+        rig.play(range(30))
+        assert heard.receive().message().sights is sights
 
 
 def test_the_setup_is_asked_for_again_until_the_host_answers(make_rig):
@@ -294,6 +305,7 @@ def test_progress_is_reported_every_50_ms_of_wall_time(rig):
 def test_a_recorder_that_joins_late_is_not_behind_by_what_was_before_it(rig):
     heard = reports(rig.host.bus)
     rig.host.batches.publisher(HEALTH).put(Health(tick=5000, time=100.0, pace="lockstep", real_time_factor=1.0))
+    rig.host.batches.end_tick(5000)
     rig.host.batches.send()
     rig.recorder.pump()
     rig.recorder.pump()
@@ -309,44 +321,140 @@ def look_for(rig, seconds: float) -> None:
         rig.recorder.pump()
 
 
-class Detour:
-    """Keeps back what comes to a recorder in one topic, as a broken link does; it is fetched later."""
+def break_link(rig) -> Callable[[], None]:
+    """Lose all batches from now on, until what is returned is called."""
+    (reader,) = rig.recorder_bus.medium.subscriptions[f"friendly/{RECORD_BATCH.key}"]
+    bring, reader.deliver = reader.deliver, lambda *message: None
 
-    def __init__(self, rig, topic) -> None:
-        (self._reader,) = rig.recorder_bus.medium.subscriptions[f"friendly/{topic.key}"]
-        self._deliver, self._kept = self._reader.deliver, []
-        self._reader.deliver = lambda *message: self._kept.append(message)
+    def mend() -> None:
+        reader.deliver = bring
 
-    def end(self) -> None:
-        self._reader.deliver = self._deliver
-        for message in self._kept:
-            self._deliver(*message)
+    return mend
 
 
-def play_with_sights(rig, ticks: range, pump_every: int) -> None:
-    """As `RecorderRig.play`, with a sight in each tick."""
-    if (key := "robot/cyan1/sight") not in rig.host.writers:
-        rig.host.writers[key] = rig.host.bus.publisher(SIGHT, robot="cyan1")
-    for tick in ticks:
-        rig.play(range(tick, tick + 1), pump_every=1000)
-        rig.host.writers[key].put_payload(b"{}")
-        if tick % pump_every == 0:
-            rig.recorder.pump()
+def look_and_answer(rig, seconds: float) -> None:
+    """The recorder looks for so long, and the host answers what it asks."""
+    clock = rig.recorder_bus.clock
+    for _ in range(round(seconds / 0.05)):
+        clock.sleep_until(clock.now() + 0.05)
+        rig.recorder.pump()
+        rig.host.answer()
 
 
-def test_a_tick_counts_as_taken_in_when_its_record_batch_has_come(make_rig):
+def ticks_of(recording, key: str) -> list[int]:
+    return [round(recorded.time / 0.02) for recorded in recording.messages(key)]
+
+
+def test_a_tick_counts_as_taken_in_when_all_batches_up_to_it_have_come(rig):
     """Or a host would run away from a recorder, or leave the match, while they are fetched still."""
-    rig = make_rig(sights=True)
-    rig.begin()
     heard = reports(rig.host.bus)
-    play_with_sights(rig, range(40), pump_every=1)
-    detour = Detour(rig, RECORD_BATCH)
-    play_with_sights(rig, range(40, 80), pump_every=1)
+    rig.play(range(40))
+    mend = break_link(rig)
+    rig.play(range(40, 80))
+    mend()
+    rig.play(range(80, 90))
     look_for(rig, 0.2)
     assert [report.message().tick for report in iter(heard.receive, None)][-1] == 39
-    detour.end()
-    look_for(rig, 0.2)
-    assert [report.message().tick for report in iter(heard.receive, None)][-1] == 79
+    look_and_answer(rig, 0.5)
+    assert [report.message().tick for report in iter(heard.receive, None)][-1] == 89
+
+
+def test_a_recorder_that_missed_batches_has_them_again_and_its_file_is_whole(rig):
+    rig.play(range(20))
+    mend = break_link(rig)
+    rig.play(range(20, 50))
+    rig.host.goal(50)
+    rig.play(range(50, 80))
+    mend()
+    rig.play(range(80, 100))
+    look_and_answer(rig, 1.0)
+    rig.leave()
+
+    recording = rig.read()
+    result = recording.result
+    assert (result.lost, result.lost_batches, result.missed_before_start) == (0, 0, 0)
+    ticks = [round(recorded.time / 0.02) for recorded in recording.messages() if recorded.key != EVENT.key]
+    assert ticks == [tick for tick in range(100) for _ in range(6)]
+    assert ticks_of(recording, EVENT.key) == [49]
+
+
+def test_the_last_batches_are_fetched_though_none_comes_after_them(rig):
+    rig.play(range(20))
+    break_link(rig)
+    rig.play(range(20, 30))
+    look_and_answer(rig, 1.5)
+    rig.leave()
+    assert ticks_of(rig.read(), WORLD.key) == list(range(30))
+
+
+def test_what_the_host_keeps_no_more_is_counted_as_lost_on_each_key(rig, monkeypatch):
+    monkeypatch.setattr("schemas.bus.batch_publisher.KEPT_BATCHES", 10)
+    rig.play(range(20))
+    mend = break_link(rig)
+    rig.play(range(20, 60))
+    mend()
+    rig.play(range(60, 65))
+    look_and_answer(rig, 1.0)
+    rig.leave()
+
+    recording = rig.read()
+    kept = [*range(20), *range(55, 65)]
+    assert ticks_of(recording, WORLD.key) == kept
+    assert {count.lost for count in recording.result.keys.values()} == {35}
+    assert recording.result.lost == 6 * 35
+    assert recording.result.lost_batches == 35
+    times = [recorded.log_ns for recorded in recording.messages()]
+    assert times == sorted(times)
+
+
+def test_without_an_answer_what_came_later_is_written_in_the_end(rig):
+    """As by a host in another language that keeps no batches."""
+    rig.play(range(20))
+    mend = break_link(rig)
+    rig.play(range(20, 30))
+    mend()
+    rig.play(range(30, 40))
+    look_for(rig, 19.0)
+    assert rig.recorder._tick == 19
+    look_for(rig, 2.0)
+    assert rig.recorder._tick == 39
+    rig.leave()
+    assert rig.read().result.lost == 6 * 10
+
+
+def test_a_recorder_that_stood_still_fetches_what_it_missed_however_long_that_was(rig):
+    rig.play(range(20))
+    mend = break_link(rig)
+    rig.play(range(20, 80), pump_every=1000)
+    mend()
+    rig.play(range(80, 81))
+    clock = rig.recorder_bus.clock
+    clock.sleep_until(clock.now() + 3600.0)
+    look_and_answer(rig, 1.0)
+    rig.leave()
+    assert ticks_of(rig.read(), WORLD.key) == list(range(81))
+
+
+def test_another_host_is_followed_from_its_beginning(rig):
+    """It counts its batches from 0 again; what the first had said last and was lost stays lost."""
+    rig.play(range(20))
+    break_link(rig)()
+    first = rig.host
+    mend = break_link(rig)
+    rig.play(range(20, 25))
+    mend()
+    first.bus.close()
+    rig.host.bus = first.bus.medium.open_bus("friendly", type(first.bus.clock)())
+    rig.host.bus.clock.sleep_until(7.0)
+    rig.host.__post_init__()
+    rig.play(range(10))
+    look_and_answer(rig, 1.0)
+    rig.host.batches.send()
+    rig.leave()
+
+    worlds = [world.tick for _, world in rig.read().decoded(WORLD.key)]
+    assert worlds == [*range(20), *range(10)]
+    assert rig.read().result.keys[WORLD.key].restarts == 1
 
 
 def test_a_host_that_stands_still_leaves_nothing_unwritten_for_long(rig):
@@ -357,42 +465,14 @@ def test_a_host_that_stands_still_leaves_nothing_unwritten_for_long(rig):
     assert len(list(open_recording(rig.path.with_name("match.mcap.part")).messages("world"))) == 4
 
 
-def test_what_is_fetched_again_after_a_stall_stands_where_it_belongs(make_rig):
-    """Topics are fetched one by one: what came of the others has to wait, however long the recorder stood still."""
-    rig = make_rig(sights=True)
-    rig.begin()
-    play_with_sights(rig, range(20), pump_every=1)
-    batches, sights = Detour(rig, RECORD_BATCH), Detour(rig, SIGHT)
-    play_with_sights(rig, range(20, 31), pump_every=1000)
-    rig.host.goal(30)
-    play_with_sights(rig, range(31, 80), pump_every=1000)
-    clock = rig.recorder_bus.clock
-    clock.sleep_until(clock.now() + 3.0)
-    look_for(rig, 0.2)
-    batches.end()
-    look_for(rig, 0.6)
-    sights.end()
-    look_for(rig, 2.0)
-    rig.leave()
-
-    recording = rig.read()
-    assert (recording.result.lost, recording.result.keys["world"].messages) == (0, 80)
-    ticks = [round(recorded.time / 0.02) for recorded in recording.messages() if recorded.key != EVENT.key]
-    assert ticks == [tick for tick in range(80) for _ in range(7)]
-    assert [round(recorded.time / 0.02) for recorded in recording.messages(EVENT.key)] == [30]
-
-
 def test_a_goal_is_on_the_disk_before_the_recording_ends(rig, monkeypatch):
     synced = []
     monkeypatch.setattr(RecordingWriter, "sync", lambda self: synced.append(True))
     rig.play(range(20))
     rig.host.goal(20)
     rig.play(range(20, 22))
-    rig.recorder.pump()
-    assert synced == []
+    assert synced == [True]
     rig.play(range(22, 60))
-    rig.recorder.pump()
-    rig.play(range(60, 90))
     assert synced == [True]
 
 
@@ -490,11 +570,25 @@ def test_a_stamp_counts_modulo_the_32_bits_of_the_file(rig):
     assert recorded.sequence == 5
 
 
-def test_record_batches_that_cannot_be_read_are_counted_and_passed_over(rig):
+def test_batches_that_cannot_be_read_are_counted_and_passed_over(rig):
     rig.play(range(5))
-    odd = b'{"version":"1.0","tick":5,"entries":[{"key":"robot/cyan1/command","octets":"a"}]}'
-    rig.host.bus.publisher(RECORD_BATCH).put_payload(odd)
+    publisher = rig.host.bus.publisher(RECORD_BATCH)
+    publisher.put_payload(b'{"version":"2.0","tick":5,"entries":[{"key":"robot/cyan1/command","octets":"a"}]}')
     rig.play(range(5, 10))
     summary = rig.leave()
     assert summary.result.unreadable == {"host/record_batch": 1}
     assert summary.result.keys["robot/cyan1/command"].messages == 10
+
+
+def test_batches_of_a_host_that_writes_spaces_are_read_and_its_payloads_stay_as_they_are(make_rig):
+    rig = make_rig()
+    bus = rig.host.bus
+    rig.begin()
+    payload = '{ "answers_tick" : 3 , "drive" : { "vx" : 1.50 } }'
+    entry = f'{{ "key" : "robot/cyan1/command", "message" : {payload} , "sequence" : 0, "sent_ns" : 7, "sim_ns" : 60 }}'
+    batch = f'{{ "version" : "2.0", "stream" : 1, "number" : 0, "tick" : 3,\n "sent_ns" : 9, "entries" : [ {entry} ] }}'
+    bus.publisher(RECORD_BATCH).put_payload(batch.encode())
+    rig.leave()
+    (recorded,) = rig.read().messages("robot/cyan1/command")
+    assert recorded.payload == payload.encode()
+    assert rig.read().result.tick == -1

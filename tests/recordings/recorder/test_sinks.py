@@ -1,6 +1,7 @@
 """What a recorder writes when it is told to choose, to split, to keep, to take snapshots, to pause."""
 
 import pytest
+from pydantic import ValidationError
 
 from recordings.container.key_selection import KeySelection, key_pattern
 from recordings.container.manifest import EndReason
@@ -8,6 +9,7 @@ from recordings.container.numbering import files_at
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.recording import open_recording
 from recordings.recorder.sink import FileLimits
+from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score
 from schemas.messages.recorder import RecorderOperation, RecorderRequest
@@ -45,7 +47,7 @@ def test_key_expressions_mean_what_they_mean_on_the_bus(expression, key, meant):
 
 @pytest.mark.parametrize("expression", ["", "a//b", "/a", "a/", "a*b", "a b", "a?"])
 def test_what_is_no_key_expression_is_refused_with_an_example(expression):
-    with pytest.raises(TouchlineError, match=r"no key expression.*robot/\*/command"):
+    with pytest.raises(TouchlineError, match=r"not a key expression.*robot/\*/command"):
         KeySelection(include=(expression,))
 
 
@@ -113,16 +115,21 @@ def test_the_newest_files_are_kept(make_rig):
 
 def test_numbered_files_of_another_recording_are_not_written_over(make_rig, tmp_path):
     (tmp_path / "match.0003.mcap").write_bytes(b"another one's")
-    with pytest.raises(TouchlineError, match=r"match\.0003\.mcap: is there already"):
+    with pytest.raises(TouchlineError, match=r"match\.0003\.mcap: already exists"):
         make_rig(limits=FileLimits(duration=1.0))
 
 
 @pytest.mark.parametrize(
-    "limits", [{"keep": 2}, {"snapshot": 20.0, "size": 100}, {"snapshot": 20.0, "duration": 3.0}], ids=str
+    "limits", [{"keep": 2}, {"snapshot": 20.0, "split_size": 100}, {"snapshot": 20.0, "split_duration": 3.0}], ids=str
 )
 def test_limits_that_do_not_go_together_are_refused(limits):
-    with pytest.raises(TouchlineError, match="--snapshot"):
-        FileLimits(**limits)
+    with pytest.raises(ValidationError, match="snapshot"):
+        RecordOptions(**limits)
+
+
+def test_sizes_are_asked_for_in_megabytes():
+    assert FileLimits.of(RecordOptions(split_size=1.5, split_duration=60, keep=2)) == FileLimits(1_500_000, 60.0, 2)
+    assert FileLimits.of(RecordOptions(snapshot=20)) == FileLimits(snapshot=20.0)
 
 
 def test_a_goal_leaves_a_snapshot_of_the_seconds_before_it_and_nothing_else_is_written(make_rig):
@@ -150,7 +157,7 @@ def test_a_snapshot_is_taken_on_request(make_rig):
     rig = make_rig(limits=FileLimits(snapshot=1.0))
     rig.begin()
     refused = ask(rig, RecorderOperation.SNAPSHOT)
-    assert (refused.accepted, refused.reason) == (False, "it holds nothing yet")
+    assert (refused.accepted, refused.reason) == (False, "it has no messages yet")
     rig.play(range(100))
     rig.recorder.pump()
     assert ask(rig, RecorderOperation.SNAPSHOT).accepted

@@ -1,30 +1,33 @@
-"""What was said in a match, out of the record batches of its host."""
+"""The messages in a host's batch, and what is no batch."""
 
 from typing import Any
 
 import pytest
 from pydantic_core import to_json
 
-from recordings.recorder.unbatch import unbatch
+from recordings.recorder.unbatch import Unbatcher
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.message import BadMessageError
-from schemas.messages.record_batch import MAX_KEY_LENGTH, RecordBatch
-from schemas.topics import COMMAND, ORDER, RECORD_BATCH, WORLD
+from schemas.messages.record_batch import MAX_KEY, RecordBatch, read_batch, read_reply
+from schemas.topics import COMMAND, ORDER, SIGHT, WORLD
 
 KEY = "robot/cyan1/command"
 ENTRY = {"key": KEY, "message": {}, "sequence": 7, "sent_ns": 11, "sim_ns": 13, "arrived_ns": 17}
+HEAD = {"version": "2.0", "stream": 5, "number": 0, "tick": 3, "sent_ns": 9}
 
 
-def record_batch(*entries: Any, **fields: Any) -> ReceivedMessage:
-    return ReceivedMessage(
-        RECORD_BATCH, RECORD_BATCH.key, to_json({"version": "1.0", "tick": 3, "entries": entries} | fields), None
-    )
+def batch(*entries: Any, **fields: Any) -> bytes:
+    return to_json({**HEAD, "entries": entries} | fields)
+
+
+def messages(payload: bytes, **wanted: bool) -> list[ReceivedMessage]:
+    return [received for _, received in Unbatcher(**wanted).messages_of(read_batch(payload))]
 
 
 def test_messages_come_as_their_senders_sent_them():
     order = {**ENTRY, "key": "team/cyan/order", "message": "naïve", "sequence": 0}
     world = {**ENTRY, "key": "world", "message": {"tick": 3, "time": 0.06}, "arrived_ns": 0}
-    assert unbatch(record_batch(ENTRY, order, world)) == [
+    assert messages(batch(ENTRY, order, world)) == [
         ReceivedMessage(COMMAND, KEY, b"{}", Stamp(7, 11, 13), 17),
         ReceivedMessage(ORDER, "team/cyan/order", '"naïve"'.encode(), Stamp(0, 11, 13), 17),
         ReceivedMessage(WORLD, "world", b'{"tick":3,"time":0.06}', Stamp(7, 11, 13), 0),
@@ -32,50 +35,77 @@ def test_messages_come_as_their_senders_sent_them():
 
 
 def test_what_is_no_json_and_messages_without_a_number_come_too():
-    (octets,) = unbatch(record_batch({"key": KEY, "octets": "/w==", "sequence": 1, "sent_ns": 2, "sim_ns": -1}))
+    (octets,) = messages(batch({"key": KEY, "octets": "/w==", "sequence": 1, "sent_ns": 2, "sim_ns": -1}))
     assert octets == ReceivedMessage(COMMAND, KEY, b"\xff", Stamp(1, 2, -1), 0)
-    (bare,) = unbatch(record_batch({"key": KEY, "message": 1.50, "arrived_ns": 5}))
+    (bare,) = messages(batch({"key": KEY, "message": 1.50, "arrived_ns": 5}))
     assert bare == ReceivedMessage(COMMAND, KEY, b"1.5", None, 5)
 
 
 def test_keys_of_no_recorded_topic_are_passed_over():
-    assert unbatch(record_batch({**ENTRY, "key": "robot/cyan1/sight"}, {**ENTRY, "key": "elsewhere"})) == []
+    assert messages(batch({**ENTRY, "key": "robot/cyan1/hand"}, {**ENTRY, "key": "elsewhere"})) == []
+
+
+def test_sights_are_given_to_who_wants_them():
+    payload = batch({**ENTRY, "key": "robot/cyan1/sight"})
+    assert messages(payload) == []
+    assert messages(payload, sights=True) == [ReceivedMessage(SIGHT, "robot/cyan1/sight", b"{}", Stamp(7, 11, 13), 17)]
+
+
+def test_the_log_time_is_the_hosts_whatever_a_sender_claims_and_never_runs_backward():
+    own = [{"key": "world", "message": {}, "sequence": tick, "sim_ns": 20 * tick} for tick in range(4)]
+    ahead = {**ENTRY, "sim_ns": 10**18, "arrived_sim_ns": 20}
+    late = {**ENTRY, "sim_ns": 0, "arrived_sim_ns": 40}
+    bare = {"key": KEY, "message": {}, "arrived_sim_ns": 60}
+    unbatcher = Unbatcher()
+    first = unbatcher.messages_of(read_batch(batch(own[0], own[1], ahead, own[2], late)))
+    second = unbatcher.messages_of(read_batch(batch({**ENTRY, "sim_ns": 10**18}, own[0], own[3], bare)))
+    assert [log_ns for log_ns, _ in first + second] == [0, 20, 20, 40, 40, 40, 40, 60, 60]
 
 
 ODD = {
-    "no entries": record_batch(entries=None),
-    "tick": record_batch(ENTRY, tick="soon"),
-    "tick that is true": record_batch(ENTRY, tick=True),
-    "more fields": record_batch(ENTRY, more=1),
-    "other version": record_batch(ENTRY, version="2.0"),
-    "other version with more fields": record_batch(ENTRY, version="2.0", more=1),
-    "entry": record_batch(3),
-    "more in an entry": record_batch({**ENTRY, "more": 1}),
-    "no key": record_batch({key: value for key, value in ENTRY.items() if key != "key"}),
-    "key": record_batch({**ENTRY, "key": 3}),
-    "long key": record_batch({**ENTRY, "key": "k" * (MAX_KEY_LENGTH + 1)}),
-    "octets": record_batch({**ENTRY, "octets": 3}),
-    "octets that are none": record_batch({**ENTRY, "octets": "a"}),
-    "octets between others": record_batch({**ENTRY, "octets": "/w*=="}),
-    "sequence": record_batch({**ENTRY, "sequence": -1}),
-    "broken sequence": record_batch({**ENTRY, "sequence": 1.5}),
-    "time": record_batch({**ENTRY, "sent_ns": None}),
-    "list": ReceivedMessage(RECORD_BATCH, RECORD_BATCH.key, b"[]", None),
-    "cut off": ReceivedMessage(RECORD_BATCH, RECORD_BATCH.key, b'{"version":"1.0","tick":3', None),
-    "too long": record_batch({**ENTRY, "message": "x" * RecordBatch.max_bytes}),
+    "no entries": batch(entries=None),
+    "tick": batch(ENTRY, tick="soon"),
+    "tick that is true": batch(ENTRY, tick=True),
+    "number below 0": batch(ENTRY, number=-1),
+    "no stream": to_json({key: value for key, value in HEAD.items() if key != "stream"} | {"entries": []}),
+    "more fields": batch(ENTRY, more=1),
+    "other version": batch(ENTRY, version="1.0"),
+    "other version with more fields": batch(ENTRY, version="1.0", more=1),
+    "entry": batch(3),
+    "more in an entry": batch({**ENTRY, "more": 1}),
+    "no key": batch({key: value for key, value in ENTRY.items() if key != "key"}),
+    "key": batch({**ENTRY, "key": 3}),
+    "long key": batch({**ENTRY, "key": "k" * (MAX_KEY + 1)}),
+    "octets": batch({**ENTRY, "octets": 3}),
+    "octets that are none": batch({**ENTRY, "octets": "a"}),
+    "octets between others": batch({**ENTRY, "octets": "/w*=="}),
+    "sequence": batch({**ENTRY, "sequence": -1}),
+    "broken sequence": batch({**ENTRY, "sequence": 1.5}),
+    "time": batch({**ENTRY, "sent_ns": None}),
+    "list": b"[]",
+    "cut off": b'{"version":"2.0","tick":3',
+    "too long": batch({**ENTRY, "message": "x" * RecordBatch.max_bytes}),
 }
 
 
 @pytest.mark.parametrize("odd", ODD.values(), ids=ODD)
-def test_what_is_no_record_batch_is_refused_with_a_reason(odd):
+def test_what_is_no_batch_is_refused_with_a_reason(odd):
     with pytest.raises(BadMessageError, match="RecordBatch: "):
-        unbatch(odd)
+        messages(odd)
 
 
 def test_another_major_version_is_named_whatever_else_is_odd():
-    with pytest.raises(BadMessageError, match=r"version 2\.0 is not spoken here"):
-        unbatch(ODD["other version with more fields"])
+    with pytest.raises(BadMessageError, match=r"version 1\.0 is not supported"):
+        messages(ODD["other version with more fields"])
 
 
 def test_a_minor_version_is_read():
-    assert len(unbatch(record_batch(ENTRY, version="1.7"))) == 1
+    assert len(messages(batch(ENTRY, version="2.7"))) == 1
+
+
+@pytest.mark.parametrize(
+    "odd", [b"[]", b"{", b'{"version":"2.0","stream":1}', b'{"version":"1.0","stream":1,"oldest":0}']
+)
+def test_what_is_no_reply_is_refused_with_a_reason(odd):
+    with pytest.raises(BadMessageError, match="RecordBatchesReply: "):
+        read_reply(odd)

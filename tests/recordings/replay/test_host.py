@@ -82,7 +82,7 @@ def test_a_recording_of_a_replay_has_equal_payloads_in_equal_order(recorded, roo
 
 
 def test_as_fast_as_possible_does_not_run_away_from_a_recorder(recorded, room, monkeypatch):
-    monkeypatch.setattr("recordings.replay.listeners.WINDOW", 20)
+    monkeypatch.setattr("recordings.replay.listeners.RUN_AHEAD_TICKS", 20)
     bus = room.seat()
     loss_counts = LossCounts()
     sink = open_sink(recorded.path.with_name("late.mcap"), bus.clock, room.match, loss_counts)
@@ -109,7 +109,7 @@ def test_as_fast_as_possible_does_not_run_away_from_a_recorder(recorded, room, m
 
 
 def test_a_recorder_that_is_silent_is_left_behind(recorded, room, monkeypatch):
-    monkeypatch.setattr("recordings.replay.listeners.WINDOW", 20)
+    monkeypatch.setattr("recordings.replay.listeners.RUN_AHEAD_TICKS", 20)
     seat = room.seat()
     seat.declare_alive("recorder", "stuck")
     host = room.host(recorded.path, rate=None)
@@ -209,10 +209,10 @@ def test_it_follows_a_match_that_is_still_recorded(rig, room, wait_until_written
 @pytest.mark.parametrize(
     ("wanted", "word"),
     [
-        ({"start": "99"}, "--from 99 is behind the end"),
+        ({"start": "99"}, "--from 99 is after the end"),
         ({"start": "2", "end": "1"}, "--to 1 is before the beginning"),
         ({"selection": KeySelection(("wrld",))}, 'did you mean "world"'),
-        ({"selection": KeySelection((), ("robot/blue1/command",))}, "fits no key"),
+        ({"selection": KeySelection((), ("robot/blue1/command",))}, "matches no key"),
         ({"follow": True, "loop": True}, "--follow and --loop"),
         ({"start": "goal:7"}, "goal happened 1 times"),
     ],

@@ -166,8 +166,8 @@ def test_latched_messages_can_be_published_again(make_player_rig):
 @pytest.mark.parametrize(
     ("request_", "word"),
     [
-        (ReplayRequest(operation=ReplayOperation.SEEK), "one of to and by"),
-        (ReplayRequest(operation=ReplayOperation.SEEK, to="1", by=1.0), "one of to and by"),
+        (ReplayRequest(operation=ReplayOperation.SEEK), "either to, a target, or by"),
+        (ReplayRequest(operation=ReplayOperation.SEEK, to="1", by=1.0), "either to, a target, or by"),
     ],
 )
 def test_what_cannot_be_done_is_refused_with_the_reason(make_player_rig, request_, word):

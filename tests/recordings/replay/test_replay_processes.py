@@ -43,7 +43,7 @@ def test_record_replay_record_gives_equal_payloads_in_equal_order(recorded, star
     replay = start("touchline", "replay", str(recorded.path), "--fast", "--paused", "--json", *listen)
     with open_client("again", WallClock(), endpoint, LIMIT) as bus:
         watch = bus.watch_alive()
-        recorder = start("recordings", *at, "--out", str(again))
+        recorder = start("touchline", "record", *at, "--out", str(again))
         while (presence := watch.receive(LIMIT)) is not None and presence.kind != "recorder":
             continue
         assert presence is not None

@@ -9,7 +9,7 @@ from mcap.reader import make_reader
 from mcap.writer import Writer
 from pydantic_core import from_json, to_json
 
-from recordings.container.manifest import sealed
+from recordings.container.sealed_metadata import sealed
 from schemas.config.match_config import load_match
 from schemas.config.roster import Placement
 from schemas.config.scene import SceneOperation, SceneRequest

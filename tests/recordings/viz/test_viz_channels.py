@@ -8,10 +8,12 @@ from mcap_protobuf.decoder import DecoderFactory
 
 from recordings.container.key_selection import KeySelection
 from recordings.container.mcap_file import is_derived
-from recordings.editing.copying import filter_recording, merge_recordings
+from recordings.editing.filtering import filter_recording
+from recordings.editing.merging import merge_recordings
 from recordings.exchange.protobuf.export import export
 from recordings.inspection.difference import compare
-from recordings.inspection.recording_facts import facts_of, summary_lines
+from recordings.inspection.facts_table import summary_lines
+from recordings.inspection.recording_facts import facts_of
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import open_recording
 from recordings.recorder.sink import FileLimits

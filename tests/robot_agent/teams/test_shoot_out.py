@@ -77,7 +77,7 @@ def test_the_next_on_the_field_takes_it_when_the_first_is_off(squad, team):
 
 
 @TEAMS
-def test_who_is_off_the_field_rests_and_the_others_play_without_it(squad, team):
+def test_a_robot_off_the_field_rests_and_the_others_play_without_it(squad, team):
     """The one nearest to the ball is off: another goes for it."""
     players = squad(team)
     seen = {"ball": (-1.5, 1.0), "game": {"robots": {"cyan2": DisciplinaryRecord(off_field=OffField.REPAIR, left=9.0)}}}

@@ -1,39 +1,50 @@
-"""Record batches hold what is recorded of several ticks, byte for byte; they can be kept of anything that is said."""
+"""Batches hold what is recorded of several ticks, byte for byte, and the newest of them can be asked for again."""
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from schemas.bus import batch_publisher as module
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import ReceivedMessage, Stamp
+from schemas.bus.contract import NoReplyError, ReceivedMessage, Stamp
 from schemas.bus.in_process_bus import Medium
-from schemas.messages.record_batch import RawEntry, RecordBatch, decode_batch, encode_batch, payload_fields
+from schemas.messages.command import Command
+from schemas.messages.record_batch import (
+    Entry,
+    RecordBatch,
+    RecordBatchesReply,
+    RecordBatchesRequest,
+    payload_fields,
+    read_batch,
+    read_reply,
+    write_batch,
+)
 from schemas.process.clock import SteppedClock
-from schemas.topics import COMMAND, EVENT, RECORD_BATCH, SIGHT, WORLD
+from schemas.topics import COMMAND, EVENT, RECORD_BATCH, RECORD_BATCHES, SIGHT, WORLD
 
 KEY = "robot/cyan1/command"
 
 
 @pytest.fixture
-def bus():
+def seat():
     return Medium().open_bus("friendly", SteppedClock())
 
 
 @pytest.fixture
-def heard(bus):
+def heard(seat):
     """What has been sent: tick, and entries, of each."""
-    subscription = bus.subscribe(RECORD_BATCH)
+    subscription = seat.subscribe(RECORD_BATCH)
 
     def hear():
         sent = [received.payload for received in iter(subscription.receive, None)]
-        return [(RecordBatch.decode(payload).tick, decode_batch(payload)) for payload in sent]
+        return [(RecordBatch.decode(payload).tick, read_batch(payload).entries) for payload in sent]
 
     return hear
 
 
 @pytest.fixture
-def batches(bus, heard):
-    return BatchPublisher(bus)
+def batches(seat, heard):
+    return BatchPublisher(seat)
 
 
 def command(payload: bytes, number: int) -> ReceivedMessage:
@@ -61,9 +72,9 @@ def test_what_others_say_is_noted_as_it_came_with_what_travelled_beside_it(batch
     ]
 
 
-def test_what_the_host_says_goes_out_at_once_and_is_noted_if_it_is_recorded(batches, heard, bus):
+def test_what_the_host_says_goes_out_at_once_and_is_noted_if_it_is_recorded(batches, heard, seat):
     world, sight = batches.publisher(WORLD), batches.publisher(SIGHT, robot="cyan1")
-    worlds, sights = bus.subscribe(WORLD), bus.subscribe(SIGHT)
+    worlds, sights = seat.subscribe(WORLD), seat.subscribe(SIGHT)
     stamps = [world.put_payload(b'{"tick":1}'), sight.put_payload(b"{}"), world.put_payload(b'{"tick":2}')]
 
     assert [received.stamp for received in iter(worlds.receive, None)] == [stamps[0], stamps[2]]
@@ -82,21 +93,21 @@ def test_several_ticks_go_in_one_message(batches, heard):
     assert [(tick, len(entries)) for tick, entries in heard()] == [(8, 8), (16, 8)]
 
 
-def test_ticks_that_take_long_wait_for_fewer(batches, heard, bus):
+def test_ticks_that_take_long_wait_for_fewer(batches, heard, seat):
     for tick in (1, 2):
         batches.add_received(command(b"{}", tick))
-        bus.clock.sleep_until(bus.clock.now() + 0.1)
+        seat.clock.sleep_until(seat.clock.now() + 0.1)
         batches.end_tick(tick)
     assert numbers(heard) == [[1, 2]]
 
 
-def test_what_was_noted_does_not_wait_as_long_as_a_tick_may_take(batches, heard, bus):
+def test_what_was_noted_does_not_wait_as_long_as_a_tick_may_take(batches, heard, seat):
     batches.add_received(command(b"{}", 3))
     batches.send_if_due()
     assert numbers(heard) == []
-    bus.clock.sleep_until(bus.clock.now() + 0.2)
+    seat.clock.sleep_until(seat.clock.now() + 0.2)
     batches.send_if_due()
-    bus.clock.sleep_until(bus.clock.now() + 0.2)
+    seat.clock.sleep_until(seat.clock.now() + 0.2)
     batches.send_if_due()
     assert numbers(heard) == [[3]]
 
@@ -127,9 +138,119 @@ def test_more_than_256_kib_at_once_go_in_several_messages(batches, heard):
     assert {tick for tick, _ in messages} == {4}
 
 
+def publish(batches, count: int, size: int = 10) -> None:
+    for number in range(count):
+        batches.add_received(command(b"x" * size, number))
+        batches.send()
+
+
+def ask(batches, seat, **words):
+    """Ask for batches: what the host's reply holds, and the numbers of the batches in it."""
+    answer = seat.query(RECORD_BATCHES, RecordBatchesRequest(**words))
+    batches.process()
+    payload = answer.payload(0.0)
+    RecordBatchesReply.decode(payload)
+    reply = read_reply(payload)
+    return reply, [read_batch(bytes(batch)).number for batch in reply.batches]
+
+
+def test_batches_are_numbered_and_name_their_host(batches, seat):
+    listener = seat.subscribe(RECORD_BATCH)
+    publish(batches, 3)
+    came = [read_batch(received.payload) for received in iter(listener.receive, None)]
+    assert [batch.number for batch in came] == [0, 1, 2]
+    seat.clock.sleep_until(3.0)
+    other = BatchPublisher(seat)
+    other.send()
+    again = read_batch(listener.receive().payload)
+    assert again.number == 0
+    assert again.stream not in {batch.stream for batch in came}
+
+
+def test_a_recorder_that_asks_is_given_the_very_bytes_again(batches, seat):
+    listener = seat.subscribe(RECORD_BATCH)
+    publish(batches, 5)
+    sent = [received.payload for received in iter(listener.receive, None)]
+    reply, numbers = ask(batches, seat, first=1, last=3)
+    assert numbers == [1, 2, 3]
+    assert [bytes(batch) for batch in reply.batches] == sent[1:4]
+    assert reply.oldest == 0
+
+
+def test_without_a_last_number_all_newer_batches_are_given(batches, seat):
+    publish(batches, 5)
+    assert ask(batches, seat, first=3)[1] == [3, 4]
+    assert ask(batches, seat, first=5)[1] == []
+    assert ask(batches, seat, first=10**40)[1] == []
+    assert ask(batches, seat, first=2, last=1)[1] == []
+
+
+def test_a_host_that_has_published_nothing_says_so(batches, seat):
+    reply, numbers = ask(batches, seat, first=0)
+    assert (reply.oldest, numbers) == (0, [])
+
+
+def test_the_host_keeps_so_many_batches_and_tells_which_is_the_oldest(batches, seat, monkeypatch):
+    monkeypatch.setattr(module, "KEPT_BATCHES", 4)
+    publish(batches, 10)
+    reply, numbers = ask(batches, seat, first=0)
+    assert (reply.oldest, numbers) == (6, [6, 7, 8, 9])
+    assert ask(batches, seat, first=0, last=5)[1] == []
+
+
+def test_the_host_keeps_no_more_bytes_than_a_limit(batches, seat, monkeypatch):
+    monkeypatch.setattr(module, "KEPT_BYTES", 4000)
+    publish(batches, 10, size=1000)
+    reply, numbers = ask(batches, seat, first=0)
+    assert numbers == [reply.oldest, 8, 9][-len(numbers) :]
+    assert 1 <= len(numbers) <= 3
+    publish(batches, 1, size=5000)
+    assert ask(batches, seat, first=0)[1] == [10]
+
+
+def test_batches_from_before_a_time_are_left_out(batches, seat):
+    publish(batches, 3)
+    seat.clock.sleep_until(seat.clock.now() + 1.0)
+    since_ns = seat.clock.unix_ns()
+    publish(batches, 2)
+    reply, numbers = ask(batches, seat, first=0, since_ns=since_ns)
+    assert (reply.oldest, numbers) == (3, [3, 4])
+    assert ask(batches, seat, first=0, since_ns=10**19)[0].oldest == 5
+
+
+def test_a_reply_holds_at_least_one_batch_and_no_more_bytes_than_a_limit(batches, seat, monkeypatch):
+    monkeypatch.setattr(module, "_REPLY", 2500)
+    publish(batches, 6, size=700)
+    numbers = ask(batches, seat, first=0)[1]
+    assert numbers == list(range(len(numbers)))
+    assert 1 < len(numbers) < 6
+    assert ask(batches, seat, first=numbers[-1] + 1)[1][0] == numbers[-1] + 1
+    monkeypatch.setattr(module, "_REPLY", 1)
+    assert ask(batches, seat, first=2)[1] == [2]
+
+
+def test_who_asks_for_what_is_no_request_is_told_so(seat):
+    invalid = []
+    batches = BatchPublisher(seat, lambda *words: invalid.append(words))
+    answer = seat.query(RECORD_BATCHES, Command(answers_tick=3))
+    batches.process()
+    with pytest.raises(NoReplyError, match="RecordBatchesRequest"):
+        answer.payload(0.0)
+    assert [key for key, *_ in invalid] == ["host/record_batches"]
+
+
+def test_questions_without_end_do_not_hold_the_host(batches, seat):
+    publish(batches, 1)
+    answers = [seat.query(RECORD_BATCHES, RecordBatchesRequest(first=0)) for _ in range(100)]
+    batches.process()
+    with pytest.raises(NoReplyError):
+        answers[-1].payload(0.0)
+    assert answers[0].payload(0.0)
+
+
 @given(st.binary(max_size=40) | st.text(max_size=20).map(str.encode) | st.just(b"[" * 5000 + b"]" * 5000))
 def test_any_payload_comes_out_as_it_went_in_and_leaves_the_batch_whole(payload):
-    written = encode_batch(3, [RawEntry("world", **payload_fields(payload))])
+    written = write_batch(1, 2, 3, 4, [Entry("world", **payload_fields(payload))])
     assert RecordBatch.decode(written).tick == 3
-    (entry,) = decode_batch(written)
+    (entry,) = read_batch(written).entries
     assert entry.payload == payload

@@ -279,7 +279,7 @@ def test_a_question_that_fails_says_why(buses: Buses) -> None:
 
 
 def test_a_question_that_nobody_answers_is_no_silence(buses: Buses) -> None:
-    with pytest.raises(NoReplyError, match="nobody answers host/setup"):
+    with pytest.raises(NoReplyError, match="no process answers host/setup"):
         buses.join().query(SETUP, RefereeAction(action=ActionName.STOP)).result(SOON)
 
 

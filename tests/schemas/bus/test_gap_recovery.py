@@ -160,10 +160,3 @@ def test_doubles_and_messages_without_a_number_or_a_known_writer_pass_through(re
     reader.recovery.insert(ReceivedMessage(WORLD, "world", b"", None), "a", 0.0)
     assert len(reader.recovery.ready) == 2
     assert not reader.recovery.has_gaps
-
-
-def test_who_skips_what_is_missing_is_given_all_that_came(reader):
-    reader.hear(10, 11, 15)
-    reader.recovery.skip_missing()
-    assert reader.ready() == [10, 11, 15]
-    assert not reader.recovery.has_gaps

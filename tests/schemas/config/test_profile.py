@@ -45,7 +45,7 @@ def test_pitches_have_the_sizes_of_their_rule_books(
     goal_area: tuple[float, float],
     goal: tuple[float, float],
 ) -> None:
-    """Reference 13, row 41: an area is as wide as the goal and twice its depth, in either year."""
+    """An area is as wide as the goal and twice its depth, in either year."""
     pitch = load_profile(name).field
     assert (pitch.length, pitch.width) == size
     assert (pitch.penalty_area_width, pitch.penalty_area_depth) == approx(penalty_area)
@@ -78,11 +78,11 @@ def test_nine_restart_spots_are_marked() -> None:
         ("[field]\nlenght = 3", 'field.lenght is not known; did you mean "length"?'),
         (
             '[field]\nlength = { value = 22, unit = "cm", origin = "x" }',
-            "field.length has unit 'cm'; it is given in \"m\"",
+            "field.length has unit 'cm'; its unit is \"m\"",
         ),
         (
             '[field]\nlength = { value = 2200, unit = "m", origin = "x" }',
-            "field.length is 2200; it lies between 4 and 120 m",
+            "field.length is 2200; it must be between 4 and 120 m",
         ),
         ('[field]\nlength = { value = "22", unit = "m", origin = "x" }', "field.length is '22'; write a number in m"),
         ('[field]\nlength = { value = nan, unit = "m", origin = "x" }', "field.length is nan; write a number in m"),

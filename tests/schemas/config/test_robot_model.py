@@ -72,7 +72,7 @@ def test_a_profile_that_extends_another_changes_one_number_of_its_type(tmp_path:
         ),
         (
             '[types.slow.drive]\nmax_speed = { value = 1.0, unit = "km/h", origin = "x" }',
-            "types.slow.drive.max_speed has unit 'km/h'; it is given in \"m/s\"",
+            "types.slow.drive.max_speed has unit 'km/h'; its unit is \"m/s\"",
         ),
         ("[types.slow.field]\nlength = 3", "types.slow.field is not known"),
         ("[types.standard.robot]\nmass = 3", "types.standard is the profile's own robot"),

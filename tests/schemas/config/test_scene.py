@@ -1,4 +1,4 @@
-"""Scene files: those that ship, and one line for what is wrong with another (reference 13, row 42)."""
+"""Scene files: those that ship, and one line for what is wrong with another."""
 
 from pathlib import Path
 
@@ -38,7 +38,7 @@ def test_every_scene_that_ships_is_one_and_says_what_it_is_for(name: str) -> Non
 
 
 def test_the_papers_two_set_ups_are_among_them() -> None:
-    """Reference 0: three robots and three static rivals; two moving sides; on the pitch of 18 × 12 m."""
+    """Section V of the paper: three robots and three static rivals; two moving sides; on the pitch of 18 × 12 m."""
     static, moving = load_scene("paper_static"), load_scene("paper_two_sides")
     for scene in (static, moving):
         assert scene.profile == "paper"
@@ -49,7 +49,7 @@ def test_the_papers_two_set_ups_are_among_them() -> None:
 
 
 def test_the_two_moving_sides_of_the_paper_see_the_same_turned_round() -> None:
-    """Reference 0: the second side has its reference frame reversed."""
+    """Section V of the paper: the second side has its reference frame reversed."""
     cyan, magenta = (sorted(load_scene("paper_two_sides").of(side), key=lambda one: one.name) for side in Side)
     assert [(-one.x, -one.y) for one in magenta] == [(one.x, one.y) for one in cyan]
 
@@ -70,11 +70,11 @@ WRONG = {
     "a phase that is none": (GOOD + '[game]\nphase = "paly"\n', "game.phase is 'paly'; one of pre_game, stopped"),
     "a phase without a beginning": (GOOD + '[game]\nphase = "half_time"\n', "no scene begins in the phase half_time"),
     "a restart of nobody": (GOOD + '[game]\nphase = "corner"\n', "corner belongs to a side; name cyan or magenta"),
-    "a side in play": (GOOD + '[game]\nphase = "play"\nside = "cyan"\n', "play belongs to nobody"),
+    "a side in play": (GOOD + '[game]\nphase = "play"\nside = "cyan"\n', "play belongs to no side"),
     "a goal too many": (GOOD + "[game]\nscore = { cyan = -1 }\n", "game.score.cyan is -1"),
     "two goalkeepers": (
         GOOD.replace('side = "magenta"', 'side = "cyan"').replace("x = ", "keeper = true\nx = "),
-        "cyan1 and magenta1 both keep cyan's goal",
+        "cyan1 and magenta1 are goalkeepers of cyan",
     ),
     "an obstacle that is half one": (
         GOOD + '[[obstacles]]\nname = "wall"\nshape = "box"\nplace = [1.0, 1.0]\n',

@@ -57,7 +57,7 @@ def test_the_parabola_passes_through_d_and_h_and_stays_below_the_bound(d: float,
 @pytest.mark.parametrize("speed", [2.0, 6.0, 9.0, 12.0])
 @pytest.mark.parametrize("drag", [0.0, DRAG, 2 * DRAG])
 def test_a_solved_lob_arrives_at_its_point_with_and_without_drag(d: float, speed: float, drag: float) -> None:
-    """Row 9: within 1 mm of the aim in the engine's own steps, and within a ball's radius of the paper's (d, h).
+    """Within 1 mm of the aim in the engine's own steps, and within a ball's radius of the paper's (d, h).
 
     Below the bound of equation 12 and past the apex (equation 11).
     """
@@ -88,7 +88,7 @@ def test_a_long_lob_at_the_devices_top_speed_comes_down_steeply_and_clears_the_b
 
 
 def test_a_ground_kick_leaves_along_the_kick_axis_at_its_speed() -> None:
-    """Row 8; equations 1 and 3."""
+    """Equations 1 and 3 of the paper."""
     vx, vy, vz = kicked(KickMode.GROUND, 5.0, heading=2.0)
     assert (math.hypot(vx, vy), math.atan2(vy, vx), vz) == approx((5.0, 2.0, 0.0))
 
@@ -101,13 +101,13 @@ def test_a_lob_leaves_along_the_kick_axis() -> None:
 
 @pytest.mark.parametrize("speed", [2.0, 7.0, 14.0])
 def test_a_loft_kick_leaves_at_its_speed_and_angle_and_needs_no_goal(speed: float) -> None:
-    """Row 10: 36.87°, 0.8 of the speed along the ground and 0.6 upward."""
+    """As in simatch: 36.87°, 0.8 of the speed along the ground and 0.6 upward."""
     vx, vy, vz = kicked(KickMode.LOFT, speed, heading=math.pi / 2)
     assert (vx, vy, vz) == approx((0.0, 0.8 * speed, 0.6 * speed), abs=1e-9)
 
 
 def test_no_kick_is_faster_than_the_device() -> None:
-    """Defect 12 of section 14: a lob's strength was not clamped."""
+    """simatch does not clamp the strength of a lob."""
     assert kicked(KickMode.GROUND, 40.0).vx == approx(MSL.kicker.max_ground_speed)
     assert math.hypot(*kicked(KickMode.LOFT, 40.0)) == approx(MSL.kicker.max_air_speed)
     far = kicked(KickMode.LOB, 40.0, x=-3.0)
@@ -128,12 +128,12 @@ def test_a_lob_that_meets_no_goal_line_is_refused_with_its_reason() -> None:
 
 
 def test_a_lob_beyond_the_devices_power_is_refused_with_its_reason() -> None:
-    with pytest.raises(KickRefusedError, match=r"goes the 31\.1 m to the goal with the 20 m/s there are"):
+    with pytest.raises(KickRefusedError, match=r"reaches the goal, 31\.1 m away, with at most 20 m/s"):
         kicked(KickMode.LOB, 12.0, x=-11.0, heading=math.pi / 4)
 
 
 def test_modes_have_names() -> None:
-    """Defect 11 of section 14: −1 and +1 meant ground and lob, then lob and ground."""
+    """In the NuBot simulation −1 and +1 meant ground and lob, and in simatch lob and ground."""
     assert {mode.value for mode in KickMode} == {"ground", "lob", "loft"}
     with pytest.raises(ValueError, match="-1"):
         KickMode(-1)

@@ -17,7 +17,7 @@ def test_a_robot_nobody_commands_rests() -> None:
 
 
 def test_a_command_stands_until_the_watchdog_and_not_a_tick_longer() -> None:
-    """Row 18 and defect 9: 0.2 s are ten ticks; then the robot brakes and its dribbler stops."""
+    """0.2 s are ten ticks; then the robot brakes and its dribbler stops."""
     commands = LatestCommands(NAMES, 10)
     commands.inputs(5, {"cyan1": command(5)})
     assert commands.inputs(15, {})["cyan1"].drive == GO

@@ -82,7 +82,7 @@ def in_body(robot: RobotState) -> complex:
 def test_from_rest_to_three_metres_a_second_takes_as_long_as_the_limit_says(model: RobotModel) -> None:
     """v / a = 1.2 s to 97 % and 3 m/s within 0.1 s more: the wheels follow the limited demand by some 0.02 s.
 
-    Reference 13, rows 3 and 4; reference 14, defect 1: the seed was there after one command.
+    simatch's limiter reached 2.97 m/s with the first command.
     """
     floor = Floor(model)
     while floor.tick((3, 0, 0)).vx < 0.97 * 3:
@@ -124,7 +124,7 @@ def test_weak_motors_take_a_robot_to_its_speed_along_an_exponential() -> None:
 def test_the_top_speed_of_each_direction_is_that_of_the_wheel_that_turns_fastest(
     model: RobotModel, degrees: int
 ) -> None:
-    """v = limit / max |sin(direction − wheel)|: 7.07 m/s along an axis, 5 on a diagonal (reference 4.3); to 0.5 %."""
+    """v = limit / max |sin(direction − wheel)|: 7.07 m/s along an axis, 5 on a diagonal; to 0.5 %."""
     free = model_with(model, FAST)
     angle, wheels = math.radians(degrees), free.wheels
     hubs = [wheels.angle + 2 * math.pi * number / wheels.count for number in range(wheels.count)]
@@ -148,7 +148,7 @@ def test_a_full_turn_takes_what_the_wheels_allow(model: RobotModel) -> None:
 
 @BOTH
 def test_driving_and_turning_share_the_wheels_and_keep_their_proportion(model: RobotModel) -> None:
-    """Too much for the wheels, though not for the drive: both are shortened alike; reference 13, row 3."""
+    """Too much for the wheels, though not for the drive: both are shortened alike."""
     told: Told = (2.0, 0.6, 2.0)
     robot = Floor(model_with(model, wheels={"max_speed": 1.5})).run(4.0, told)
     assert robot.omega < 0.75 * told[2]
@@ -157,7 +157,7 @@ def test_driving_and_turning_share_the_wheels_and_keep_their_proportion(model: R
 
 @BOTH
 def test_speed_does_not_depend_on_the_compass(model: RobotModel) -> None:
-    """Reference 14, defect 2: the seed limited wheels in the world frame. Same motion in the body at every heading."""
+    """The same motion in the body at every heading; simatch limited wheels in the field frame."""
     headings = [math.radians(degrees) for degrees in (0, 30, 45, 90, 135, 200, 300)]
     floor = Floor(*[model] * len(headings), headings=headings)
     for _ in range(100):
@@ -169,7 +169,7 @@ def test_speed_does_not_depend_on_the_compass(model: RobotModel) -> None:
 
 @BOTH
 def test_a_robot_let_go_of_brakes_at_its_limit_and_comes_to_rest_exactly(model: RobotModel) -> None:
-    """What the wheels are told is zero, not nearly zero, after v / deceleration; reference 14, defects 1 and 9."""
+    """What the wheels are told is zero, not nearly zero, after v / deceleration."""
     floor = Floor(model)
     floor.run(2.0, (3, 0, 0))
     floor.run(3 / model.drive.deceleration + TIME.tick, REST)
@@ -179,7 +179,7 @@ def test_a_robot_let_go_of_brakes_at_its_limit_and_comes_to_rest_exactly(model: 
 
 @BOTH
 def test_what_the_wheels_are_told_never_jumps(model: RobotModel) -> None:
-    """Reference 14, defect 1: within any tick the told velocity changes by the limit × the tick at most."""
+    """Within any tick the demanded velocity changes by the limit × the tick at most."""
     floor, random = Floor(model), np.random.default_rng(2)
     before = np.zeros(2)
     for _ in range(200):

@@ -35,7 +35,7 @@ def ball(distance: float, bearing: float = 0.0, z: float = 0.11) -> BallState:
     ],
 )
 def test_a_ball_is_held_within_distance_total_cone_and_height(seen: BallState, held: bool) -> None:
-    """Reference 13, row 5: the cone is the whole one, half of it to either side."""
+    """The cone is the whole one, half of it to either side."""
     assert can_hold(robot(), seen, DRIBBLE) is held
 
 
@@ -48,7 +48,7 @@ def test_the_nearest_of_those_that_want_it_holds_the_ball() -> None:
 
 
 def test_two_equal_claims_leave_the_ball_free_whoever_is_listed_first() -> None:
-    """Defect 8 of section 14: the last writer won."""
+    """In simatch the last writer had the ball."""
     robots = (robot(-0.35), robot(0.352, heading=math.pi))
     assert holder([0, 1], robots, ball(0), [DRIBBLE] * 3) is None
     assert holder([1, 0], robots[::-1], ball(0), [DRIBBLE] * 3) is None

@@ -32,14 +32,14 @@ def run(now: complex, demand: complex, ticks: int) -> list[complex]:
 
 
 def test_from_rest_to_three_metres_a_second_takes_as_long_as_the_limit_says() -> None:
-    """v / a = 3 / 2.5 = 1.2 s; the seed's limiter was there after one command (defect 1 of section 14)."""
+    """v / a = 3 / 2.5 = 1.2 s; simatch's limiter reached 2.97 m/s with the first command."""
     velocities = run(0, 3, 100)
     first = next(step for step, v in enumerate(velocities, 1) if v.real >= 3 - 1e-9)
     assert first * STEP == approx(3 / LIMITS.acceleration, abs=STEP)
 
 
 def test_a_small_change_is_not_swallowed_and_a_stop_ends_at_rest() -> None:
-    """Defect 1 of section 14: changes below 0.035 m/s vanished, and the output never came to rest."""
+    """In simatch changes below 0.035 m/s vanished, and the output never came to rest."""
     assert run(0, 0.01, 1)[-1] == approx(0.01)
     assert run(0.018, 0, 1)[-1] == approx(0.0, abs=1e-9)
 
@@ -77,7 +77,7 @@ def test_no_step_changes_a_velocity_by_more_than_the_limits_allow(ax: float, ay:
 
 
 def test_top_speed_is_the_same_in_every_direction_of_the_body() -> None:
-    """Defect 2 of section 14: the seed's top speed depended on the compass."""
+    """In simatch the top speed depends on the direction of travel in the field frame."""
     tops = [abs(run(0, 100 * complex(math.cos(a), math.sin(a)), 300)[-1]) for a in np.linspace(0, 2 * math.pi, 17)]
     assert tops == approx([LIMITS.max_speed] * 17)
 
@@ -96,7 +96,7 @@ def test_the_turn_rate_keeps_its_own_limits(now: float, demand: float) -> None:
 
 
 def test_robots_are_planned_each_for_itself() -> None:
-    """Defect 5 of section 14 was one memory for all robots."""
+    """In simatch all robots shared one memory."""
     now, demand = np.array([0, 1 + 1j, -2j]), np.array([3, 0, 2j])
     together = Ramp.of_moving([LIMITS] * 3, STEP, STEPS).toward(now, demand)
     for one in range(3):
@@ -113,7 +113,7 @@ def test_what_was_planned_stays_what_it_is_when_the_next_tick_is_planned() -> No
 
 @pytest.mark.parametrize("step", [0.0025, 0.005, 0.01])
 def test_an_acceleration_is_the_same_in_steps_of_any_length(step: float) -> None:
-    """Reference 14, defect 15: the seed's trajectory took every step for 7 ms. 1 m/s is reached after v / a."""
+    """1 m/s is reached after v / a; the paper's code took every step for 7 ms."""
     moving = Ramp.of_moving([LIMITS], step, 1)
     at, steps = np.array([0j]), 0
     while at[0].real < 1 - 1e-9:

@@ -14,7 +14,7 @@ MSL = load_profile("msl")
 
 
 def test_each_robot_has_its_own_clock() -> None:
-    """Reference 13, row 44: time based; reference 14, defect 5: the seed had one counter for all."""
+    """Time based; in simatch all robots share one counter."""
     watch = StuckDetector(3, tick=0.05)
     for _ in range(4):
         watch.update([0, 2], np.array([False, True]))
@@ -25,7 +25,7 @@ def test_each_robot_has_its_own_clock() -> None:
 
 
 def test_the_time_to_be_stuck_does_not_depend_on_the_tick() -> None:
-    """0.2 s, whether they are 4 ticks or 20 (reference 13, row 44: 40 checks at 5 ms)."""
+    """0.2 s, whether they are 4 ticks or 20 (simatch: 40 checks at 5 ms)."""
     for ticks in (4, 20):
         watch, tick = StuckDetector(1, tick=0.2 / ticks), 0
         while not watch.stuck()[0]:
@@ -47,7 +47,7 @@ def held(told: tuple[float, float, float], measured: tuple[float, float, float])
 
 
 def test_a_robot_well_below_its_demand_is_held_back_in_driving_and_in_turning() -> None:
-    """Reference 4.4: translation, else rotation."""
+    """As in simatch: translation, else rotation."""
     assert held((2, 0, 0), (0, 0, 0)) == [False, True, False]
     assert held((2, 0, 0), (1.5, 0, 0)) == [False] * 3
     assert held((0, 0, 5), (0, 0, 0)) == [False, True, False]

@@ -38,7 +38,7 @@ def seen_from_the_rim(model: RobotModel) -> tuple[float, float, float]:
 
 
 def test_rims_move_as_the_platforms_coefficients_say() -> None:
-    """Reference 4.3: 0.707 (±vx ± vy) + 0.203 omega on four wheels, 0.866 vx and 0.5 vy on three."""
+    """As in simatch: 0.707 (±vx ± vy) + 0.203 omega on four wheels, 0.866 vx and 0.5 vy on three."""
     vx, vy, omega = 1.2, -0.7, 0.9
     c, turning = math.sqrt(0.5), 0.203 * omega
     four = WheelSets([FOUR], STEP).rolling(column(vx, vy, omega))[:, 0]
@@ -52,7 +52,7 @@ def test_rims_move_as_the_platforms_coefficients_say() -> None:
 
 @BOTH
 def test_a_wheel_limit_shortens_the_twist_and_keeps_its_direction(model: RobotModel) -> None:
-    """Reference 4.3 and 13, row 3: all wheels are scaled together."""
+    """All wheels are scaled together."""
     wheels = WheelSets([model] * 50, STEP)
     twists = np.random.default_rng(3).normal(size=(3, 50)) * np.array([[4], [4], [15]])
     limited = wheels.within_limit(twists)

@@ -39,9 +39,9 @@ def test_time_steps_and_sizes_can_be_read_and_not_changed(live_parameters: LiveP
 
 
 WRONG = {
-    "an unknown section": ({"bal.mass": 0.4}, 'bal.mass is no parameter; did you mean "ball"'),
+    "an unknown section": ({"bal.mass": 0.4}, 'bal.mass is not a parameter; did you mean "ball"'),
     "an unknown number": ({"ball.mas": 0.4}, 'did you mean "ball.mass"'),
-    "a number out of range": ({"radio.loss": 1.5}, "radio.loss is 1.5; it lies between 0 and 1"),
+    "a number out of range": ({"radio.loss": 1.5}, "radio.loss is 1.5; it must be between 0 and 1"),
     "a word for a number": ({"radio.loss": "much"}, "radio.loss is 'much'; write a number"),
     "a word that is not known": ({"dribble.method": "glue"}, "dribble.method is 'glue'"),
     "an unknown noise": ({PRESET: "perfct"}, 'did you mean "perfect"'),

@@ -37,7 +37,7 @@ def ask(name: str, robot: str) -> RefereeAction:
 
 
 def truth(tick: TickResult) -> World:
-    fields: dict[str, Any] = {**tick.world, "version": "1.0"}
+    fields: dict[str, Any] = {**tick.world, "version": "2.0"}
     return World.model_validate(fields)
 
 

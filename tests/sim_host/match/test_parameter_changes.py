@@ -1,4 +1,4 @@
-"""Live parameters have their effect from the next tick on (reference 13, row 21), are recorded and told."""
+"""Live parameters have their effect from the next tick on, are recorded and published."""
 
 import statistics
 from collections.abc import Iterator

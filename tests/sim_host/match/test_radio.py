@@ -1,4 +1,4 @@
-"""The radio: delay, jitter, loss and budget, the same for equal seeds (reference 13, row 27)."""
+"""The radio: delay, jitter, loss and budget, the same for equal seeds."""
 
 import math
 from dataclasses import replace

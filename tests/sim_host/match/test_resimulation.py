@@ -21,13 +21,12 @@ from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.resimulation import (
     CheckpointState,
     Conditions,
-    Difference,
     ImpossibleTickError,
     Resimulation,
-    differences,
     parameters_of,
 )
 from sim_host.match.simulation import Simulation, TickResult
+from sim_host.match.world_difference import Difference, differences
 
 CRATE = {"name": "crate", "shape": "box", "place": [1.5, 1.0], "heading": 0.4, "size": [0.4, 0.8, 0.6]}
 KINDS: dict[str, dict[str, Any]] = {
@@ -163,7 +162,7 @@ def test_from_every_checkpoint_it_does_so_too(recorded) -> None:
 
 def test_the_hosts_words_on_its_setup_are_enough_for_the_numbers(recorded) -> None:
     simulation, ticks = recorded
-    simulation.live_parameters = simulation.live_parameters.at_start
+    assert simulation.handle_parameters(ParametersRequest(operation=ParameterOperation.RESET)).accepted
     again = Resimulation(Conditions(parameters_of(type(simulation.setup()).decode(simulation.setup().encode()))))
     for applied, said in notes(ticks):
         assert again.step(applied, said).chain == applied.chain
@@ -218,10 +217,10 @@ def test_an_input_without_any_effect_is_found_too(plain) -> None:
 
 
 IMPOSSIBLE: dict[str, tuple[dict[str, Any], str]] = {
-    "an input is missing": ({"inputs": {}}, "inputs and robots that take part differ: cyan1, cyan2, magenta1"),
+    "an input is missing": ({"inputs": {}}, "inputs do not match the robots that take part: cyan1, cyan2, magenta1"),
     "a stranger is placed": ({"placements": [Placement(body="nobody", x=0, y=0)]}, "nobody is placed"),
     "a parameter that nobody knows": ({"parameters": {"ball.colour": 3.0}}, "parameters that cannot be set"),
-    "nobody is left": ({"robots": [], "remade": True}, "nobody takes part"),
+    "nobody is left": ({"robots": [], "remade": True}, "no robot takes part"),
 }
 
 

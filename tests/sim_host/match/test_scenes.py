@@ -1,4 +1,4 @@
-"""Scenes in a running match (reference 13, rows 22 and 42): loaded, changed, begun anew, and simulated again."""
+"""Scenes in a running match: loaded, changed, reset, and simulated again."""
 
 import json
 from collections.abc import Callable, Iterator
@@ -133,7 +133,7 @@ def test_bodies_are_placed_while_the_match_runs_with_a_velocity(simulation) -> N
 def test_a_ball_that_is_set_down_with_a_velocity_rolls_and_is_slowed_as_it_is_set(simulation) -> None:
     """v² = 2 a s: from 2 m/s a ball stops after 4 m at 0.5 m/s², and after 1 m at 2 m/s²; tolerance 2 %.
 
-    Reference 13, row 21: the effect of a parameter that was set while the match runs.
+    The parameter is set while the match runs.
     """
 
     def way() -> float:
@@ -311,19 +311,19 @@ REFUSED: dict[str, tuple[str, dict[str, Any], str]] = {
     ),
     "a robot in a goal post": ("place", {"place": [Placement(body="cyan1", x=11.0, y=1.2)]}, "inside a goal"),
     "a robot on another": ("place", {"place": [Placement(body="cyan2", x=-10.5, y=0.1)]}, "inside cyan1"),
-    "somebody who is not there": ("place", {"place": [Placement(body="cyan7", x=0, y=0)]}, "cyan7 is no robot"),
+    "somebody who is not there": ("place", {"place": [Placement(body="cyan7", x=0, y=0)]}, "cyan7 is neither a robot"),
     "a flying robot": ("place", {"place": [Placement(body="cyan2", x=1, y=3, z=2)]}, "stands on the ground"),
     "a ball in the ground": ("place", {"place": [Placement(body="ball", x=1, y=3, z=0)]}, "its radius is 0.11 m"),
-    "nobody": ("place", {}, "nothing is named"),
+    "nobody": ("place", {}, "no body to place is named"),
     "a sixth robot": ("add", {"robots": [robot("cyan6", 3.0, 3.0)]}, "cyan has 6 robots; a side has at most 5"),
     "a name twice": ("add", {"obstacles": [WALL.model_copy(update={"name": "cyan1"})]}, 'two bodies are named "cyan1"'),
     "an obstacle on a robot": ("add", {"obstacles": [WALL.model_copy(update={"place": [-10.5, 0.5]})]}, "inside wall"),
     "everybody": (
         "remove",
         {"remove": [f"{side}{number}" for side in Side for number in range(1, 6)]},
-        "nobody would be left",
+        "no robot would be left",
     ),
-    "somebody who was not there": ("remove", {"remove": ["cyan8"]}, "cyan8 is no robot and no obstacle"),
+    "somebody who was not there": ("remove", {"remove": ["cyan8"]}, "cyan8 is neither a robot nor an obstacle"),
 }
 
 

@@ -123,7 +123,7 @@ def test_a_word_beyond_the_budget_is_told_in_the_outcome_and_not_said() -> None:
 
 
 def test_what_robots_perceive_changes_nothing_in_the_world() -> None:
-    """Reference 14, defect 4: equal inputs give equal worlds under every preset, and under any other sensing."""
+    """Equal inputs give equal worlds under every preset, and under any other sensing."""
     chains = []
     for preset in PRESETS:
         one = simulate(noise__preset=preset)

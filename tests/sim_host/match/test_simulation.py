@@ -189,7 +189,7 @@ def test_the_order_in_which_answers_arrive_changes_nothing() -> None:
 
 
 def test_noise_is_on_what_robots_perceive_and_never_on_the_physics() -> None:
-    """Defect 4: the seed's plugin decided from noisy data."""
+    """The NuBot simulation's plugin decides holds and kicks from noisy data."""
     worlds = []
     for preset in ("perfect", "paper"):
         one = simulate(noise__preset=preset)

@@ -69,7 +69,7 @@ def test_robots_start_apart_from_each_other_and_on_the_pitch(profile):
 
 @pytest.mark.parametrize("count", [2, 6, 10, 20, 100])
 def test_nothing_but_the_rules_keeps_a_side_at_five_robots_with_one_digit(count):
-    """Reference 13, row 23, and reference 14, defect 13: the seed could not name a sixth robot, nor a tenth.
+    """simatch cannot name a sixth robot.
 
     A match file has five a side at most, as the rules do; start, world and referee take any number.
     """

@@ -95,7 +95,7 @@ def test_people_who_stop_the_game_settle_what_was_proposed(mixed):
 def test_where_nothing_is_proposed_there_is_nothing_to_say(mixed, name):
     mixed.playing()
     (reply,) = mixed.ask(name).replies
-    assert not reply.accepted and "nothing is proposed" in reply.reason
+    assert not reply.accepted and "there is no proposal" in reply.reason
 
 
 def test_the_end_of_a_half_is_no_proposal(new_rig):

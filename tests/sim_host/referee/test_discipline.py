@@ -1,11 +1,11 @@
-"""Cards and people: who leaves the field, for how long, and who comes back when (reference 9.3, 10.3, 10.6)."""
+"""Cards and people: who leaves the field, for how long, and who comes back when."""
 
 import pytest
 
 from schemas.game import Card, EventKind, OffField, Phase, RefereeAction, Score
 from schemas.side import Side
 from sim_host.referee.game.decision import Decision
-from sim_host.referee.procedures.periods import carry_out
+from sim_host.referee.procedures.decision import carry_out
 from sim_host.referee.ruling_draft import RulingDraft
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
@@ -34,7 +34,7 @@ def halted(rig):
 
 @pytest.mark.parametrize("name", ["cyan1", "cyan5", "magenta1", "magenta4"])
 def test_two_yellow_cards_suspend_and_the_third_is_red_for_whichever_robot(rig, name):
-    """Reference 14, defect 13: only robots 2 to 5 could be sent off."""
+    """simatch's referee can send off robots 2 to 5 only."""
     halted(rig)
     rig.ask("yellow_card", robot=name)
     assert away(rig, name) is None and not is_beside(rig, name)
@@ -84,7 +84,7 @@ def test_a_red_card_is_for_good_and_the_robot_is_beside_the_field_in_both_halves
 
 
 def test_in_the_simulation_league_reds_last_longer_each_time_and_the_fifth_is_for_good(new_rig):
-    """Reference 10.6: 30 s, 5 s more for each later one of the side; every five reds one robot for good."""
+    """China simulation league 2020: 30 s, 5 s more for each later one of a side; every five reds one robot for good."""
     rig = halted(new_rig(rules="china-sim-2020"))
     durations = []
     for name in ("cyan1", "cyan2", "cyan3", "cyan4", "cyan5"):
@@ -128,7 +128,7 @@ def test_a_robot_in_repair_comes_back_by_itself_after_its_time_and_not_before(ri
     halted(rig)
     rig.ask("repair", robot="cyan3")
     out = rig.events[-1].time
-    assert "s are left" in refused(rig.ask("enter", robot="cyan3"))
+    assert "s left" in refused(rig.ask("enter", robot="cyan3"))
     rig.until(lambda state: "cyan3" not in state.participation.absences)
     assert rig.events[-1].time - out == pytest.approx(rig.book.people.repair, abs=2 * rig.dt)
 

@@ -15,7 +15,6 @@ def played(new_rig):
 
 
 def test_the_last_touch_and_the_other_robot_before_it_are_kept(played):
-    """Reference 13, row 39."""
     for robot in ("cyan3", "magenta2", "magenta2"):
         played.tick((0.0, 1.0), [robot])
     play = played.state.evidence.play

@@ -255,7 +255,6 @@ def told(new_rig, case, amount, mirrored=False):
 
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES)
 def test_the_least_case_is_called_with_its_measure_and_the_nearest_other_is_not(new_rig, case):
-    """Reference 10.5, 10.6; reference 14, defect 16."""
     rig, event = told(new_rig, case, case.breaks)
     assert event is not None and event.kind is case.kind
     assert event.measured is not None and event.unit in ("m", "s")
@@ -331,7 +330,7 @@ def test_when_the_goalkeeper_is_back_who_stood_in_for_it_leaves_the_goal_area(ne
 
 @pytest.mark.parametrize("behind", [0.6, 5.0])
 def test_behind_the_goal_line_and_out_of_the_goal_nobody_is_in_an_area(new_rig, behind):
-    """The older referee had no limit along x (reference 14, defect 16)."""
+    """simatch's referee has no limit along x."""
     rig = new_rig().playing()
     rig.robots["cyan3"] = (rig.pitch.goal_line + behind, 0.5)
     rig.run(3.0)
@@ -434,7 +433,6 @@ def test_straight_from_the_own_restart_into_the_own_goal_is_a_corner(new_rig, to
 
 
 def test_the_scrum_is_dropped_where_both_had_the_ball(new_rig):
-    """Reference 13, row 40."""
     rig = new_rig().playing()
     contest(rig, 10.02)
     assert rig.state.pending.spot == pytest.approx((0.0, 1.0)) and rig.state.pending.side is None

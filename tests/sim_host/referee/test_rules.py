@@ -127,7 +127,7 @@ def test_the_last_of_several_touches_in_one_tick_counts(rig):
 def test_a_ball_out_that_nobody_touched_is_dropped_inside_the_field(rig, axis):
     place = (beyond(rig, "x", 0.1), 4.0) if axis == "x" else (1.0, beyond(rig, "y", 0.1))
     ruling = rig.crossing((1.0, 4.0), place, [])
-    assert ruling.events[0].robot is None and "nobody" in ruling.events[0].text
+    assert ruling.events[0].robot is None and "no robot" in ruling.events[0].text
     pending, inset = ruling.state.pending, rig.book.restarts.field_inset
     assert pending.phase is Phase.DROP_BALL and pending.side is None
     assert abs(pending.spot[0]) <= rig.pitch.goal_line - inset

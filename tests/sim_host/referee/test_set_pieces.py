@@ -1,4 +1,4 @@
-"""Taking a restart: who may touch the ball when, how it comes into play, and when a goal counts (reference 10.4).
+"""Taking a restart: who may touch the ball when, how it comes into play, and when a goal counts (MSL rule book 2016).
 
 Each table holds the least case that breaks a rule and the nearest that does not.
 """
@@ -177,7 +177,7 @@ def test_in_a_friendly_a_direct_shot_counts_and_nobody_touches_too_early(new_rig
 
 
 def test_who_stands_wrong_at_the_limit_is_named_carded_and_moved(rig):
-    """Reference 10.4: too near is a yellow card; reference 14, defect 16: the older referee never checked."""
+    """MSL rule book 2016: too near is a yellow card. simatch's referee does not check it."""
     rig.playing()
     rig.ask("free_kick", CYAN, SPOT)
     rig.robots["magenta2"] = (SPOT[0] + 1.0, SPOT[1])

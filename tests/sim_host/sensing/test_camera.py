@@ -20,7 +20,6 @@ HULLS = {"occlusion": "hulls"}
 
 @pytest.mark.parametrize(("distance", "seen"), [(6.99, True), (7.0, True), (7.01, False)])
 def test_ball_and_obstacles_are_seen_up_to_their_range(scenery, distance, seen):
-    """Reference 13, row 14."""
     made = scenery([(0, 0), (0, distance)], (distance, 0.0), ball_range=7.0, obstacle_range=7.0)
     one = made.look()[0]
     assert (one.ball is not None) == seen
@@ -95,7 +94,7 @@ def test_static_obstacles_are_seen_among_the_robots_with_the_radius_of_the_circl
     made.obstacles = (cylinder("barrel", 0.0, 2.0), box("wall", -4.0, 0.0, 0.3))
     mine, theirs = made.look()
     expected = [(0, 2, 0.5), (3, 0, RADIUS), (-4, 0, math.hypot(0.2, 1.0))]
-    assert np.array(mine.obstacles) == approx(np.array(expected))
+    assert np.array(mine.obstacles) == approx(np.array(expected), abs=6e-5)
     assert theirs.obstacles[0] == approx((0.0, 0.0, RADIUS)) and theirs.obstacles[1][:2] == approx((0.0, -2.0))
 
 
@@ -147,7 +146,7 @@ def test_the_frame_of_a_robot_hides_as_it_stands(scenery, heading, seen):
     wide = replace(standard, body=replace(standard.body, frame_width=1.0, frame_depth=0.1))
     one = scenery(robots, (4.0, 0.4), roster=replace(roster, models=(standard, wide)), **HULLS).look()[0]
     assert one.visible == seen
-    assert one.obstacles[0][2] == approx(wide.body.reach)
+    assert one.obstacles[0][2] == approx(wide.body.reach, abs=6e-5)
 
 
 def test_a_robot_sees_past_its_own_frame(scenery):

@@ -52,7 +52,7 @@ def errors(scenery):
 
 @pytest.mark.parametrize("name", COLUMNS)
 def test_each_noise_has_the_mean_and_sigma_it_is_given_and_is_white(errors, name):
-    """Reference 13, row 12; no other number is touched."""
+    """No other number is touched."""
     for key, values in errors(**{name: SIGMA})(0).items():
         error = values - TRUE[key[0]][key[1]]
         if key not in COLUMNS[name]:
@@ -88,7 +88,7 @@ def test_noise_of_the_balls_velocity_grows_with_its_distance(errors):
 
 
 def test_the_papers_noise_is_a_preset(errors):
-    """Reference 2.3: sigma 0.0194 on positions, velocities and yaw rate, none on the heading; no limits at all."""
+    """The paper's code: sigma 0.0194 on positions, velocities and yaw rate, none on the heading; no limits at all."""
     paper = sensing_of("paper", load_profile("msl").sensing)
     assert paper == load_profile("paper").sensing
     of = errors(sensing=paper)(0)
@@ -100,7 +100,7 @@ def test_the_papers_noise_is_a_preset(errors):
 
 
 def test_one_reading_in_a_hundred_is_noisy_with_simatchs_noise(errors):
-    """Reference 14, defect 3: a rate of 0.01 was 1 in 11; here it is 1 in 100, within 4 standard errors of 20,000.
+    """A rate of 0.01 is 1 in 100 (1 in 11 in simatch), within 4 standard errors of 20,000.
 
     Sigma of the noisy readings is 0.10; x, y, vx and vy of one reading are noisy together, the heading never.
     """
@@ -108,12 +108,13 @@ def test_one_reading_in_a_hundred_is_noisy_with_simatchs_noise(errors):
     of = errors(n, sensing=sensing_of("simatch", PERFECT))(0)
     for kind, columns in {"own": (0, 1, 3, 4), "ball": (0, 1, 3, 4), "obstacle": (0, 1)}.items():
         error = np.stack([of[kind, i] - TRUE[kind][i] for i in columns])
-        noisy = np.abs(error) > 1e-9
-        assert (noisy == noisy[0]).all()
-        assert noisy[0].mean() == approx(0.01, abs=4 * math.sqrt(0.01 * 0.99 / n))
-        chosen = error[:, noisy[0]]
+        differs = np.abs(error) > 1e-9
+        noisy = differs.any(axis=0)
+        assert differs[:, noisy].mean() > 0.99, "together, but for noise below 0.1 mm"
+        assert noisy.mean() == approx(0.01, abs=4 * math.sqrt(0.01 * 0.99 / n))
+        chosen = error[:, noisy]
         assert chosen.std() == approx(0.10, rel=4 / math.sqrt(2 * chosen.size))
-        gaps = np.diff(np.flatnonzero(noisy[0]))
+        gaps = np.diff(np.flatnonzero(noisy))
         assert gaps.mean() == approx(100, abs=4 * 100 / math.sqrt(len(gaps))), "as rare at any time"
     assert np.ptp(of["own", 2]) < 1e-12 and np.ptp(of["own", 5]) == 0.0
     assert SIMATCH.noise_rate == 0.01
@@ -146,10 +147,10 @@ def test_drift_moves_everything_a_robot_sees_as_it_moves_itself(scenery):
         one = made.look()[0]
         x, y, heading = one.own[:3]
         bearing = math.atan2(one.ball[1] - y, one.ball[0] - x) - heading
-        assert math.hypot(one.ball[0] - x, one.ball[1] - y) == approx(5.0)
-        assert math.remainder(bearing - (math.atan2(4.0, 3.0) - 0.7), math.tau) == approx(0, abs=1e-9)
-        assert math.hypot(one.ball[3], one.ball[4]) == approx(math.hypot(1.0, 2.0))
-        assert math.dist(one.obstacles[0][:2], (x, y)) == approx(3.0)
+        assert math.hypot(one.ball[0] - x, one.ball[1] - y) == approx(5.0, abs=2e-4)
+        assert math.remainder(bearing - (math.atan2(4.0, 3.0) - 0.7), math.tau) == approx(0, abs=2e-4)
+        assert math.hypot(one.ball[3], one.ball[4]) == approx(math.hypot(1.0, 2.0), abs=2e-4)
+        assert math.dist(one.obstacles[0][:2], (x, y)) == approx(3.0, abs=2e-4)
 
 
 def test_two_robots_drift_apart(errors):

@@ -1,6 +1,6 @@
 """What the host tells coaches of their orders.
 
-Reference 13, row 29: several robots receive each command, where the paper's first coach reached one alone. Row 30: each
+Several robots receive each order; in the paper, the coach's socket reached one robot only. Each
 order has a number, and each robot acknowledges it.
 """
 
@@ -91,7 +91,7 @@ def test_an_order_with_a_smaller_number_does_not_stand_and_its_sender_is_told_ho
     assert {heard.order.sequence for heard in told.all()} == {7}
     (complaint,) = invalid.all()
     assert complaint.key == "team/cyan/order"
-    assert complaint.reason == "sequence 6 is not after 7, which stands; number orders from 8 on"
+    assert complaint.reason == "sequence 6 is not above 7, which is in force; number orders from 8 on"
 
 
 def test_an_order_that_is_said_twice_is_no_fault(rig) -> None:
@@ -110,7 +110,7 @@ def test_an_order_with_a_huge_number_does_not_keep_out_those_after_it(rig, huge)
     invalid = rig.listen(INVALID)
     give(rig.outside, 7)
     rig.ticks(1)
-    payload = b'{"version":"1.0","sequence":%d,"mode":"park"}' % huge
+    payload = b'{"version":"2.0","sequence":%d,"mode":"park"}' % huge
     rig.outside.publisher(ORDER, side="cyan").put_payload(payload)
     rig.ticks(2)
     assert rig.host.simulation.orders[Side.CYAN].sequence == 7

@@ -18,7 +18,7 @@ from sim_host.snapshot import Roster
 
 RUBBISH = {
     "a number that is none": (b'{"answers_tick":1,"drive":{"vx":NaN}}', "drive.vx is nan"),
-    "an absurd speed": (b'{"version":"1.0","answers_tick":1,"drive":{"vx":1e9}}', "drive.vx is 1000000000.0"),
+    "an absurd speed": (b'{"version":"2.0","answers_tick":1,"drive":{"vx":1e9}}', "drive.vx is 1000000000.0"),
     "a truncated payload": (Command(answers_tick=1).encode()[:-7], " is not JSON: "),
     "words": (b"drive ahead!", "b'drive ahead!' is not JSON"),
     "ten thousand bytes": (b"x" * 10_000, "10000 bytes, at most 4096"),
@@ -26,8 +26,8 @@ RUBBISH = {
     "bytes that are no text": (b"\xff\xfe\x00", " is not JSON: "),
     "an answer to a tick to come": (Command(answers_tick=500).encode(), "answers_tick is 500, the newest sight is 5"),
     "an answer to a tick before the first": (b'{"answers_tick":-1}', "answers_tick is -1"),
-    "another major version": (b'{"version":"2.0","answers_tick":1}', "version 2.0 is not spoken here"),
-    "an unknown field": (b'{"version":"1.0","answers_tick":1,"jump":true}', "jump is not known"),
+    "another major version": (b'{"version":"1.0","answers_tick":1}', "version 1.0 is not supported"),
+    "an unknown field": (b'{"version":"2.0","answers_tick":1,"jump":true}', "jump is not known"),
 }
 
 

@@ -67,7 +67,7 @@ def test_a_match_is_played_to_full_time_and_every_tick_is_told_once(rig_of):
 
 
 def test_single_bodies_are_told_as_the_world_has_them_at_the_same_tick(rig_of):
-    """Reference 13, row 13: a key for each body, one message for all, one number of the tick for both."""
+    """A key for each body, one message for all, one number of the tick for both."""
     rig = rig_of(duration=2)
     worlds, robots, balls = rig.listen(WORLD), rig.listen(WORLD_ROBOT), rig.listen(WORLD_BALL)
     rig.join_all()

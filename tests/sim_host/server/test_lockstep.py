@@ -5,7 +5,7 @@ import pytest
 from schemas.messages.command import Drive
 from schemas.messages.host import AppliedInput
 from schemas.topics import APPLIED, WORLD
-from sim_host.server.inbox import SILENT_TICKS
+from sim_host.server.agent_stats import SILENT_TICKS
 
 PATIENCE_S = 1.0
 """How long the host waits for an answer; the match file's default."""
@@ -72,7 +72,7 @@ def test_a_silent_robot_rests_and_is_waited_for_when_it_answers_again(rig):
     assert rig.truth("cyan1")["vx"] > 0.5
     health = rig.health().robots["cyan2"]
     assert (health.alive, health.answering, health.missed) == (True, False, 101)
-    assert rig.silences() == ["cyan2 does not answer, its robot rests"]
+    assert rig.silences() == ["cyan2 does not answer, its robot stops"]
 
     rig.agents["cyan2"].frozen = False
     rig.inputs("cyan2")
@@ -89,7 +89,7 @@ def test_a_robot_that_always_answers_too_late_does_not_hold_the_match_at_every_t
     health = rig.health().robots
     assert not health["cyan2"].answering
     assert health["cyan1"].missed == 0
-    assert rig.silences() == ["cyan2 does not answer, its robot rests"]
+    assert rig.silences() == ["cyan2 does not answer, its robot stops"]
 
 
 def test_a_robot_that_needs_long_but_not_too_long_is_waited_for(rig):
@@ -112,7 +112,7 @@ def test_an_agent_that_dies_is_not_waited_for_and_its_successor_joins(rig):
     assert ticks[:5] == [0, 1, 2, 3, 4]
     assert ticks[5:36] == [None] * 31
     assert ticks[-9:] == list(range(37, 46))
-    assert rig.silences() == ["cyan2 does not answer, its robot rests", "cyan2 answers"]
+    assert rig.silences() == ["cyan2 does not answer, its robot stops", "cyan2 answers"]
 
 
 def test_an_agent_that_comes_late_joins(rig_of):

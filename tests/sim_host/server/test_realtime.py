@@ -61,7 +61,7 @@ def test_a_silent_robot_is_braked_by_the_watchdog_and_comes_back(realtime_rig):
     realtime_rig.agents["cyan2"].frozen = False
     realtime_rig.ticks(30)
     assert realtime_rig.truth("cyan2")["vx"] > 0.1
-    assert realtime_rig.silences() == ["cyan2 does not answer, its robot rests", "cyan2 answers"]
+    assert realtime_rig.silences() == ["cyan2 does not answer, its robot stops", "cyan2 answers"]
 
 
 def test_a_robot_that_misses_less_than_the_watchdog_allows_is_not_called_silent(realtime_rig):
@@ -70,7 +70,7 @@ def test_a_robot_that_misses_less_than_the_watchdog_allows_is_not_called_silent(
     realtime_rig.ticks(WATCHDOG_TICKS - 1)
     assert realtime_rig.silences() == []
     realtime_rig.ticks(1)
-    assert realtime_rig.silences() == ["cyan2 does not answer, its robot rests"]
+    assert realtime_rig.silences() == ["cyan2 does not answer, its robot stops"]
 
 
 def test_the_newest_of_two_commands_counts(realtime_rig):

@@ -3,7 +3,10 @@
 import pytest
 
 from schemas.config.match_config import MatchConfig
-from sim_host.server.presence_tracker import MAX_RECORDER_LAG
+from schemas.messages.host import RecorderProgress
+from schemas.messages.record_batch import RecordBatchesRequest, read_batch, read_reply
+from schemas.recovery_window import RUN_AHEAD_TICKS
+from schemas.topics import RECORD_BATCH, RECORD_BATCHES, RECORDER_PROGRESS
 
 PATIENCE_S = MatchConfig().patience.recorder
 """How long the host waits for a recorder that stands still; the match file's default."""
@@ -17,22 +20,22 @@ def recorder(rig):
 def test_a_recorder_that_stands_still_holds_the_host_once_and_is_then_left_behind(rig, recorder):
     rig.ticks(10)
     recorder.stands = True
-    rig.ticks(MAX_RECORDER_LAG)
+    rig.ticks(RUN_AHEAD_TICKS)
     assert rig.clock.now() < PATIENCE_S
     rig.ticks(50)
     assert PATIENCE_S < rig.clock.now() < 2 * PATIENCE_S
-    assert rig.health().recorders["recorder"] == pytest.approx(MAX_RECORDER_LAG + 50, abs=2)
+    assert rig.health().recorders["recorder"] == pytest.approx(RUN_AHEAD_TICKS + 50, abs=2)
 
 
 def test_a_recorder_that_was_left_behind_is_waited_for_again_when_it_moves(rig, recorder):
     recorder.stands = True
-    rig.ticks(MAX_RECORDER_LAG + 20)
+    rig.ticks(RUN_AHEAD_TICKS + 20)
     recorder.stands = False
     rig.ticks(1)
     assert rig.health().recorders["recorder"] <= 2
     recorder.stands = True
     before = rig.clock.now()
-    rig.ticks(MAX_RECORDER_LAG + 20)
+    rig.ticks(RUN_AHEAD_TICKS + 20)
     assert rig.clock.now() - before > PATIENCE_S
 
 
@@ -44,15 +47,15 @@ def test_a_recorder_that_is_slow_is_waited_for_as_long_as_it_moves(rig, recorder
             recorder.seen = received.message().tick
 
     rig.idle.append(take_one_in_half_a_second)
-    rig.ticks(MAX_RECORDER_LAG + 20)
-    assert rig.host.simulation.now.tick - recorder.seen <= MAX_RECORDER_LAG + 1
+    rig.ticks(RUN_AHEAD_TICKS + 20)
+    assert rig.host.simulation.now.tick - recorder.seen <= RUN_AHEAD_TICKS + 1
     assert rig.clock.now() >= 0.5 * 19
 
 
 def test_a_dead_recorder_stops_the_match_no_longer_than_one_that_stands_still(rig, recorder):
     rig.ticks(5)
     recorder.stands = True
-    rig.ticks(MAX_RECORDER_LAG - 20)
+    rig.ticks(RUN_AHEAD_TICKS - 20)
     rig.idle.remove(recorder.pump)
     recorder.bus.close()
     rig.ticks(60)
@@ -62,7 +65,7 @@ def test_a_dead_recorder_stops_the_match_no_longer_than_one_that_stands_still(ri
 
 def test_a_recorder_that_says_it_leaves_is_waited_for_no_longer(rig, recorder):
     recorder.stands = True
-    rig.ticks(MAX_RECORDER_LAG - 2)
+    rig.ticks(RUN_AHEAD_TICKS - 2)
     began = rig.clock.now()
 
     def leave():
@@ -86,12 +89,12 @@ def test_a_frozen_recorder_whose_link_broke_is_waited_for_until_it_is_back(rig, 
 
     def come_back():
         if rig.clock.now() > 3.0 and not back:
-            assert rig.host.simulation.now.tick <= newest + MAX_RECORDER_LAG + 1
+            assert rig.host.simulation.now.tick <= newest + RUN_AHEAD_TICKS + 1
             back.append(rig.record())
             back[0].seen = newest
 
     rig.idle.append(come_back)
-    rig.ticks(2 * MAX_RECORDER_LAG)
+    rig.ticks(2 * RUN_AHEAD_TICKS)
     assert back
     assert rig.health().recorders["recorder"] <= 2
 
@@ -99,7 +102,7 @@ def test_a_frozen_recorder_whose_link_broke_is_waited_for_until_it_is_back(rig, 
 def test_a_recorder_that_talks_without_end_and_does_not_move_is_left_behind(rig, recorder):
     recorder.stands = True
     rig.idle.extend([recorder.pump] * 20)
-    rig.ticks(MAX_RECORDER_LAG + 20)
+    rig.ticks(RUN_AHEAD_TICKS + 20)
     assert rig.clock.now() < 2 * PATIENCE_S
 
 
@@ -137,3 +140,74 @@ def test_at_the_end_a_recorder_that_stands_still_is_not_waited_for_without_end(r
     monkeypatch.setattr(rig.host.presence, "update", look)
     rig.host.run()
     assert rig.host.simulation.over
+
+
+def test_a_host_that_waits_for_a_recorder_gives_it_the_batches_that_it_missed(rig, recorder):
+    """Otherwise each would wait for the other."""
+    recorder.stands = True
+    answers = []
+
+    def ask_and_go_on():
+        if rig.host.simulation.now.tick - recorder.seen > RUN_AHEAD_TICKS and not answers:
+            answers.append(recorder.bus.query(RECORD_BATCHES, RecordBatchesRequest(first=0, last=1)))
+        elif answers and recorder.stands:
+            assert len(read_reply(answers[0].payload(0.0)).batches) == 2
+            recorder.stands = False
+
+    rig.idle.append(ask_and_go_on)
+    rig.ticks(RUN_AHEAD_TICKS + 20)
+    assert not recorder.stands
+    assert rig.clock.now() < PATIENCE_S
+
+
+def test_at_the_end_missing_batches_are_given_still(rig_of, monkeypatch):
+    rig = rig_of(duration=1)
+    rig.record().stands = True
+    rig.join_all()
+    update, answers = rig.host.presence.update, []
+
+    def look(timeout=0.0):
+        rig.pass_time(timeout)
+        if rig.host.simulation.over and not answers:
+            answers.append(rig.outside.query(RECORD_BATCHES, RecordBatchesRequest(first=0)))
+        return update(0.0)
+
+    monkeypatch.setattr(rig.host.presence, "update", look)
+    rig.host.run()
+    assert read_reply(answers[0].payload(0.0)).batches
+
+
+def sights_in(rig, listener) -> list[str]:
+    """Keys of the sights in the batches since this was last called."""
+    rig.host._batches.send()
+    batches = [read_batch(received.payload) for received in iter(listener.receive, None)]
+    return [entry.key for batch in batches for entry in batch.entries if entry.key.endswith("/sight")]
+
+
+def test_sights_are_in_the_batches_while_a_recorder_records_them(rig):
+    batches = rig.outside.subscribe(RECORD_BATCH)
+    rig.ticks(5)
+    assert sights_in(rig, batches) == []
+    recorder = rig.record()
+    progress = recorder.bus.publisher(RECORDER_PROGRESS, name="recorder")
+    rig.ticks(1)
+    progress.put(RecorderProgress(tick=5, messages=0, lost=0, sights=True))
+    rig.ticks(1)
+    sights_in(rig, batches)
+    rig.ticks(10)
+    assert sights_in(rig, batches) == ["robot/cyan1/sight", "robot/cyan2/sight", "robot/magenta1/sight"] * 10
+    recorder.leave()
+    rig.idle.clear()
+    rig.ticks(1)
+    sights_in(rig, batches)
+    rig.ticks(5)
+    assert sights_in(rig, batches) == []
+
+
+def test_with_a_match_file_that_says_so_sights_are_in_the_batches_from_tick_0(rig_of):
+    rig = rig_of(record={"sights": True})
+    batches = rig.outside.subscribe(RECORD_BATCH)
+    rig.join_all()
+    rig.begin()
+    rig.ticks(1)
+    assert sights_in(rig, batches) == ["robot/cyan1/sight", "robot/cyan2/sight", "robot/magenta1/sight"] * 2

@@ -1,4 +1,4 @@
-"""Scenes on the bus: robots come and go while the host runs, and everybody is told (reference 13, rows 22 and 42)."""
+"""Scenes on the bus: robots come and go while the host runs, and everybody is told."""
 
 import pytest
 

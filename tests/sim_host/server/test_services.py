@@ -42,7 +42,7 @@ def test_actions_of_one_tick_are_answered_each_with_its_own_reply(rig):
 
 
 def test_while_a_referee_box_is_connected_nobody_else_may_more_than_stop_the_game(rig):
-    """Reference 8.3: manual buttons are disabled while the box is connected, and the space bar always stops."""
+    """As in the NuBot coach: its buttons are disabled while the box is connected, and the space bar always stops."""
     ask(rig, ActionName.STOP)
     box = rig.seat()
     box.declare_alive(REFBOX, "cyan")

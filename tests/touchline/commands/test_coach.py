@@ -83,7 +83,7 @@ ABOUT = {coach.NoTarget: [], coach.SideTarget: ["cyan"], coach.RobotTarget: ["cy
 
 @pytest.mark.parametrize("word", coach.REFEREE_COMMANDS)
 def test_every_word_of_the_referee_box_asks_for_its_own_action(host: Host, word: str) -> None:
-    """Reference 13, row 37: what the keys of the auto referee ask for."""
+    """The actions that simatch's automatic referee has keys for."""
     deed = coach.REFEREE_COMMANDS[word]
     touchline(word, *ABOUT[deed.target])
     (asked,) = host.asked
@@ -108,7 +108,7 @@ def test_a_name_that_no_robot_can_have_is_wrong_input(host: Host) -> None:
 def test_an_action_in_a_match_that_nobody_plays_is_wrong_input(host: Host) -> None:
     result = touchline("stop", "--match", "final")
     assert result.exit_code == 2
-    assert 'match "final": nobody answers game/action' in result.stderr
+    assert 'match "final": no process answers game/action' in result.stderr
 
 
 def test_the_state_is_shown_once_in_words_and_as_json(host: Host) -> None:

@@ -79,5 +79,5 @@ def test_a_refusal_fails_with_its_reason() -> None:
     result = touchline("set", "radio.loss=2")
     assert (result.exit_code, result.stderr) == (
         1,
-        "touchline: refused: radio.loss is 2; it lies between 0 and 1\n",
+        "touchline: refused: radio.loss is 2; it must be between 0 and 1\n",
     )

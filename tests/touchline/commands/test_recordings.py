@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from recordings.container.header import make_manifest
-from recordings.container.manifest import EndReason
+from recordings.container.manifest import EndReason, make_manifest
 from recordings.container.manifest import Result as Ending
 from recordings.recorder.recording_writer import RecordingWriter
 from schemas.bus.contract import ReceivedMessage, Stamp

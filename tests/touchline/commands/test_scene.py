@@ -84,7 +84,7 @@ def test_scenes_are_loaded_by_name_and_by_file_and_begun_anew(simulation: Simula
 def test_a_refusal_fails_with_its_reason(simulation: Simulation) -> None:
     result = touchline("scene", "place", "cyan9", "0", "0")
     assert result.exit_code == 1
-    assert result.stderr.startswith("touchline: refused: cyan9 is no robot and not the ball; did you mean")
+    assert result.stderr.startswith("touchline: refused: cyan9 is neither a robot nor the ball; did you mean")
 
 
 def test_the_scenes_are_listed_with_a_sentence_each_and_shown() -> None:

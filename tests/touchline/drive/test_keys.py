@@ -1,4 +1,4 @@
-"""The keys that drive a robot (reference 13, row 43): the paper's, with its speeds."""
+"""The keys that drive a robot: those of the NuBot simulation's teleoperation node, with its speeds."""
 
 import pytest
 
@@ -24,7 +24,7 @@ MOTION = {
     ",": Drive(omega=1.0),
     ".": Drive(omega=-1.0),
 }
-"""What a terminal sends → where the robot goes: 1 m/s and 1 rad/s (reference 2.3)."""
+"""What a terminal sends → where the robot goes: 1 m/s and 1 rad/s."""
 
 
 @pytest.mark.parametrize("sent, drive", MOTION.items(), ids=[repr(sent) for sent in MOTION])

@@ -1,4 +1,4 @@
-"""Robots that are forked from one process, against those that are launched by their command lines: nobody can tell."""
+"""Robots that are forked by the fork server, against those that are launched by their command lines: they act alike."""
 
 import os
 import signal
@@ -9,26 +9,37 @@ from pathlib import Path
 
 import pytest
 
+from robot_agent.forked import PRELOAD
+from robot_agent.settings import AgentSettings
+from schemas.bus.endpoint import with_free_port
+from schemas.bus.zenoh.bus import open_host
+from schemas.config.match_config import load_match
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
+from schemas.messages.host import Setup
 from schemas.process.clock import WallClock
+from schemas.process.settings_file import read_settings
+from schemas.topics import SETUP
 from touchline.launch.child_process import ChildProcess, ProcessHandle
-from touchline.launch.fork_server import ForkedProcess, ForkServer
-from touchline.launch.processes import PROCESSES, Process, ProcessKind
+from touchline.launch.fork_server import ForkedRobot, ForkServer
+from touchline.launch.processes import MatchPlan, Process, ProcessKind, processes_of
 
 pytestmark = [
     pytest.mark.processes,
-    pytest.mark.skipif(sys.platform != "linux", reason="robots are raised by means of the Linux kernel"),
+    pytest.mark.skipif(sys.platform != "linux", reason="robots are forked on Linux alone"),
 ]
 _LIMIT_S = 120.0
 _NOBODY = "tcp/127.0.0.1:1"
 """An endpoint at which no host will ever answer."""
 _ENDED = (0, -signal.SIGTERM)
 """How a robot ends that is told to: by itself, or before it could listen."""
-_WAITS = ("--connect", _NOBODY, "--match", "test", "--brain", "no:Brain", "--patience", "600")
 
 
-def robot(name: str, *arguments: str, **environment: str) -> Process:
-    command = (sys.executable, "-m", "robot_agent", "--robot", name, *arguments)
-    return Process(name, ProcessKind.AGENT, command, {"PYTHONHASHSEED": "0", **environment})
+def robot(folder: Path, name: str, patience: float = 600.0, **environment: str) -> Process:
+    settings = AgentSettings(connect=_NOBODY, match="test", robot=name, brain="no:Brain", patience=patience)
+    file = folder / f"{name}.json"
+    command = (sys.executable, "-m", "robot_agent", "--settings", str(file))
+    return Process(name, ProcessKind.AGENT, command, {"PYTHONHASHSEED": "0", **environment}, 3, settings, file)
 
 
 def wait_for(true: Callable[[], bool]) -> None:
@@ -47,139 +58,189 @@ def end_of(launched: ProcessHandle) -> int:
     return status
 
 
+def fields_of(pid: int) -> list[str]:
+    """The fields of proc(5)'s `stat` behind the name: state, parent, group, session."""
+    return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+
+
 def is_running(pid: int) -> bool:
     """Whether a process exists and is no zombie."""
     try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+        return fields_of(pid)[0] != "Z"
     except (FileNotFoundError, ProcessLookupError):
         return False
 
 
-def words_of(pid: int) -> list[str]:
-    """Its command line, as lists of processes show it."""
-    return Path(f"/proc/{pid}/cmdline").read_bytes().decode().rstrip("\0").split("\0")
+def name_of(pid: int) -> str:
+    return Path(f"/proc/{pid}/comm").read_text().strip()
 
 
 @pytest.fixture
-def fork_server(tmp_path: Path) -> Iterator[ForkServer]:
-    fork_server = ForkServer(tmp_path / "fork_server.log")
-    yield fork_server
-    fork_server.close()
+def launch(tmp_path: Path) -> Iterator[Callable[[Process], ProcessHandle]]:
+    """Launches processes with a fork server, and ends those that are left."""
+    server, launched = ForkServer(), []
+
+    def launch(process: Process) -> ProcessHandle:
+        launched.append(server.launch(process, tmp_path / f"{process.name}.log"))
+        return launched[-1]
+
+    yield launch
+    for one in launched:
+        one.send(signal.SIGKILL)
+        end_of(one)
 
 
-def test_a_robot_has_its_own_arguments_log_and_exit_status(fork_server: ForkServer, tmp_path: Path) -> None:
-    helped = fork_server.launch(robot("cyan1", "--help"), tmp_path / "cyan1.log")
-    wrong = fork_server.launch(robot("cyan2", "--no-such-word"), tmp_path / "cyan2.log")
-    assert isinstance(helped, ForkedProcess)
-    assert (end_of(helped), end_of(wrong)) == (0, 2)
-    assert "usage: python -m robot_agent" in (tmp_path / "cyan1.log").read_text()
-    assert "required: --match" in wrong.last_lines(1)[0]
+def test_a_robot_has_its_own_log_and_exit_status(launch: Callable[[Process], ProcessHandle], tmp_path: Path) -> None:
+    (tmp_path / "cyan1.log").write_text("earlier\n")
+    launched = launch(robot(tmp_path, "cyan1", patience=0.0))
+    assert isinstance(launched, ForkedRobot)
+    assert end_of(launched) == 2
+    (line,) = launched.last_lines()
+    assert line.startswith(f"touchline: --connect {_NOBODY}: no host answers there")
+    assert (tmp_path / "cyan1.log").read_text().startswith("earlier\n")
 
 
-def test_a_robot_has_its_own_environment(fork_server: ForkServer, tmp_path: Path) -> None:
-    fork_server.launch(robot("cyan1", "--help"), tmp_path / "cyan1.log")
-    told = fork_server.launch(robot("cyan2", "--help", TOUCHLINE_MATCH="final"), tmp_path / "cyan2.log")
-    assert end_of(told) == 0
-    assert "TOUCHLINE_MATCH; default: final" in " ".join((tmp_path / "cyan2.log").read_text().split())
-
-
-def test_a_robot_is_called_by_its_own_command_line_and_leads_its_own_group(
-    fork_server: ForkServer, tmp_path: Path
+def test_a_robot_leads_its_own_group_in_the_session_of_its_supervisor_and_has_a_name(
+    launch: Callable[[Process], ProcessHandle], tmp_path: Path
 ) -> None:
-    process = robot("cyan1", *_WAITS)
-    launched = fork_server.launch(process, tmp_path / "cyan1.log")
-    wait_for(lambda: words_of(launched.pid) == list(process.command))
-    group, session = Path(f"/proc/{launched.pid}/stat").read_text().rpartition(")")[2].split()[2:4]
+    launched = launch(robot(tmp_path, "magenta1"))
+    wait_for(lambda: name_of(launched.pid) == "magenta1")
+    assert str(Path(f"/proc/{launched.pid}/fd/0").readlink()) == os.devnull
+    group, session = fields_of(launched.pid)[2:4]
     assert (int(group), int(session)) == (launched.pid, os.getsid(0))
     assert launched.status() is None
     launched.send(signal.SIGTERM)
     assert end_of(launched) in _ENDED
 
 
-def test_a_robot_that_is_killed_can_be_launched_again(fork_server: ForkServer, tmp_path: Path) -> None:
-    launched = fork_server.launch(robot("cyan1", *_WAITS), tmp_path / "cyan1.log")
+def test_a_robot_that_is_signalled_at_once_is_reached(
+    launch: Callable[[Process], ProcessHandle], tmp_path: Path
+) -> None:
+    """Before it leads its group, too."""
+    launched = launch(robot(tmp_path, "cyan1"))
     launched.send(signal.SIGKILL)
     assert end_of(launched) == -signal.SIGKILL
-    again = fork_server.launch(robot("cyan1", "--no-such-word"), tmp_path / "cyan1.log")
-    assert isinstance(again, ForkedProcess)
+
+
+def test_a_robot_that_is_launched_again_is_launched_by_its_command_line(
+    launch: Callable[[Process], ProcessHandle], tmp_path: Path
+) -> None:
+    first = launch(robot(tmp_path, "cyan1", patience=0.0))
+    assert isinstance(first, ForkedRobot)
+    assert end_of(first) == 2
+    said = first.last_lines()
+    again = launch(robot(tmp_path, "cyan1", patience=0.0))
+    assert isinstance(again, ChildProcess)
     assert end_of(again) == 2
+    assert again.last_lines() == said
 
 
-def test_robots_live_on_without_their_fork_server(fork_server: ForkServer, tmp_path: Path) -> None:
-    launched = fork_server.launch(robot("cyan1", *_WAITS), tmp_path / "cyan1.log")
-    fork_server.close()
-    assert launched.status() is None
-    launched.send(signal.SIGTERM)
-    assert end_of(launched) in _ENDED
-    assert not (tmp_path / "fork_server.log").exists()
+def test_the_settings_of_a_forked_robot_stand_in_their_file_too(
+    launch: Callable[[Process], ProcessHandle], tmp_path: Path
+) -> None:
+    process = robot(tmp_path, "cyan1", patience=0.0)
+    end_of(launch(process))
+    assert read_settings(AgentSettings, str(process.settings_file)) == process.settings
 
 
-def test_sets_of_words_have_the_same_order_in_every_robot(fork_server: ForkServer, tmp_path: Path) -> None:
+BRAIN = """
+import os, sys, threading
+
+class Brain:
+    def __init__(self, briefing):
+        words = list({"one", "two", "three", "four", "five"})
+        print(os.environ["TOUCHLINE_SIDE"], os.environ["OMP_NUM_THREADS"], sys.flags.hash_randomization, *words)
+        print("numpy" in sys.modules, sys.path[0], os.getcwd())
+        raise SystemExit(7)
+
+    def act(self, sight):
+        pass
+"""
+
+
+def test_forked_or_not_a_robot_has_the_same_environment_module_path_and_order_of_sets(
+    launch: Callable[[Process], ProcessHandle], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The seed of Python's hashes is taken when an interpreter begins, so the fork server's own has to have it."""
-    assert PROCESSES[ProcessKind.AGENT].environment["PYTHONHASHSEED"] == "0"
-    launched = fork_server.launch(robot("cyan1", *_WAITS), tmp_path / "cyan1.log")
-    environment = Path(f"/proc/{launched.pid}/environ").read_bytes().split(b"\0")
-    assert b"PYTHONHASHSEED=0" in environment
+    (tmp_path / "mind.py").write_text(BRAIN)
+    monkeypatch.chdir(tmp_path)
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    process = processes_of(MatchPlan(load_match(None, {"teams.cyan.brain": "mind:Brain"}), endpoint, tmp_path, None))[1]
+    said = []
+    with open_host("friendly", WallClock(), endpoint) as host:
+        server = host.serve(SETUP)
+        for kind in (ForkedRobot, ChildProcess):
+            launched = launch(process)
+            assert isinstance(launched, kind)
+            query = server.receive(_LIMIT_S)
+            assert query is not None
+            query.reply(Setup.of(load_match(None), load_profile("msl"), load_rule_book("friendly")))
+            assert end_of(launched) == 7, launched.last_lines()
+            said.append(launched.last_lines())
+    assert said[0] == said[1]
+    assert said[0][0].startswith("cyan 1 0 ")
+    assert said[0][1] == f"False {tmp_path} {tmp_path}"
 
 
-def test_a_robot_whose_end_nobody_noted_has_ended(tmp_path: Path) -> None:
-    """As where SIGCHLD is ignored, which a process inherits."""
-    program = subprocess.Popen(["true"])
-    program.wait()
-    assert ForkedProcess(robot("cyan1"), tmp_path / "cyan1.log", 0, program.pid).status() == 0
-
-
-def test_other_programs_are_launched_by_their_command_lines(fork_server: ForkServer, tmp_path: Path) -> None:
-    process = Process("cyan1", ProcessKind.AGENT, (sys.executable, "-c", "print('plain')"), {})
-    launched = fork_server.launch(process, tmp_path / "cyan1.log")
+def test_other_programs_are_launched_by_their_command_lines(
+    launch: Callable[[Process], ProcessHandle], tmp_path: Path
+) -> None:
+    launched = launch(Process("cyan1", ProcessKind.AGENT, (sys.executable, "-c", "print('plain')"), {}))
     assert isinstance(launched, ChildProcess)
     assert end_of(launched) == 0
     assert launched.last_lines() == ["plain"]
 
 
-def test_robots_are_launched_by_their_command_lines_when_the_nursery_is_gone(
-    fork_server: ForkServer, tmp_path: Path
-) -> None:
-    first = fork_server.launch(robot("cyan1", "--help"), tmp_path / "cyan1.log")
-    assert end_of(first) == 0
-    keeper = next(
-        int(folder.name)
-        for folder in Path("/proc").glob("[0-9]*")
-        if "robot_agent.fork_server" in words_of(int(folder.name))
-        and str(tmp_path / "fork_server.log") == str((folder / "fd" / "2").readlink())
-    )
-    subprocess.run(["kill", "-9", str(keeper)], check=True)
-    wait_for(lambda: not is_running(keeper))
-    second = fork_server.launch(robot("cyan2", "--no-such-word"), tmp_path / "cyan2.log")
-    assert isinstance(second, ChildProcess)
-    assert end_of(second) == 2
-
-
-def test_a_robot_dies_with_a_supervisor_that_was_killed(tmp_path: Path) -> None:
-    code = f"""
+SUPERVISOR = """
 import os, signal, sys
 from pathlib import Path
 from touchline.launch.fork_server import ForkServer
-from touchline.launch.processes import ProcessKind, Process
-folder = Path({str(tmp_path)!r})
-command = (sys.executable, "-m", "robot_agent", "--robot", "cyan1", *{_WAITS!r})
-fork_server = ForkServer(folder / "fork_server.log")
-robot = fork_server.launch(Process("cyan1", ProcessKind.AGENT, command, {{}}), folder / "cyan1.log")
-while b"--robot" not in Path(f"/proc/{{robot.pid}}/cmdline").read_bytes().split(b"\\0"):
-    pass
-print(robot.pid)
-sys.stdout.flush()
-os.kill(os.getpid(), signal.SIGKILL)
+from touchline.launch.processes import ProcessKind, MatchPlan, Process, processes_of
+from robot_agent.settings import AgentSettings
+folder, server = Path(sys.argv[1]), ForkServer()
+for name in sys.argv[2:]:
+    settings = AgentSettings(connect="tcp/127.0.0.1:1", robot=name, brain="no:Brain", patience=600)
+    process = Process(name, ProcessKind.AGENT, ("none",), {"PYTHONHASHSEED": "0"}, 3, settings, folder / f"{name}.json")
+    robot = server.launch(process, folder / f"{name}.log")
+    while Path(f"/proc/{robot.pid}/comm").read_text().strip() != name:
+        pass
+    print(robot.pid, flush=True)
+signal.pause()
 """
-    supervisor = ChildProcess(
-        Process("supervisor", ProcessKind.HOST, (sys.executable, "-c", code), {}), tmp_path / "supervisor.log"
-    )
+
+
+def test_robots_and_their_fork_server_end_with_a_supervisor_that_is_killed(tmp_path: Path) -> None:
+    """A robot that stands still, too, whose own code could not end it."""
+    command = (sys.executable, "-c", SUPERVISOR, str(tmp_path), "cyan1", "cyan2")
+    supervisor = ChildProcess(Process("supervisor", ProcessKind.HOST, command, {}), tmp_path / "supervisor.log")
+    wait_for(lambda: len(supervisor.last_lines()) == 2 or supervisor.status() is not None)
+    robots = [int(line) for line in supervisor.last_lines()]
+    servers = {int(fields_of(pid)[1]) for pid in robots}
+    assert len(servers) == 1
+    os.kill(robots[0], signal.SIGSTOP)
+    os.kill(supervisor.pid, signal.SIGKILL)
     assert end_of(supervisor) == -signal.SIGKILL
-    orphan = int(supervisor.last_lines()[0])
-    wait_for(lambda: not is_running(orphan))
+    wait_for(lambda: not any(is_running(pid) for pid in (*robots, *servers)))
+
+
+def test_robots_whose_fork_server_is_killed_count_as_crashed_and_are_ended(
+    launch: Callable[[Process], ProcessHandle], tmp_path: Path
+) -> None:
+    """Nobody else could tell how they end."""
+    first = launch(robot(tmp_path, "cyan1"))
+    os.kill(int(fields_of(first.pid)[1]), signal.SIGKILL)
+    assert end_of(first) == 255
+    wait_for(lambda: not is_running(first.pid))
+    assert isinstance(launch(robot(tmp_path, "cyan2")), ForkedRobot)
 
 
 def test_what_robots_are_forked_from_runs_no_threads_and_knows_no_numbers_that_they_would_share() -> None:
-    code = "import sys, threading, robot_agent.fork_server; print(threading.active_count(), 'numpy' in sys.modules)"
+    code = f"import sys, threading, {', '.join(PRELOAD)}; print(threading.active_count(), 'numpy' in sys.modules)"
     printed = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, check=True, text=True).stdout
     assert printed.split() == ["1", "False"]
+
+
+def test_the_fork_server_s_own_function_is_imported_without_anything_heavy() -> None:
+    code = "import sys, touchline.launch.fork_server; print(*{'zenoh', 'pybullet', 'mcap', 'numpy'} & set(sys.modules))"
+    printed = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, check=True, text=True).stdout
+    assert printed.split() == []

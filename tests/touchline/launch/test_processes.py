@@ -1,19 +1,24 @@
 import re
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from coach_gateway.settings import BridgeOptions, GatewaySettings
+from coach_gateway.web.settings import WebSettings
 from recordings.container.partial_file import PartialFile
-from schemas.config.match_config import MatchConfig, load_match
+from recordings.settings import RecorderSettings
+from robot_agent.settings import AgentSettings
+from schemas.config.match_config import load_match
+from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
-from touchline.cli.bridge_options import BridgeOptions
+from sim_host.settings import HostSettings
 from touchline.launch.processes import (
     PROCESSES,
     MatchPlan,
-    PagePlan,
     Process,
     ProcessKind,
     check_robot_names,
@@ -45,24 +50,33 @@ def test_no_robot_is_called_as_another_process_of_the_match(name: str) -> None:
     check_robot_names(load_match(None))
 
 
-def test_every_word_in_braces_is_filled_in() -> None:
-    for process in processes_of(plan()):
-        assert not any("{" in word for word in (*process.command, *process.environment.values()))
+def test_every_process_is_launched_with_a_settings_file_of_its_own_in_the_run_s_folder() -> None:
+    for name, process in by_name(plan()).items():
+        module = PROCESSES[process.kind].module
+        assert process.command == (sys.executable, "-m", module, "--settings", f"runs/one/{name}.json")
+        assert process.settings_file == Path(f"runs/one/{name}.json")
 
 
-def test_an_agent_is_told_match_robot_brain_and_side() -> None:
+def test_the_settings_of_a_host_are_its_match_and_its_endpoint() -> None:
+    host = by_name(plan(seed=7))["host"].settings
+    assert isinstance(host, HostSettings)
+    assert (host.config.seed, host.listen, host.insecure) == (7, "tcp/127.0.0.1:7447", False)
+    open_host = by_name(plan(listen="tcp/0.0.0.0:7447"))["host"].settings
+    assert isinstance(open_host, HostSettings) and open_host.insecure
+
+
+def test_the_settings_of_an_agent_are_its_match_its_robot_and_its_brain() -> None:
     agent = by_name(plan())["magenta2"]
-    assert agent.command[1:] == (
-        *("-m", "robot_agent", "--connect", "tcp/127.0.0.1:7447", "--match", "friendly"),
-        *("--robot", "magenta2", "--brain", "robot_agent.teams.nubot:NuBot"),
-    )
+    assert agent.settings == AgentSettings(robot="magenta2", brain="robot_agent.teams.nubot:NuBot")
     assert agent.environment["TOUCHLINE_SIDE"] == "magenta"
+    assert agent.environment["PYTHONHASHSEED"] == "0"
     assert agent.restarts == PROCESSES[ProcessKind.AGENT].restarts == 3
 
 
 def test_a_team_with_a_command_is_told_who_it_is_by_its_environment() -> None:
     agent = by_name(plan(**{"teams.cyan.command": ["./robot", "--fast"], "teams.cyan.size": 1}))["cyan1"]
     assert agent.command == ("./robot", "--fast")
+    assert agent.settings is None
     assert {key: agent.environment[f"TOUCHLINE_{key}"] for key in ("CONNECT", "MATCH", "ROBOT", "SIDE")} == {
         "CONNECT": "tcp/127.0.0.1:7447",
         "MATCH": "friendly",
@@ -73,40 +87,32 @@ def test_a_team_with_a_command_is_told_who_it_is_by_its_environment() -> None:
 
 def test_a_page_is_launched_where_one_is_wanted_with_its_tokens_in_a_file() -> None:
     assert "page" not in by_name(plan())
-    wanted = replace(plan(), page=PagePlan("127.0.0.1", 8080, Path("runs/one/tokens.json")))
-    page = by_name(wanted)["page"]
-    assert page.command[1:] == (
-        *("-m", "coach_gateway", "--connect", "tcp/127.0.0.1:7447", "--match", "friendly", "--web"),
-        *("--listen-web", "127.0.0.1", "--port", "8080", "--tokens", "runs/one/tokens.json"),
-    )
+    web = WebSettings(port=8081)
+    page = by_name(replace(plan(), page=web))["page"]
+    assert page.settings == GatewaySettings(tokens=Path("runs/one/tokens.json"), web=web)
     assert page.restarts == 3
 
 
-def test_bridges_are_launched_where_they_are_wanted_with_the_words_they_were_asked_for_by() -> None:
+def test_bridges_are_launched_where_they_are_wanted_with_the_options_that_were_given() -> None:
     assert "bridges" not in by_name(plan())
-    words = BridgeOptions(udp=28090, refbox_server=["cyan:28097"], refbox="10.0.0.2", team=[Side.MAGENTA])
-    bridges = by_name(replace(plan(), bridges=words.arguments()))["bridges"]
-    assert bridges.command[1:] == (
-        *("-m", "coach_gateway", "--connect", "tcp/127.0.0.1:7447", "--match", "friendly"),
-        *("--tokens", "runs/one/tokens.json", "--udp=28090", "--refbox=10.0.0.2", "--team=magenta"),
-        *("--refbox-protocol=auto", "--refbox-server=cyan:28097", "--listen-bridges=127.0.0.1"),
-    )
+    options = BridgeOptions(udp=28090, refbox_server=["cyan:28097"], refbox="10.0.0.2", team=[Side.MAGENTA])
+    bridges = by_name(replace(plan(), bridges=options))["bridges"]
+    assert bridges.settings == GatewaySettings(tokens=Path("runs/one/tokens.json"), bridges=options)
     assert bridges.restarts == 3
-    assert BridgeOptions().arguments() == ()
 
 
 def test_no_recorder_is_launched_when_no_recording_is_wanted() -> None:
     assert "recorder" not in by_name(plan(recording=None))
 
 
-def test_the_recorder_is_told_to_keep_sights_when_the_match_file_says_so() -> None:
-    assert "--sights" in by_name(plan(**{"record.sights": True}))["recorder"].command
-    assert "--sights" not in by_name(plan())["recorder"].command
-
-
-def test_the_recorder_is_told_to_draw_nothing_when_the_match_file_says_so() -> None:
-    assert "--no-viz" in by_name(plan(**{"record.viz": False}))["recorder"].command
-    assert "--no-viz" not in by_name(plan())["recorder"].command
+def test_the_settings_of_a_recorder_have_what_the_match_file_says_of_the_recording() -> None:
+    wanted = {"include": ["world"], "split_duration": 60.0, "keep": 3, "sights": True, "viz": False}
+    planned = plan(**{f"record.{key}": value for key, value in wanted.items()})
+    written = by_name(planned)["recorder"].settings
+    assert isinstance(written, RecorderSettings)
+    recorder = RecorderSettings.model_validate_json(written.model_dump_json())
+    assert recorder.record == RecordOptions.model_validate(wanted)
+    assert (recorder.out, recorder.config) == (Path("match.mcap"), planned.config)
 
 
 @pytest.mark.parametrize(
@@ -132,7 +138,6 @@ def test_two_runs_of_one_second_get_different_folders(tmp_path: Path, monkeypatc
         "runs/friendly-19700101T000000Z-seed7-2",
     ]
     assert first.recording == first.folder / "match.mcap"
-    assert MatchConfig.model_validate_json(first.config_file.read_text()) == config
 
 
 def test_a_recording_elsewhere_gets_its_folder_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -165,14 +170,6 @@ def test_a_recording_that_another_recorder_writes_is_left_to_it(
     assert "--record a.mcap: is being written by another recorder; the match is played" in run.warning
     assert other.path.read_bytes() == b"its first bytes"
     other.close()
-
-
-def test_the_recorder_is_told_what_the_match_file_wants(tmp_path: Path) -> None:
-    wanted = {"record.include": ["world"], "record.split_duration": 60.0, "record.keep": 3, "record.sights": True}
-    plan = MatchPlan(load_match(None, wanted), "tcp/127.0.0.1:7447", tmp_path, tmp_path / "a.mcap")
-    (recorder,) = [process for process in processes_of(plan) if process.name == "recorder"]
-    words = ["--sights", "--include=world", "--split-duration=60.0", "--keep=3"]
-    assert [word for word in recorder.command if word in words] == words
 
 
 def test_a_run_without_recording_has_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,7 @@ import pytest
 from rich.console import Console
 from rich.text import Text
 
-from coach_gateway.match.detailed_follower import DetailedFollower
+from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.orders import OrderBook
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import Medium
@@ -91,7 +91,7 @@ def test_a_restart_shows_how_far_opponents_stay(setup: Setup) -> None:
 def test_a_picture_fits_its_terminal(setup: Setup, size: tuple[int, int]) -> None:
     medium = Medium()
     host = medium.open_bus("friendly", SteppedClock())
-    seen = DetailedFollower(medium.open_bus("friendly", SteppedClock()))
+    seen = MatchFollower(medium.open_bus("friendly", SteppedClock()), details=True)
     say(host, world(cyan1=robot(-30.0, 2.0), magenta5=robot(3.0, 99.0)), state())
     seen.update()
     rows = draw_match(seen, setup, *size)
@@ -107,7 +107,7 @@ def say(host: Bus, world: World, state: GameState) -> None:
 def test_a_picture_says_score_phase_events_and_how_the_host_is_doing(setup: Setup) -> None:
     medium = Medium()
     host = medium.open_bus("friendly", SteppedClock())
-    seen = DetailedFollower(medium.open_bus("friendly", SteppedClock()))
+    seen = MatchFollower(medium.open_bus("friendly", SteppedClock()), details=True)
     say(host, world(cyan2=robot(1.0, 0.0)), state(Phase.THROW_IN, side=Side.MAGENTA, score=Score(cyan=2, magenta=1)))
     host.publisher(HEALTH).put(Health(tick=5, time=0.1, pace="x2", real_time_factor=1.98, late_ticks=3))
     goal = GameEvent(tick=4, time=0.08, clock=60.5, kind=EventKind.GOAL, rule="goal", text="goal for cyan by cyan3")
@@ -190,5 +190,5 @@ def test_a_match_is_drawn_until_its_host_goes_and_its_last_picture_stays(
 
 
 def test_a_match_that_nobody_plays_is_wrong_input() -> None:
-    with pytest.raises(TouchlineError, match='match "cup": nobody answers host/setup'):
+    with pytest.raises(TouchlineError, match='match "cup": no process answers host/setup'):
         watch_on(Medium().open_bus("cup", SteppedClock()), Console(file=io.StringIO()))

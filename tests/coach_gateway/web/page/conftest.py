@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser
 
+from coach_gateway.web.settings import WebSettings
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
@@ -17,7 +18,7 @@ from recordings.replay.replay import Replay, ReplaySettings
 from schemas.bus.in_process_bus import Medium
 from schemas.messages.replay import ReplayOperation, ReplayRequest
 from schemas.process.clock import WallClock
-from support.page_gateway import SOON, Gateway, settings_in
+from support.page_gateway import SOON, Gateway, tokens_in
 from support.page_match import Match
 from support.tab import Tab
 from support.tunnel import Tunnel
@@ -57,7 +58,7 @@ def match(officiated: Callable[..., Match]) -> Match:
 
 @pytest.fixture
 def resting(officiated: Callable[..., Match]) -> Match:
-    """One in which nobody moves by itself."""
+    """A match in which no robot moves by itself."""
     return officiated(still=True)
 
 
@@ -66,7 +67,7 @@ def gateway_of(tmp_path: Path) -> Iterator[Callable[..., Gateway]]:
     made: list[Gateway] = []
 
     def make(medium: Medium | None, port: int = 0) -> Gateway:
-        made.append(Gateway(medium, settings_in(tmp_path, port)))
+        made.append(Gateway(medium, WebSettings(port=port), tokens_in(tmp_path)))
         return made[-1]
 
     yield make
@@ -131,7 +132,7 @@ class Replayed:
     """A recording that is replayed on a medium of its own."""
 
     def __init__(self, path: Path, start: str | None = "1") -> None:
-        """It stands still at `start`, where the first picture has been shown; at the beginning nothing has."""
+        """A replay that is paused at `start`, where the first frame has been shown."""
         self.medium = Medium()
         self.programme = Replay(ReplaySettings(path, start=start, paused=True, stay=True))
         clock = WallClock()

@@ -1,4 +1,4 @@
-"""Commands from the page: what is accepted is done, what is refused is said, and nobody does what is not theirs."""
+"""Commands from the page: accepted ones are carried out, refused ones have their reason, and roles are kept."""
 
 import math
 
@@ -13,7 +13,6 @@ from schemas.topics import MANUAL
 
 
 def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> None:
-    """Reference 13, row 32."""
     tab = visit(match, "referee")
     places = ["#moving", "[data-action=corner][data-side=cyan]", "#to-log", "#layer-roles", "#parameter-filter"]
     tab.open("settings")
@@ -25,7 +24,7 @@ def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> No
         tab.page.keyboard.press("Space")
         match.until(lambda: match.state.phase is Phase.STOPPED)
         tab.wait_for_log("Stop accepted")
-        assert tab.page.locator("#layer-roles").is_checked()  # the focus was there, and nothing else happened to it
+        assert tab.page.locator("#layer-roles").is_checked()  # it had the focus, and was not switched
         tab.open("match")
         tab.button("drop_ball").click()
         tab.wait_for_log("Drop ball accepted")
@@ -33,7 +32,7 @@ def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> No
     assert "Corner" not in tab.page.locator("#log").inner_text()
 
 
-def test_buttons_refuse_what_the_referee_refuses_and_say_why(match, visit) -> None:
+def test_buttons_show_why_the_referee_has_refused(match, visit) -> None:
     tab = visit(match, "referee")
     tab.button("enter").page.locator("[data-robot=cyan1] .who").click()
     tab.button("enter").click()
@@ -154,7 +153,7 @@ def test_a_coach_commands_its_own_side_alone(match, visit) -> None:
     match.until(lambda: Side.CYAN in match.host.simulation.orders)
     assert match.host.simulation.orders[Side.CYAN].mode is CoachMode.HOLD
     assert Side.MAGENTA not in match.host.simulation.orders
-    tab.until("document.querySelector('[data-robot=cyan2] [data-is=order]').textContent === 'taken in'")
+    tab.until("document.querySelector('[data-robot=cyan2] [data-is=order]').textContent === 'acknowledged'")
     match.until(lambda: math.hypot(*(match.world["robots"]["cyan2"][axis] for axis in ("vx", "vy"))) < 0.02)
 
 
@@ -171,7 +170,7 @@ def test_a_token_is_taken_from_the_address_kept_and_given_up(match, visit) -> No
     tab.page.locator("#enter-token").click()
     tab.page.locator("#token").fill("nonsense")
     tab.page.keyboard.press("Enter")
-    tab.until("document.getElementById('token-says').textContent.startsWith('refused: nobody has this token')")
+    tab.until("document.getElementById('token-says').textContent.startsWith('refused: unknown token')")
     tab.page.locator("#token").fill("cyans-coach")
     tab.page.keyboard.press("Enter")
     tab.until("window.touchline.match.role === 'cyan'")
@@ -246,7 +245,7 @@ def test_speed_and_noise_are_set_within_their_range_and_reset(match, visit) -> N
     row.wait_for()
     assert "m/s" in row.inner_text()
     before = match.host.simulation.profile.drive.max_speed
-    for wrong, why in (("fast", "refused: fast is no number"), ("1000", "refused: drive.max_speed is 1000")):
+    for wrong, why in (("fast", "refused: fast is not a number"), ("1000", "refused: drive.max_speed is 1000")):
         row.locator("input").fill(wrong)
         row.get_by_role("button", name="Set drive.max_speed", exact=True).click()
         tab.wait_for_log(why)
@@ -298,7 +297,6 @@ def test_an_order_that_lacks_something_is_refused_with_the_reason(match, visit) 
 
 
 def test_a_robot_is_driven_by_keys_in_place_of_its_brain_and_given_back(match, visit) -> None:
-    """Reference 13, row 43."""
     tab = visit(match, "cyan")
     tab.open("drive")
     options = tab.page.locator("#drive-robot option")
@@ -317,7 +315,7 @@ def test_a_robot_is_driven_by_keys_in_place_of_its_brain_and_given_back(match, v
     tab.page.keyboard.up("q")
     tab.page.keyboard.press("Escape")
     match.until(lambda: said(match, "cyan2 is given back to its brain"))
-    assert tab.page.locator("#drive-take").inner_text() == "Take in hand"
+    assert tab.page.locator("#drive-take").inner_text() == "Take over"
 
 
 def test_a_gamepad_drives_kicks_and_dribbles(match, visit) -> None:

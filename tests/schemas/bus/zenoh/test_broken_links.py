@@ -8,11 +8,13 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from schemas.bus.contract import Bus, Subscription
+from recordings.recorder.batch_reader import BatchReader
+from schemas.bus.batch_publisher import BatchPublisher
+from schemas.bus.contract import Bus, ReceivedMessage, Subscription
 from schemas.bus.endpoint import parse_endpoint, with_free_port
 from schemas.bus.zenoh.bus import open_client, open_host
 from schemas.process.clock import WallClock
-from schemas.topics import WORLD
+from schemas.topics import COMMAND, STATE
 
 LIMIT = 60.0
 """Seconds after which something that should have happened will not; nothing depends on how soon it does."""
@@ -104,7 +106,7 @@ def test_nothing_is_lost_of_what_was_said_meanwhile_though_the_link_breaks_again
 ) -> None:
     host, cable = ends
     with open_client("test", WallClock(), cable.endpoint, patience=LIMIT) as client:
-        reader, writer = client.subscribe(WORLD), host.publisher(WORLD)
+        reader, writer = client.subscribe(STATE), host.publisher(STATE)
         said = 0
         heard: list[int] = []
 
@@ -134,10 +136,10 @@ def test_the_first_message_of_a_key_is_heard_though_the_link_was_cut_when_it_was
     """Before a first message nobody sees a gap, unless its number says that it is not the first."""
     host, cable = ends
     with open_client("test", WallClock(), cable.endpoint, patience=LIMIT) as client:
-        reader = client.subscribe(WORLD)
+        reader = client.subscribe(STATE)
         cable.whole = False
         wait_until(lambda: not client.connected())
-        writer = host.publisher(WORLD)
+        writer = host.publisher(STATE)
         for _ in range(3):
             writer.put_payload(b"{}")
         cable.whole = True
@@ -150,3 +152,46 @@ def test_the_first_message_of_a_key_is_heard_though_the_link_was_cut_when_it_was
             heard = hear(reader, 1, limit=0.1)
         heard += hear(reader, said - 1)
     assert heard == list(range(said))
+
+
+@pytest.mark.parametrize("carried", [10_000, 60_000, 300_000], ids=lambda size: f"{size // 1000}_kB")
+def test_a_recorder_has_all_batches_though_the_link_breaks_again_while_they_are_fetched(
+    ends: tuple[Bus, Cable], carried: int
+) -> None:
+    host, cable = ends
+    batches, filler = BatchPublisher(host), b" " * 2000
+    with open_client("test", WallClock(), cable.endpoint, patience=LIMIT) as client:
+        reader = BatchReader(client)
+        published = 0
+        found: list[int] = []
+
+        def publish(count: int) -> None:
+            nonlocal published
+            for _ in range(count):
+                batches.add_received(ReceivedMessage(COMMAND, "robot/cyan1/command", filler, None))
+                batches.send()
+                published += 1
+
+        def look() -> bool:
+            batches.attend()
+            found.extend(batch.number for batch in reader.read())
+            return len(found) == published
+
+        def has_some() -> bool:
+            publish(1)
+            return look() or bool(found)
+
+        wait_until(has_some)
+        wait_until(look)
+        cable.whole = False
+        wait_until(lambda: not client.connected())
+        publish(250)
+        cable.left, cable.whole = carried, True
+        while cable.left is not None:
+            publish(1)  # until the link has broken once more
+            look()
+            time.sleep(0.05)
+        wait_until(look)
+    assert cable.links >= 3
+    assert found == list(range(published))
+    assert reader.lost == 0

@@ -55,9 +55,9 @@ from schemas.bus.zenoh.bus import open_host
 from schemas.bus.zenoh.reader import ZenohReader
 from schemas.process.clock import WallClock
 from schemas.messages.host import Invalid
-from schemas.topics import INVALID
+from schemas.topics import EVENT
 with open_host("test", WallClock(), sys.argv[1]) as bus:
-    writer = bus.publisher(INVALID)
+    writer = bus.publisher(EVENT)
     for tick in range(1500):
         writer.put(Invalid(tick=tick, time=0.0, key="k" * 10_000, reason="", size=0))
     print("said", flush=True)
@@ -69,9 +69,9 @@ import sys
 from schemas.bus.zenoh.bus import open_client
 from schemas.bus.zenoh.reader import ZenohReader
 from schemas.process.clock import WallClock
-from schemas.topics import INVALID
+from schemas.topics import EVENT
 with open_client("test", WallClock(), sys.argv[1], patience=30.0) as bus:
-    reader = bus.subscribe(INVALID)
+    reader = bus.subscribe(EVENT)
     numbers = [reader.receive(30.0).stamp.sequence for _ in range(1500)]
     print(numbers == list(range(1500)))
 """

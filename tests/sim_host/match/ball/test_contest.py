@@ -1,4 +1,4 @@
-"""Two robots at one ball: fair, symmetric, the same for any order of the roster (row 40 of section 13)."""
+"""Two robots at one ball: fair, symmetric, the same for any order of the roster."""
 
 import math
 import random
@@ -40,7 +40,7 @@ def turned(body):
 
 @pytest.mark.parametrize("way", ["pose", "velocity", "force"])
 def test_over_scenes_and_their_mirror_images_both_sides_have_the_ball_as_often(build, tell, way):
-    """Row 40: the same scenes turned by π with the sides exchanged; to 10 % of the ticks somebody has it."""
+    """The same scenes turned by π with the sides exchanged; to 10 % of the ticks somebody has it."""
     rig = build(dribble={"method": way})
     totals = {"cyan1": 0, "magenta1": 0}
     for number in range(SCENES):
@@ -55,7 +55,7 @@ def test_over_scenes_and_their_mirror_images_both_sides_have_the_ball_as_often(b
 
 
 def test_a_first_touch_belongs_to_the_same_robot_in_any_order_of_the_roster(build, tell):
-    """Defect 8 of section 14: the last writer had the ball."""
+    """In simatch the last writer has the ball."""
     orders = [("cyan1", "cyan2", "magenta1", "magenta2"), ("magenta2", "magenta1", "cyan2", "cyan1")]
     rigs = [build(order=order) for order in orders]
     winners = []

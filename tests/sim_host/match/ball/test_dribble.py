@@ -24,7 +24,7 @@ def held_for(rig, tell, seconds, **motion):
 @pytest.mark.parametrize("way", ["pose", "velocity"])
 @pytest.mark.parametrize("backward", [1, -1])
 def test_the_papers_ways_keep_the_ball_at_top_speed_and_turn_rate(rig, build, tell, way, backward):
-    """Row 6 of section 13; equation 2, within 2 cm of the gap for three seconds of the hardest driving."""
+    """Equation 2 of the paper, within 2 cm of the gap for three seconds of the hardest driving."""
     rig = build(rig.profile.name, dribble={"method": way})
     top = rig.profile.drive
     rig.give("cyan1", -2)
@@ -98,7 +98,7 @@ def overlap_with(rig, snapshot, what):
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("what", ["standing robot", "oncoming robot", "robot at the edge", "post", "wall"])
 def test_no_way_takes_the_ball_through_a_body(rig, build, tell, way, what):
-    """Defect 8 of section 14: at top speed for three seconds, never more than 3 cm deep, and nothing explodes."""
+    """At top speed for three seconds, never more than 3 cm deep, and nothing explodes."""
     rig = build(rig.profile.name, dribble={"method": way})
     field, top = rig.profile.field, rig.profile.drive.max_speed
     rig.give("cyan1", {"post": field.goal_line - 2, "wall": field.goal_line - 1}.get(what, -1.5))
@@ -148,7 +148,7 @@ def test_a_ball_between_two_robots_that_press_is_never_thrown(rig, build, tell):
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("bearing", [0.0, 0.5, 1.0, 1.5])
 def test_a_ball_that_an_opponent_presses_is_not_pumped_into_it(rig, build, tell, way, bearing):
-    """Reference 14, defect 8: who carries a ball loses it to the press, and does not catch it again while it lasts.
+    """A robot that carries the ball loses it to the press, and does not catch it again while the press lasts.
 
     Within 2 cm, although the carrier drives on and wants the ball in every tick.
     """

@@ -14,7 +14,7 @@ STILL = {"rolling_deceleration": 0.0, "drag_coefficient": 0.0}
 
 @pytest.mark.parametrize("speed", [0.5, 2.0, 4.0])
 def test_a_rolling_ball_stops_after_v_squared_over_two_a(rig, speed):
-    """Row 11 of section 13: the profile's rolling deceleration, within 2 % and 1 cm; then it rests for good."""
+    """The profile's rolling deceleration, within 2 % and 1 cm; then it rests for good."""
     ball, r = rig.profile.ball, rig.profile.ball.radius
     rig.set_ball((-8, 0, r), (speed, 0, 0), (0, speed / r, 0))
     end = rig.run(speed / ball.rolling_deceleration + 0.5).ball

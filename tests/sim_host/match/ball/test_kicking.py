@@ -14,7 +14,7 @@ WAYS = ("pose", "velocity", "force")
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("speed", [1.0, 5.0, 9.5])
 def test_a_ground_kick_leaves_at_its_speed_along_the_axis_out_of_any_dribble(rig, build, tell, way, speed):
-    """Row 8; equation 3: within 1 % after one tick, allowing for one tick of rolling resistance."""
+    """Equation 3 of the paper: within 1 % after one tick, allowing for one tick of rolling resistance."""
     rig = build(rig.profile.name, dribble={"method": way})
     rig.give("cyan1", 0, 0, 0.7)
     rig.run(0.1, cyan1=tell(dribble=True))
@@ -39,7 +39,7 @@ def height_at_the_goal(rig):
 @pytest.mark.parametrize("speed", [2.0, 5.0, 8.0, 12.0])
 @pytest.mark.parametrize(("d", "y", "heading"), [(1.5, 0.2, 0), (2.5, 0, 0), (5, 0.5, -0.1), (8, -1, 0.1), (12, 0, 0)])
 def test_a_lob_crosses_the_goal_plane_within_a_balls_radius_of_the_papers_point(rig, tell, d, y, heading, speed):
-    """Row 9; equations 4 to 12 with the margin of its code, drag on in `msl`: below h, by a ball's radius at most."""
+    """Equations 4 to 12 of the paper, margin of its code, drag on in `msl`: below h, by a ball's radius at most."""
     goal_line, r = rig.profile.field.goal_line, rig.profile.ball.radius
     rig.give("cyan1", goal_line - d, y, heading)
     assert rig.tick(cyan1=tell(kick=("lob", speed))).kicked == "cyan1"
@@ -58,7 +58,7 @@ def test_a_lob_is_solved_for_the_air_there_is(build, tell, drag):
 
 @pytest.mark.parametrize("speed", [4.0, 9.0])
 def test_a_loft_kick_rises_at_its_angle(rig, tell, speed):
-    """Row 10: 36.87°, 0.8 of the speed along the ground and 0.6 upward, less what gravity and drag take in a tick."""
+    """36.87°, 0.8 of the speed along the ground and 0.6 upward, less what gravity and drag take in a tick."""
     rig.give("cyan1", 0, 0, math.pi / 2)
     ball = rig.tick(cyan1=tell(kick=("loft", speed))).ball
     assert ball.vy == approx(0.8 * speed, rel=0.02)
@@ -126,7 +126,6 @@ def test_every_kicker_is_charged_at_a_checkpoint_in_the_running_match_as_in_its_
     ],
 )
 def test_a_kick_that_cannot_be_done_says_why(build, tell, height, place, reason):
-    """Rows 7 and 17."""
     rig = build()
     rig.place(cyan1=(0, 0, 0))
     rig.set_ball((place, 0, height))
@@ -138,7 +137,7 @@ def test_a_kick_of_a_contested_ball_says_so(build, tell):
     rig = build()
     rig.place(cyan1=(-0.36, 0, 0), magenta1=(0.36, 0, math.pi), ball=(0, 0, 0))
     rig.tick(cyan1=tell(kick=("ground", 3.0)), magenta1=tell(dribble=True))
-    assert rig.refused == {"cyan1": "kick: ball contested, another robot is as near to it"}
+    assert rig.refused == {"cyan1": "kick: ball contested, another robot is equally near"}
 
 
 def test_a_kick_against_a_touching_opponent_is_stopped_by_its_hull(rig, tell):

@@ -57,7 +57,7 @@ def pitch() -> Iterator[WorldRig]:
 def test_a_loaded_robot_has_the_mass_the_inertia_and_the_size_of_its_profile(
     profile: str, mass: float, inertia: tuple[float, ...], radius: float, height: float
 ) -> None:
-    """Reference 13, row 2, read back from the engine; the numbers are those of the simulators' own models."""
+    """Read back from the engine; the numbers are those of the simulators' own models."""
     engine = new_pitch(profile, size=1).engine
     dynamics = pybullet.getDynamicsInfo(engine.robots[0], -1, physicsClientId=engine.client)
     assert (dynamics[0], dynamics[2]) == (mass, approx(inertia))
@@ -95,7 +95,7 @@ def test_each_robot_has_the_limits_of_its_own_type() -> None:
 @pytest.mark.parametrize("profile", ["msl", "paper"])
 @pytest.mark.parametrize(("lift", "tilt"), [(0.3, 0.0), (0.0, 0.4), (0.2, 1.2), (0.06, 0.0), (0.0, 0.06)])
 def test_a_robot_that_is_lifted_or_tipped_is_put_upright_where_it_is(profile: str, lift: float, tilt: float) -> None:
-    """Reference 13, row 45: simatch puts a robot upright from 0.05 m or 0.05 rad on."""
+    """simatch puts a robot upright from 0.05 m or 0.05 rad on."""
     pitch = new_pitch(profile, size=1)
     pitch.place(cyan1=(1, 2, 0.5))
     height, body = pitch.profile.robot.height / 2, pitch.engine.robots[0]
@@ -261,7 +261,7 @@ def test_equal_inputs_give_equal_worlds_through_collisions_at_speed() -> None:
 
 
 def test_the_last_touch_is_a_contact_and_a_ball_that_only_comes_near_is_touched_by_nobody(pitch: WorldRig) -> None:
-    """Reference 13, row 39: from contacts and possession, in the order of time."""
+    """From contacts and possession, in the order of time."""
     pitch.place(cyan1=(0, 0, 0), magenta1=(2, 0, math.pi), ball=(-2, 0.245 + 0.11 + 0.01, 0))
     pitch.engine.set_ball_motion((4, 0, 0), (0, 4 / 0.11, 0))
     passing = [pitch.tick().touches for _ in range(40)]
@@ -279,7 +279,7 @@ def test_the_last_touch_is_a_contact_and_a_ball_that_only_comes_near_is_touched_
 
 
 def test_the_world_is_read_from_the_engine_after_every_tick(pitch: WorldRig) -> None:
-    """Reference 14, defect 14: the seed took its states from a topic, a frame late."""
+    """The NuBot simulation takes states of models from a topic, a frame late."""
     snapshot = pitch.run(0.5, cyan1=drive(2, 1, 1))
     for body, state in zip(pitch.engine.robots, snapshot.robots, strict=True):
         (x, y, z), orientation = pybullet.getBasePositionAndOrientation(body, pitch.engine.client)

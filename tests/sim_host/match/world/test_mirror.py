@@ -166,7 +166,7 @@ def distances(one: Snapshot, other: Snapshot, mirror: Mirror) -> Iterator[float]
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("mirror", [TURNED, REFLECTED], ids=["turned", "reflected"])
 def test_a_mirrored_scene_with_mirrored_commands_is_the_mirrored_world(mirror: Mirror, scene: str, drives: str) -> None:
-    """Reference 13, row 24, and reference 14, defect 2: no direction of the compass and no side has an advantage."""
+    """No direction of the compass and no side has an advantage."""
     what = SCENES[scene]
     models = dict(zip(NAMES, DRIVES[drives], strict=True))
     mirrored = {mirror.name(name): model for name, model in models.items()}

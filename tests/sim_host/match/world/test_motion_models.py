@@ -57,7 +57,7 @@ def field(request: pytest.FixtureRequest) -> Iterator[WorldRig]:
 
 
 def test_robots_of_each_model_drive_as_they_are_told_in_their_own_frame(field: WorldRig) -> None:
-    """Reference 13, row 1: body-frame velocities in m/s and rad/s, after a second within 2 %."""
+    """Body-frame velocities in m/s and rad/s, after a second within 2 %."""
     field.place(cyan1=(0, 0, 2.0))
     field.run(1.0, cyan1=drive(1.0, 0.5, 0.8))
     at = field.at("cyan1")
@@ -71,7 +71,7 @@ def test_robots_of_each_model_drive_as_they_are_told_in_their_own_frame(field: W
 
 @pytest.mark.parametrize("degrees", [0, 30, 45, 90, 200])
 def test_speed_does_not_depend_on_the_compass(field: WorldRig, degrees: int) -> None:
-    """Reference 14, defect 2: the time and way to 3 m/s are the same at every heading, to 1 mm and 1 mm/s."""
+    """The time and way to 3 m/s are the same at every heading, to 1 mm and 1 mm/s."""
     speeds, ways = [], []
     for heading in (0.0, math.radians(degrees)):
         field.place(cyan1=(0, 0, heading))
@@ -84,7 +84,7 @@ def test_speed_does_not_depend_on_the_compass(field: WorldRig, degrees: int) -> 
 
 
 def test_only_the_robot_that_is_held_back_is_stuck(field: WorldRig) -> None:
-    """Reference 13, row 44, and 14, defect 5: each has its own flag, up 0.2 s after the wall, down when free again."""
+    """Each robot has its own flag, up 0.2 s after the wall, down when free again."""
     field.place(cyan1=(11.7, 3, 0), cyan2=(-3, 0, 0))
     field.run(0.6, cyan1=drive(2), cyan2=drive(2))
     assert field.stuck == [True, False, False, False]
@@ -214,7 +214,7 @@ def played(profile: Profile, mirrored: bool = False) -> tuple[list[RobotState], 
 
 @pytest.mark.parametrize("profile", [VELOCITY, OMNI, THREE], ids=["velocity", "four wheels", "three wheels"])
 def test_the_mirrored_scene_with_mirrored_commands_is_the_mirrored_world(profile: Profile) -> None:
-    """Reference 13, row 24: left for right, collision and all, to 1 cm after 2.4 s."""
+    """Left for right, collision and all, to 1 cm after 2.4 s."""
     one, other = played(profile)[0], played(profile, mirrored=True)[0]
     for a, b in zip(one, other, strict=True):
         assert (a.x, a.y) == approx((b.x, b.y), abs=0.01)
@@ -259,7 +259,7 @@ def test_the_model_may_change_while_robots_drive() -> None:
 
 
 def test_a_match_file_gives_single_robots_wheels(tmp_path: Path) -> None:
-    """A type of the match file that drives on wheels beside standard robots; reference 13, row 23."""
+    """A type of the match file that drives on wheels beside standard robots."""
     path = tmp_path / "mixed.toml"
     path.write_text(
         '[teams.cyan]\ntypes = { cyan2 = "roller" }\n'

@@ -372,7 +372,7 @@ def fixed(test: Callable[[Random], None]) -> Callable[[Random], None]:
 def test_whatever_ten_robots_are_told_the_world_stays_a_world(random: Random) -> None:
     """Nothing leaves the walls or explodes, no body sinks into another, and energy comes from drives and kicks alone.
 
-    Reference 13, row 45 and reference 14, defect 8: robots stay upright, and the ball is carried through nobody.
+    Robots stay upright, and the ball is carried through no body.
     """
     play = drawn(random)
     watched = Watched.begin(play)

@@ -35,7 +35,7 @@ def drive(vx: float = 0.0, vy: float = 0.0, omega: float = 0.0, **more: object) 
 
 
 def test_the_loaded_bodies_have_the_profiles_mass_and_size(rig: WorldRig) -> None:
-    """Row 2 of the parity table, read back from the engine."""
+    """Read back from the engine."""
     import pybullet
 
     engine, robot_body = rig.engine, rig.profile.robot
@@ -102,7 +102,7 @@ def test_a_ball_that_is_not_asked_for_is_not_held(rig: WorldRig) -> None:
 
 
 def test_a_kick_without_the_ball_is_refused_now_and_not_kept_for_later(rig: WorldRig) -> None:
-    """Defect 10: a kick request of the seed waited for the next hold."""
+    """In the NuBot simulation an accepted kick waits until the ball is held again."""
     rig.place(cyan1=(0, 0, 0), ball=(3, 0, 0))
     inputs = dict.fromkeys(ROSTER.names, REST)
     advance = rig.world.advance(inputs | {"cyan1": drive(kick=Kick(mode=KickMode.GROUND, speed=5))})
@@ -124,7 +124,7 @@ def test_two_robots_that_meet_do_not_pass_through_each_other(rig: WorldRig) -> N
 
 
 def test_a_robot_that_is_held_back_is_stuck_and_only_that_one(rig: WorldRig) -> None:
-    """Row 44 and defect 5: each robot has its own flag."""
+    """Each robot has its own flag."""
     wall = rig.profile.field.goal_line + rig.profile.field.border - rig.profile.robot.radius
     rig.place(cyan1=(wall - 0.05, 3, 0), cyan2=(-3, 0, 0))
     told = dict.fromkeys(ROSTER.names, REST) | {"cyan1": drive(2), "cyan2": drive(2)}
@@ -168,7 +168,7 @@ def test_a_rebuilt_world_depends_on_the_poses_and_velocities_of_the_snapshot_alo
 
 
 def test_a_turned_world_with_the_same_commands_is_the_turned_world() -> None:
-    """Row 24: turned by π, cyan for magenta, everything happens as before, to 1 mm after two seconds of play."""
+    """Turned by π, cyan for magenta, everything happens as before, to 1 mm after two seconds of play."""
     profile = load_profile("msl")
     one, other = WorldRig(profile), WorldRig(profile)
     one.place(cyan1=(-1.0, 0.2, 0.1), magenta1=(3.0, -1.0, 2.0), ball=(-0.65, 0.235, 0))

@@ -1,0 +1,51 @@
+"""What a gateway process is started with: the page, the bridges, or a match to show as plain lines."""
+
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field
+
+from coach_gateway.ports import LOOPBACK
+from coach_gateway.refbox.framing import BoxProtocol
+from coach_gateway.web.settings import WebSettings
+from schemas.bus.settings import ClientSettings
+from schemas.config.settings import CommandLine, Settings
+from schemas.side import Side
+
+
+class BridgeOptions(Settings):
+    """What coach programs, referee boxes and audiences are joined to."""
+
+    udp: Annotated[int | None, Field(ge=0, le=65_535)] = None
+    """Accept coach programs on this UDP port; 0 takes a free one."""
+    refbox: Annotated[str | None, CommandLine(metavar="HOST[:PORT]")] = None
+    """Be a base station at a league's referee box."""
+    team: list[Side] = Field(default_factory=list)
+    """Whose base station; may be given twice."""
+    refbox_protocol: BoxProtocol = BoxProtocol.AUTO
+    """Protocol of that box; auto: as its first bytes show."""
+    refbox_server: Annotated[list[str], CommandLine(metavar="[SIDE:]PORT")] = Field(default_factory=list)
+    """Be a referee box for team software; the league's port is 28097."""
+    audience: Annotated[list[str], CommandLine(metavar="HOST:PORT")] = Field(default_factory=list)
+    """Send the audience feed there."""
+    listen_bridges: str = LOOPBACK
+    """Address that programs and base stations come to; 0.0.0.0 lets other machines in."""
+
+    @property
+    def wanted(self) -> bool:
+        """Whether there is any bridge to run."""
+        return self.udp is not None or bool(self.refbox or self.team or self.refbox_server or self.audience)
+
+
+NO_BRIDGES = BridgeOptions()
+
+
+class GatewaySettings(ClientSettings):
+    """One gateway process: a page, bridges, or both; with neither it shows the match as plain lines."""
+
+    tokens: Annotated[Path | None, CommandLine(environment="TOUCHLINE_TOKENS")] = None
+    """File of the tokens, made when it is not there; without one they last as long as the process."""
+    web: WebSettings | None = None
+    """The page."""
+    bridges: BridgeOptions = NO_BRIDGES
+    """What takes part beside the page."""

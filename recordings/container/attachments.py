@@ -1,0 +1,31 @@
+"""The files attached to a recording, before its first message."""
+
+from pydantic_core import to_json
+
+from recordings.container.json_schema import whole_schema
+from schemas.config.match_config import MatchConfig
+from schemas.config.profile import profile_tables
+from schemas.config.rule_book import rule_book_text
+from schemas.message import WireMessage
+from schemas.topic import Delivery
+from schemas.topics import TOPICS
+
+MEDIA_TYPES = {".json": "application/json", ".toml": "application/toml"}
+"""Suffix of an attachment → its media type."""
+PROFILE = "profile.json"
+"""The attachment with the profile and the profiles that it extends, for `schemas.config.profile.profile_of`."""
+
+
+def make_attachments(config: MatchConfig | None) -> dict[str, bytes]:
+    """Return the full schemas of all messages, and match file, profile and rule book if there is a `config`."""
+    models: dict[str, type[WireMessage]] = {
+        topic.message.__name__: topic.message
+        for topic in TOPICS.values()
+        if topic.message is not None and topic.delivery is not Delivery.QUERY  # queries are not recorded
+    }
+    files = {"message_schemas.json": to_json({name: whole_schema(model) for name, model in models.items()})}
+    if config is not None:
+        files["match.json"] = to_json(config)
+        files[PROFILE] = to_json(config.profile_tables or profile_tables(config.profile))
+        files["rules.toml"] = rule_book_text(config.rules).encode()
+    return files

@@ -1,0 +1,77 @@
+"""Copies a part of a recording. Each message keeps its payload, times and sequence number."""
+
+from collections.abc import Iterable, Iterator
+from itertools import islice
+from pathlib import Path
+
+from recordings.container.key_selection import EVERYTHING, KeySelection
+from recordings.editing.copy_writer import CopyWriter
+from recordings.editing.message_copies import (
+    CopySummary,
+    MessageCopy,
+    check_output,
+    copy_manifest,
+    message_copies,
+)
+from recordings.reading.recording import RecordedMessage, Recording
+from recordings.recorder.latched_messages import LatchedMessages
+from schemas.bus.contract import ReceivedMessage
+
+
+def filter_recording(
+    recording: Recording,
+    out: Path,
+    selection: KeySelection = EVERYTHING,
+    start: float | None = None,
+    end: float | None = None,
+) -> CopySummary:
+    """Copy the selected keys of a recording, from `start` up to but not including `end`, in s of simulated time.
+
+    A copy that begins later than the recording begins with the latched messages of that time.
+
+    Raises:
+        TouchlineError: the recording is damaged inside, or the copy cannot be written.
+    """
+    check_output(out, [recording])
+    start_ns, end_ns = _ns(start), _ns(end)
+    entries = message_copies(recording, selection, end_ns)
+    if start_ns is None:
+        repeated = islice(entries, recording.manifest.standing)
+        latched, rest = [entry for entry in repeated if selection.includes(entry.channel.key)], entries
+    else:
+        latched, rest = _latched_at(recording, selection, start_ns), _from(entries, start_ns)
+    manifest = copy_manifest(recording.manifest, "filtered", selection)
+    with CopyWriter(out) as writer:
+        writer.begin(manifest, recording.attachments, len(latched), viz=bool(recording.drawn))
+        for entry in latched:
+            writer.add(entry, counted=False)
+        for entry in rest:
+            if selection.includes(entry.channel.key):
+                writer.add(entry)
+        return CopySummary(out, writer.finish(recording.result), 0)
+
+
+def _from(entries: Iterable[MessageCopy], start_ns: int) -> Iterator[MessageCopy]:
+    return (entry for entry in entries if entry.log_ns >= start_ns)
+
+
+def _latched_at(recording: Recording, selection: KeySelection, start_ns: int) -> list[MessageCopy]:
+    """The latched messages at a time, as copies."""
+    latched = LatchedMessages()
+    latched.update((recorded.log_ns, _as_recorded(recorded)) for recorded in recording.messages(end=start_ns / 1e9))
+    channels = {channel.key: channel for channel in recording.mcap_file.channels.values()}
+    entries = []
+    for log_ns, received in latched.messages():
+        if selection.includes(received.key) and received.stamp is not None:
+            stamp = received.stamp
+            entries.append(MessageCopy(log_ns, channels[received.key], received.payload, stamp.sent_ns, stamp.sequence))
+    return entries
+
+
+def _ns(seconds: float | None) -> int | None:
+    return round(seconds * 1e9) if seconds is not None else None
+
+
+def _as_recorded(recorded: RecordedMessage) -> ReceivedMessage:
+    """The message with its recorded bytes, whatever version of the protocol they are of."""
+    return ReceivedMessage(recorded.topic, recorded.key, recorded.payload, recorded.stamp)

@@ -1,0 +1,43 @@
+"""Formats the facts of a recording for a terminal."""
+
+from recordings.inspection.recording_facts import RecordingFacts
+
+HEADINGS = ("key", "message", "messages", "per s", "bytes", "lost")
+"""Column headings for `key_rows`."""
+
+
+def key_rows(facts: RecordingFacts) -> list[tuple[str, ...]]:
+    """One row for each key, with the columns `HEADINGS`."""
+    return [
+        (key.key, key.message, str(key.messages), f"{key.rate:.1f}", str(key.bytes), str(key.lost))
+        for key in facts.keys
+    ]
+
+
+def summary_lines(facts: RecordingFacts) -> list[tuple[str, str]]:
+    """Name and value of each fact, without unknown ones."""
+    score = f"{facts.score['cyan']} : {facts.score['magenta']}" if facts.score is not None else None
+    values: dict[str, str | None] = {
+        "match": facts.match,
+        "teams": " – ".join(facts.teams.values()) or None,
+        "score": score,
+        "phase": facts.phase,
+        "ended": facts.ended,
+        "pace": facts.pace,
+        "profile": facts.profile,
+        "rules": facts.rules,
+        "seed": str(facts.seed) if facts.seed is not None else None,
+        "started": facts.started,
+        "duration": f"{facts.duration:.2f} s simulated, {facts.tick + 1} ticks",
+        "messages": f"{facts.messages}, {facts.lost} lost, {facts.missed_before_start} sent before it began",
+        "paused": f"{facts.left_out} messages left out meanwhile" if facts.left_out else None,
+        "lost on": ", ".join(f"{key.key} {key.lost}" for key in facts.keys if key.lost) or None,
+        "keys": " ".join([*facts.include, *(f"not {key}" for key in facts.exclude)]) or None,
+        "made": facts.made if facts.made != "recorded" else None,
+        "part": f"{facts.part}, begins with {facts.standing} repeated messages" if facts.standing else None,
+        "for viewers": " ".join(facts.drawn) or None,
+        "damaged": ", ".join(facts.damaged) or None,
+        "events": str(facts.events),
+        "size": f"{facts.size} bytes" + ("" if facts.complete else ", cut off"),
+    }
+    return [(name, value) for name, value in values.items() if value is not None]

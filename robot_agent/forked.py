@@ -1,0 +1,65 @@
+"""A robot's process that is forked by a fork server, instead of started as a Python of its own.
+
+The function that runs in it is imported by the supervisor, too: this module loads nothing heavy. `PRELOAD` is what the
+fork server imports once for all robots. Nothing there starts threads or draws random numbers: a fork would have no such
+threads, and the same numbers as its siblings.
+"""
+
+import fcntl
+import gc
+import multiprocessing
+import os
+import signal
+import sys
+from collections.abc import Mapping
+from multiprocessing.connection import Connection, wait
+from pathlib import Path
+
+from robot_agent import run
+from robot_agent.settings import AgentSettings
+from schemas.process.settings_file import exit_status
+
+PRELOAD = ("robot_agent.process", "robot_agent.forked")
+"""Modules that every robot needs, this one among them."""
+
+
+def run_forked(settings: AgentSettings, environment: Mapping[str, str], log: str, held: Connection) -> None:
+    """Run one robot as `python -m robot_agent` would: group, log, environment and module path are its own; exits.
+
+    `held` is closed when it leads its group: signals are sent to that group.
+    """
+    os.setpgid(0, 0)
+    held.close()
+    _end_with_supervisor()
+    _redirect(log)
+    gc.freeze()  # what the fork server has imported is shared memory, and stays so while it is not looked through
+    os.environ.update(environment)
+    if (here := str(Path.cwd())) != sys.path[0]:
+        sys.path.insert(0, here)
+    Path("/proc/self/comm").write_text(settings.robot)  # as `ps -o comm`, `top` and `pgrep` show it
+    sys.exit(exit_status(lambda: run(settings)))
+
+
+def _end_with_supervisor() -> None:
+    """Have the kernel kill this process's group when the supervisor ends, as a supervisor that is killed cannot.
+
+    The parent's sentinel is a pipe whose other end the supervisor alone has; that end closes with the supervisor.
+    """
+    supervisor = multiprocessing.parent_process()
+    assert supervisor is not None
+    pipe = supervisor.sentinel
+    fcntl.fcntl(pipe, fcntl.F_SETOWN, -os.getpgid(0))
+    fcntl.fcntl(pipe, fcntl.F_SETSIG, signal.SIGKILL)
+    fcntl.fcntl(pipe, fcntl.F_SETFL, fcntl.fcntl(pipe, fcntl.F_GETFL) | os.O_ASYNC)
+    if wait([pipe], 0):  # it has closed before
+        os._exit(1)
+
+
+def _redirect(log: str) -> None:
+    """Write into a log, and read nothing."""
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    written = os.open(log, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o666)
+    for stream, handle in enumerate((nothing, written, written)):
+        os.dup2(handle, stream)
+    os.close(nothing)
+    os.close(written)

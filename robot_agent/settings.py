@@ -1,0 +1,20 @@
+"""What a robot's process is started with."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from schemas.bus.settings import ClientSettings
+from schemas.config.settings import CommandLine
+from schemas.message import Name
+
+
+class AgentSettings(ClientSettings):
+    """One robot's process: its match, its name and its brain."""
+
+    robot: Annotated[Name, CommandLine(environment="TOUCHLINE_ROBOT")]
+    """Name of the robot: cyan1, magenta3, …"""
+    brain: Annotated[str, CommandLine(environment="TOUCHLINE_BRAIN")]
+    """module:Class, or module:function of a plain act(sight)."""
+    patience: Annotated[float, Field(ge=0)] = 10.0
+    """s of wall time to wait for a host that is not there."""

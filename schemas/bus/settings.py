@@ -1,0 +1,53 @@
+"""Settings of a process for the bus: the endpoint and the match to connect to, or the endpoint to listen on."""
+
+import re
+from typing import Annotated
+
+from pydantic import AfterValidator
+
+from schemas.bus.contract import BusError
+from schemas.bus.endpoint import DEFAULT_ENDPOINT, parse_endpoint
+from schemas.config.settings import DEFAULT_MATCH, CommandLine, Settings
+
+
+def _endpoint(endpoint: str) -> str:
+    try:
+        parse_endpoint(endpoint)
+    except BusError:
+        raise ValueError(f"write it as {DEFAULT_ENDPOINT}") from None
+    return endpoint
+
+
+def match_name(name: str) -> str:
+    """The name of a match, unchanged.
+
+    Raises:
+        ValueError: the name is not a key chunk.
+    """
+    if re.fullmatch(r"[a-z][a-z0-9_]{0,31}", name) is None:
+        raise ValueError("a match name is a key chunk: lower-case letters, digits and _")
+    return name
+
+
+Endpoint = Annotated[str, AfterValidator(_endpoint)]
+"""`PROTOCOL/HOST:PORT` on the bus."""
+MatchName = Annotated[str, AfterValidator(match_name)]
+"""Name of a match, a key chunk."""
+
+
+class ClientSettings(Settings):
+    """Settings of a process that joins a match."""
+
+    connect: Annotated[Endpoint, CommandLine(environment="TOUCHLINE_CONNECT")] = DEFAULT_ENDPOINT
+    """Endpoint of the host."""
+    match: Annotated[MatchName, CommandLine(environment="TOUCHLINE_MATCH")] = DEFAULT_MATCH
+    """Name of the match."""
+
+
+class ListenSettings(Settings):
+    """Settings of a process that listens for the others of its match."""
+
+    listen: Endpoint = DEFAULT_ENDPOINT
+    """Endpoint of the host; port 0 picks a free one."""
+    insecure: bool = False
+    """Accept connections of other machines, without authentication."""

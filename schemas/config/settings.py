@@ -1,0 +1,64 @@
+"""Settings of processes: their base class, and the options that the recorder and the match file share.
+
+Each kind of process has its own model: `HostSettings`, `AgentSettings`, `GatewaySettings`, `RecorderSettings`. Each
+field is a key of the settings file and an option of the command, with its name, type, default and limits, and its
+docstring as help.
+"""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from pydantic import Field, model_validator
+
+from schemas.message import Part
+
+DEFAULT_MATCH = "friendly"
+"""The default name of a match, for hosts and for processes that join one."""
+
+
+@dataclass(frozen=True, slots=True)
+class CommandLine:
+    """Details of a field's option on the command line, in the field's `Annotated`."""
+
+    environment: str | None = None
+    """Environment variable with the default of the option."""
+    metavar: str | None = None
+    """The form of the value in the help, `HOST:PORT`."""
+
+
+class Settings(Part):
+    """The base of all settings: immutable, without unknown fields, described by the docstrings of its fields."""
+
+
+class RecordOptions(Settings):
+    """What is recorded, and into which files; the section `[record]` of a match file has the same keys."""
+
+    sights: bool = False
+    """Record what every robot perceives, too."""
+    include: list[str] = Field(default_factory=list)
+    """Record only these keys, as robot/*/command or team/**; may be given several times."""
+    exclude: list[str] = Field(default_factory=list)
+    """Leave these keys out; may be given several times."""
+    split_size: Annotated[float | None, Field(gt=0)] = None
+    """MB after which the recording continues in the next file."""
+    split_duration: Annotated[float | None, Field(gt=0)] = None
+    """Simulated s after which the recording continues in the next file."""
+    keep: Annotated[int | None, Field(ge=1)] = None
+    """Number of files that are kept, the newest; by default all."""
+    snapshot: Annotated[float | None, Field(gt=0)] = None
+    """Write only the last so many simulated s before each goal and on request, each time into a file of its own."""
+    viz: bool = True
+    """Add what Foxglove, Lichtblick and Rerun draw: /tf and /viz/*."""
+
+    @property
+    def in_several_files(self) -> bool:
+        """Whether the recording may consist of more than one file."""
+        return any(limit is not None for limit in (self.split_size, self.split_duration, self.snapshot))
+
+    @model_validator(mode="after")
+    def _limits_agree(self) -> "RecordOptions":
+        if self.keep is not None and not self.in_several_files:
+            raise ValueError(f"keep {self.keep} needs several files; add split_size, split_duration or snapshot")
+        if self.snapshot is not None and (self.split_size is not None or self.split_duration is not None):
+            raise ValueError("snapshot writes files of its own; leave split_size and split_duration out")
+        return self

@@ -1,0 +1,23 @@
+"""How far a host may run ahead of its recorders, and what it keeps for them: numbers that have to agree.
+
+A lockstep host waits for a stalled recorder when it is `RUN_AHEAD_TICKS` ahead of it, so that everything that the
+recorder missed is in the `KEPT_BATCHES`. A host does not wait for a recorder that works: the data that it reads at
+once, and the ticks between two of its reports, are a fraction of that.
+"""
+
+BATCH_TICKS = 8
+"""Ticks in a batch: with five robots a side, a batch fits into one of Zenoh's batches of 64 KiB."""
+BATCH_S = 0.15
+"""Wall time after which a batch with fewer ticks is published; half a second later a recorder has it on its disk."""
+KEPT_BATCHES = 300
+"""Batches that a host keeps, of at most `BATCH_TICKS` each: 2400 ticks, 48 s in real time."""
+KEPT_BYTES = 64 * 2**20
+"""Most bytes of all batches that a host keeps; above this it keeps fewer batches."""
+RUN_AHEAD_TICKS = 250
+"""Most ticks that a lockstep host or a replay is ahead of a recorder."""
+REST_TICKS = 60
+"""Most ticks between two polls of a recorder."""
+REPORT_TICKS = 25
+"""Ticks after which a recorder reports its progress at once."""
+PARTING_S = 5.0
+"""Wall time for which a host or a replay waits at its end for its recorders to receive the last tick."""

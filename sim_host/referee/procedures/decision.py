@@ -1,0 +1,44 @@
+"""Carries out a decision of a rule or of people: score, event, card and restart."""
+
+from schemas.game import Score
+from sim_host.referee.game.decision import Decision
+from sim_host.referee.game.referee_state import RefereeState
+from sim_host.referee.procedures import discipline, penalties, periods, restart
+from sim_host.referee.ruling_draft import RulingDraft
+
+
+def carry_out(draft: RulingDraft, rule: str, decision: Decision) -> None:
+    """Carry out a decision; `rule` is the rule or action that made it."""
+    if decision.ends_half:
+        periods.end_half(draft, rule, decision.text)
+        return
+    if decision.goal_for is not None:
+        draft.state = draft.state._replace(score=draft.state.score.plus(decision.goal_for))
+    if decision.shot_scored is not None:
+        penalties.count(draft, decision.shot_scored)
+    draft.add_event(
+        decision.kind,
+        rule,
+        decision.text,
+        side=decision.side,
+        robot=decision.robot,
+        robots=decision.robots,
+        place=decision.place,
+        score=_published_score(draft.state, decision),
+        measured=decision.measured,
+        limit=decision.limit,
+        unit=decision.unit,
+        card=decision.card,
+    )
+    if decision.card is not None and decision.robot is not None:
+        discipline.show_card(draft, rule, decision.robot, decision.card)
+    if decision.shot_scored is not None:
+        penalties.next_penalty(draft, rule)
+    else:
+        restart.stop(draft, rule, decision.restart)
+
+
+def _published_score(state: RefereeState, decision: Decision) -> Score | None:
+    if decision.shot_scored is not None and state.shoot_out is not None:
+        return state.shoot_out.goals
+    return state.score if decision.goal_for is not None else None

@@ -1,0 +1,77 @@
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from robot_agent.settings import AgentSettings
+from schemas.bus.endpoint import with_free_port
+from schemas.bus.zenoh.bus import open_host
+from schemas.process.clock import WallClock
+from schemas.process.settings_file import write_settings
+from schemas.topics import COMMAND, SETUP, SIGHT
+
+BRAIN = "robot_agent.teams.nubot:NuBot"
+LIMIT_S = 60.0
+"""To start, a process takes a second of a core: many, where others want it, too."""
+
+
+@pytest.mark.processes
+def test_without_a_host_the_process_ends_with_one_line_and_status_2():
+    nobody = with_free_port("tcp/127.0.0.1:0")
+    settings = AgentSettings(connect=nobody, match="m", robot="cyan1", brain=BRAIN, patience=0)
+    ended = subprocess.run(
+        [sys.executable, "-m", "robot_agent", "--settings", "-"],
+        input=settings.model_dump_json(),
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+        check=False,
+    )
+    assert ended.returncode == 2
+    assert ended.stderr.count("\n") == 1
+    assert f"--connect {nobody}: no host answers there" in ended.stderr
+
+
+def by_settings(endpoint: str, folder: Path) -> tuple[list[str], dict[str, str]]:
+    """The command line and the environment of a robot's process that reads a settings file."""
+    file = folder / "cyan2.json"
+    write_settings(AgentSettings(connect=endpoint, match="friendly", robot="cyan2", brain=BRAIN), file)
+    return ["robot_agent", "--settings", str(file)], {}
+
+
+def by_environment(endpoint: str, folder: Path) -> tuple[list[str], dict[str, str]]:
+    """The command line and the environment of `touchline agent` without options."""
+    told = {"CONNECT": endpoint, "MATCH": "friendly", "ROBOT": "cyan2", "BRAIN": BRAIN}
+    return ["touchline", "agent"], {f"TOUCHLINE_{name}": value for name, value in told.items()}
+
+
+@pytest.mark.processes
+@pytest.mark.parametrize(
+    ("told", "polite"), [(by_settings, signal.SIGTERM), (by_environment, signal.SIGTERM), (by_settings, signal.SIGINT)]
+)
+def test_a_robot_answers_a_host_and_ends_politely(setup, sight_of, tmp_path, told, polite):
+    endpoint = with_free_port("tcp/127.0.0.1:0")
+    words, environment = told(endpoint, tmp_path)
+    with open_host("friendly", WallClock(), endpoint) as host:
+        server, presence = host.serve(SETUP), host.watch_alive()
+        commands, sights = host.subscribe(COMMAND), host.publisher(SIGHT, robot="cyan2")
+        robot = subprocess.Popen([sys.executable, "-m", *words], env=os.environ | environment, stderr=subprocess.PIPE)
+        try:
+            query = server.receive(LIMIT_S)
+            assert query is not None
+            query.reply(setup)
+            arrived = presence.receive(LIMIT_S)
+            assert arrived is not None and (arrived.kind, arrived.name) == ("agent", "cyan2")
+            received = None
+            while received is None:
+                sights.put(sight_of(3))
+                received = commands.receive(0.2)
+            assert received.message().answers_tick == 3
+        finally:
+            robot.send_signal(polite)
+            _, said = robot.communicate(timeout=LIMIT_S)
+    assert robot.returncode == 0, said.decode()
+    assert said == b""
