@@ -3,7 +3,7 @@
 import sys
 
 from recordings import run
-from recordings.settings import RecorderSettings
+from recordings.recorder.settings import RecorderSettings
 from schemas.process.settings_file import run_process
 
 if __name__ == "__main__":

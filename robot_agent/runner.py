@@ -9,11 +9,11 @@ from robot_agent.contract import Brain
 from schemas.bus.contract import Bus, NoReplyError, PresenceKind
 from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
-from schemas.message import BadMessageError
 from schemas.messages.command import Command
 from schemas.messages.host import Setup, SetupRequest
 from schemas.messages.sight import Sight
 from schemas.topics import COMMAND, SETUP, SIGHT
+from schemas.wire.message import BadMessageError
 
 _IDLE = 0.25
 """s without a sight after which the host is looked for."""

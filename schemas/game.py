@@ -7,10 +7,10 @@ import msgspec
 from msgspec import Meta
 from pydantic import Field
 
-from schemas.message import Message, Name, Part, Source
 from schemas.side import Side
-from schemas.struct import Struct
-from schemas.units import Metres, Seconds
+from schemas.wire.message import Message, Name, Part, Source
+from schemas.wire.struct import Struct
+from schemas.wire.units import Metres, Seconds
 
 
 class Phase(StrEnum):

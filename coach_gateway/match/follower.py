@@ -13,12 +13,12 @@ from coach_gateway.match.orders import OrderBook, OrderFollower
 from schemas.bus.contract import Bus, PresenceKind, PresenceWatch, ReceivedMessage, Subscription
 from schemas.bus.host_watch import HostWatch
 from schemas.game import GameEvent, GameState, Phase
-from schemas.message import BadMessageError
 from schemas.messages.command import Radio
 from schemas.messages.host import Belief, Health, RecorderProgress
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import BELIEF, EVENT, HEALTH, RECORDER_PROGRESS, STATE, WORLD
+from schemas.wire.message import BadMessageError
 
 _SETTLES_S = 0.2
 """Wall time without another state after which the last one is the newest: a host's cache may deliver the oldest

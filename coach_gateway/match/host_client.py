@@ -6,9 +6,7 @@ from coach_gateway.match.orders import OrderFollower, Receipt
 from schemas.bus.contract import Bus, NoReplyError, Publisher
 from schemas.config.scene import SceneReply, SceneRequest
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.faults import FaultError, validated
 from schemas.game import ActionReply, RefereeAction
-from schemas.message import BadMessageError, WireMessage
 from schemas.messages.coach import CoachOrder
 from schemas.messages.host import Setup, SetupRequest
 from schemas.messages.parameters import ParametersReply, ParametersRequest
@@ -16,6 +14,8 @@ from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import ACTION, ORDER, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
+from schemas.wire.faults import FaultError, validated
+from schemas.wire.message import BadMessageError, WireMessage
 
 _LOOK_S = 0.02
 """s of wall time between two looks for acknowledgements."""

@@ -13,10 +13,10 @@ from typing import Annotated, Any
 from msgspec import Meta
 
 from schemas.bus.contract import Bus
-from schemas.message import BadMessageError
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER
+from schemas.wire.message import BadMessageError
 
 
 class OrderContent(CoachOrder, frozen=True, kw_only=True):

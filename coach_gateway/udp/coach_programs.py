@@ -26,10 +26,10 @@ from coach_gateway.udp.protocol import (
     ProgramRequest,
 )
 from coach_gateway.udp.session import AT_ONCE, PER_SECOND, SequenceStatus, Session
-from schemas.faults import fault_of
 from schemas.game import ActionName, RefereeAction
 from schemas.messages.coach import CoachMode
 from schemas.side import Side
+from schemas.wire.faults import fault_of
 
 MOST = 64
 """Programs that may be connected at the same time."""

@@ -12,9 +12,9 @@ from coach_gateway.access.roles import Role
 from coach_gateway.match.orders import OrderContent
 from coach_gateway.udp.coach_record import MatchMode
 from schemas.game import GameEvent, GameState, RefereeAction
-from schemas.message import Name, Part
 from schemas.messages.host import Belief
 from schemas.side import Side
+from schemas.wire.message import Name, Part
 
 MAX_BYTES = 8192
 """A datagram that is longer is refused unread."""

@@ -16,8 +16,8 @@ from coach_gateway.udp.protocol import Ack, BeliefUpdate, EventUpdate, Frame, Se
 from coach_gateway.udp.session import SILENCE_S, Session
 from schemas.errors import TouchlineError
 from schemas.game import TeamPhase
-from schemas.message import Part
 from schemas.side import Side
+from schemas.wire.message import Part
 
 _LOOK_S = 0.01
 """s of wall time between two looks at which program is due."""

@@ -16,7 +16,6 @@ from coach_gateway.access.roles import Role
 from coach_gateway.match.orders import OrderContent
 from schemas.config.scene import SceneRequest
 from schemas.game import GameEvent, GameState, RefereeAction
-from schemas.message import Name, Part
 from schemas.messages.coach import CoachOrder
 from schemas.messages.host import Belief, Health, Setup
 from schemas.messages.manual import ManualDrive
@@ -24,6 +23,7 @@ from schemas.messages.parameters import ParametersRequest
 from schemas.messages.replay import ReplayReply, ReplayRequest
 from schemas.messages.world import World
 from schemas.side import Side
+from schemas.wire.message import Name, Part
 
 MAX_BYTES = 65_536
 """A message of the page that is longer is refused unread."""

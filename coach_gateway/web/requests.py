@@ -22,11 +22,11 @@ from coach_gateway.web.protocol import (
 from schemas.bus.contract import Bus, Publisher
 from schemas.errors import TouchlineError
 from schemas.game import ActionName
-from schemas.message import WireMessage
 from schemas.messages.coach import CoachOrder
 from schemas.messages.parameters import ParameterOperation
 from schemas.side import Side
 from schemas.topics import MANUAL
+from schemas.wire.message import WireMessage
 
 SOURCES = {Role.REFEREE: "referee's page", Role.CYAN: "cyan's page", Role.MAGENTA: "magenta's page"}
 """Role → the source that the match records for a request."""

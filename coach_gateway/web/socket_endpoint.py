@@ -24,8 +24,8 @@ from coach_gateway.web.protocol import (
     Reply,
 )
 from coach_gateway.web.requests import RequestHandler, is_stop, refusal
-from schemas.faults import fault_of
 from schemas.process.clock import Clock
+from schemas.wire.faults import fault_of
 
 _MOST_PENDING = 8
 """Requests of one page that may wait for their replies."""

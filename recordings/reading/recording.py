@@ -11,10 +11,10 @@ from recordings.container.mcap_file import ChannelRecord, McapFile, is_derived, 
 from recordings.container.sealed_metadata import digest, from_metadata, is_sealed
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
-from schemas.message import VERSION, BadMessageError
-from schemas.older_versions import READABLE, converted, is_readable
 from schemas.topic import Topic
 from schemas.topics import TOPICS
+from schemas.wire.message import VERSION, BadMessageError
+from schemas.wire.older_versions import READABLE, converted, is_readable
 
 
 class ChannelFacts(NamedTuple):

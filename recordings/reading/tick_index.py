@@ -10,9 +10,9 @@ from pydantic_core import from_json
 
 from recordings.reading.recording import RecordedMessage, Recording
 from schemas.game import GameState, Phase
-from schemas.message import BadMessageError
 from schemas.messages.host import Applied
 from schemas.topics import APPLIED, STATE, WORLD
+from schemas.wire.message import BadMessageError
 
 _CHANGES = ("parameters", "robots", "obstacles")
 _SETTLING_TICKS = 50

@@ -10,9 +10,9 @@ from recordings.reading.command_check import CommandCheck
 from recordings.reading.recording import RecordedMessage, Recording
 from recordings.reading.tick_index import Segment
 from schemas.game import EventKind, GameEvent
-from schemas.message import BadMessageError
 from schemas.messages.host import Applied
 from schemas.topics import APPLIED, COMMAND, EVENT, WORLD
+from schemas.wire.message import BadMessageError
 
 _BEFORE_S = 0.5
 _AFTER_S = 2.0

@@ -8,9 +8,9 @@ from recordings.container.applied_changes import changes_in
 from schemas.bus.contract import ReceivedMessage
 from schemas.config.roster import RosterEntry
 from schemas.game import EventKind, GameEvent, GameState, Phase
-from schemas.message import BadMessageError
 from schemas.messages.host import Applied
 from schemas.topics import APPLIED, EVENT, STATE
+from schemas.wire.message import BadMessageError
 
 
 class MatchProgress:

@@ -11,9 +11,9 @@ from recordings.recorder.recording_writer import RecordingWriter
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.sink import FileLimits, MakeHeader, MakeResult
 from schemas.game import EventKind, GameEvent
-from schemas.message import BadMessageError
 from schemas.process.clock import Clock
 from schemas.topics import EVENT
+from schemas.wire.message import BadMessageError
 
 
 class SnapshotSink:

@@ -1,7 +1,7 @@
 """The roster of a match: which robots take part, and where bodies are placed."""
 
-from schemas.message import Name, Part
 from schemas.side import Side
+from schemas.wire.message import Name, Part
 
 MAX_ROBOTS = 5
 """Most robots of one side."""

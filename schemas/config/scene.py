@@ -16,8 +16,8 @@ from schemas.config.roster import MAX_ROBOTS, RESERVED, Placement, RosterEntry
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import RESTARTS, SIDED, Phase, Score
-from schemas.message import Message, Name, Part, Source
 from schemas.side import Side
+from schemas.wire.message import Message, Name, Part, Source
 
 Speed = Annotated[float, Field(ge=-40, le=40)]
 """m/s or rad/s."""

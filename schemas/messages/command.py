@@ -6,9 +6,9 @@ from typing import Annotated, ClassVar
 import msgspec
 from msgspec import Meta
 
-from schemas.message import Name
-from schemas.struct import Checked, Struct, StructMessage
-from schemas.units import Age, Metres, MetresPerSecond, Radians, RadiansPerSecond
+from schemas.wire.message import Name
+from schemas.wire.struct import Checked, Struct, StructMessage
+from schemas.wire.units import Age, Metres, MetresPerSecond, Radians, RadiansPerSecond
 
 MAX_DRIVE = 20.0
 """m/s; a demand that no robot can meet is an error of the sender, perhaps of its units."""

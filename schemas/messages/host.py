@@ -15,11 +15,11 @@ from schemas.config.roster import Placement, RosterEntry
 from schemas.config.rule_book import Periods, Restarts, RuleBook
 from schemas.config.sections import Ball, Dribble, DriveLimits, Kicker, Pitch, RobotBody, TimeSteps
 from schemas.game import OfficiatingMode
-from schemas.message import BadMessageError, Message, Name, Part
 from schemas.messages.command import Drive, Kick, Radio
 from schemas.messages.parameters import ParameterName, Setting
 from schemas.side import Side
-from schemas.struct import Struct, encode
+from schemas.wire.message import BadMessageError, Message, Name, Part
+from schemas.wire.struct import Struct, encode
 
 _EMPTY: Mapping[str, Any] = {}
 _decode_fields = msgspec.json.Decoder(dict[str, Any]).decode

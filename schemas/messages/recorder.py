@@ -2,7 +2,7 @@
 
 from enum import StrEnum
 
-from schemas.message import Message, Name, Source
+from schemas.wire.message import Message, Name, Source
 
 
 class RecorderOperation(StrEnum):

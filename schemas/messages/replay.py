@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar
 from pydantic import Field
 
 from schemas.game import GameEvent
-from schemas.message import Message
+from schemas.wire.message import Message
 
 
 class ReplayOperation(StrEnum):

@@ -17,7 +17,6 @@ from schemas.game import (
     Score,
     TeamPhase,
 )
-from schemas.message import WireMessage
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
 from schemas.messages.command import BallBelief, Command, Drive, Kick, KickMode, Motion, Radio
 from schemas.messages.host import (
@@ -39,6 +38,7 @@ from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.messages.sight import BallSight, Obstacle, Outcome, ReceivedRadio, Sight
 from schemas.messages.world import BallFrame, BallTruth, RobotFrame, RobotTruth, World
 from schemas.side import Side
+from schemas.wire.message import WireMessage
 
 _TICK, _TIME = 412, 8.24
 _CYAN_2 = RobotTruth(x=3.1, y=-1.2, z=0.399, heading=0.31, vx=1.4, vy=0.45, omega=0.0, holding=True)

@@ -14,13 +14,13 @@ from schemas.config.profile import STANDARD, Profile
 from schemas.config.rule_book import RuleBook, load_rule_book
 from schemas.config.scene import SceneReply, SceneRequest
 from schemas.game import ActionReply, GameEvent, Phase, RefereeAction
-from schemas.message import VERSION
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
 from schemas.messages.host import AppliedInput, Setup, TeamSetup, chained_part
 from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.side import Side
-from schemas.struct import encode
+from schemas.wire.message import VERSION
+from schemas.wire.struct import encode
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.operator_requests import OperatorRequests
 from sim_host.match.pending_changes import PendingChanges

@@ -13,8 +13,8 @@ from coach_gateway.refbox.forwarding import FORWARD
 from coach_gateway.udp import protocol
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode
 from coach_gateway.web.protocol import PAGE_REQUEST
-from schemas.message import Part
 from schemas.messages.coach import REQUIRED_FIELDS
+from schemas.wire.message import Part
 from touchline.__main__ import app
 
 

@@ -8,9 +8,9 @@ import pytest
 
 from recordings.container.manifest import EndReason
 from recordings.reading.recording import open_recording
-from schemas.message import BadMessageError
 from schemas.messages.command import Command, Drive
 from schemas.topics import key_prefix
+from schemas.wire.message import BadMessageError
 from sim_host.server.agent_stats import SILENT_TICKS
 from support.process_story import MessageLog
 

@@ -16,10 +16,10 @@ from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from recordings.viz.drawing import READS, Drawing
 from schemas.bus.in_process_bus import InProcessBus, Medium
-from schemas.message import VERSION, BadMessageError
 from schemas.messages.host import Setup, SetupRequest
 from schemas.process.clock import SteppedClock
 from schemas.topics import BELIEF, COMMAND, EVENT, SETUP, STATE, WORLD
+from schemas.wire.message import VERSION, BadMessageError
 from touchline.__main__ import app
 from touchline.verify.resimulate import verify
 

@@ -11,7 +11,6 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.game import ActionReply, EventKind, GameEvent, GameState, Phase, RefereeAction
-from schemas.message import WireMessage
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.messages.command import Radio
 from schemas.messages.host import Belief, Health, Setup
@@ -20,6 +19,7 @@ from schemas.process.clock import Clock, WallClock
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import ACTION, ACTIVE_ORDER, BELIEF, EVENT, HEALTH, MANUAL, ORDER, SETUP, STATE, WORLD
+from schemas.wire.message import WireMessage
 from support.messages import make_event, make_robot, make_world
 
 MATCH = "friendly"

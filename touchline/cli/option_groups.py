@@ -18,9 +18,9 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from schemas.config.settings import CommandLine, Settings
-from schemas.described import field_docstrings
 from schemas.errors import TouchlineError
-from schemas.faults import FaultError, Path, validated
+from schemas.wire.faults import FaultError, Path, validated
+from schemas.wire.field_docstrings import field_docstrings
 
 T = TypeVar("T")
 

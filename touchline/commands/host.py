@@ -3,7 +3,7 @@
 import typer
 
 from sim_host import run
-from sim_host.settings import HostSettings
+from sim_host.server.settings import HostSettings
 from touchline.cli import options
 from touchline.cli.option_groups import with_option_groups
 

@@ -11,7 +11,7 @@ from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
 from schemas.side import Side
-from schemas.struct import check
+from schemas.wire.struct import check
 from touchline.cli import options
 from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import from_options, with_option_groups

@@ -114,8 +114,8 @@ def _value(text: str) -> "Value":
 
 
 def _request(**content: object) -> "ParametersRequest":
-    from schemas.faults import FaultError, validated
     from schemas.messages.parameters import ParametersRequest
+    from schemas.wire.faults import FaultError, validated
 
     try:
         return validated(ParametersRequest, content)

@@ -28,8 +28,8 @@ def player(
     Example: touchline player seek goal:1-5
     """
     from schemas.bus.contract import NoReplyError
-    from schemas.message import BadMessageError
     from schemas.topics import REPLAY_CONTROL
+    from schemas.wire.message import BadMessageError
     from touchline.cli.bus_client import PATIENCE, bus_client
     from touchline.replay.progress import status_text
 

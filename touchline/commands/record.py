@@ -3,7 +3,7 @@
 import typer
 
 from recordings import run
-from recordings.settings import RecorderSettings
+from recordings.recorder.settings import RecorderSettings
 from touchline.cli.option_groups import with_option_groups
 
 

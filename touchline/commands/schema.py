@@ -6,8 +6,8 @@ from typing import Annotated
 import typer
 
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.message import Part, WireMessage
 from schemas.topics import TOPICS
+from schemas.wire.message import Part, WireMessage
 
 
 def schema(

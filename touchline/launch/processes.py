@@ -9,14 +9,14 @@ from types import MappingProxyType
 
 from coach_gateway.settings import NO_BRIDGES, BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
-from recordings.settings import RecorderSettings
+from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
 from schemas.bus.endpoint import is_loopback, local_endpoint
 from schemas.config.match_config import MatchConfig
 from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 from schemas.side import Side
-from sim_host.settings import HostSettings
+from sim_host.server.settings import HostSettings
 
 
 class ProcessKind(StrEnum):

@@ -14,9 +14,9 @@ from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.profile import STANDARD
 from schemas.config.roster import RosterEntry
 from schemas.errors import TouchlineError
-from schemas.message import BadMessageError
 from schemas.messages.world import World
 from schemas.side import Side
+from schemas.wire.message import BadMessageError
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.resimulation import CheckpointState, Conditions, ImpossibleTickError, parameters_of
 

@@ -18,8 +18,8 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.reading.tick_index import Segment, SkippedTicks, SkipReason, TickIndex, tick_index_of
 from recordings.reading.tick_records import TickRecord, command_check_of, tick_records
 from schemas.errors import TouchlineError
-from schemas.message import BadMessageError
 from schemas.messages.host import Applied, chained_part_of
+from schemas.wire.message import BadMessageError
 from sim_host.match.resimulation import ImpossibleTickError, Resimulation
 from sim_host.match.world_difference import differences
 from sim_host.physics.fingerprint import fingerprint

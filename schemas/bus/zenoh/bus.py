@@ -26,10 +26,10 @@ from schemas.bus.zenoh.reader import ZenohReader
 from schemas.bus.zenoh.session import SessionContext, open_connection, open_router
 from schemas.bus.zenoh.stream import ZenohPublisher, ZenohSubscription
 from schemas.bus.zenoh.wait_timer import WaitTimer
-from schemas.message import WireMessage
 from schemas.process.clock import Clock
 from schemas.topic import Delivery, Topic
 from schemas.topics import TOPICS, key_prefix
+from schemas.wire.message import WireMessage
 
 
 def open_host(match: str, clock: Clock, listen: str = DEFAULT_ENDPOINT) -> "ZenohBus":

@@ -13,9 +13,9 @@ from schemas.bus.contract import (
 )
 from schemas.bus.mailbox import EveryMailbox
 from schemas.bus.zenoh.session import SessionContext
-from schemas.message import WireMessage
 from schemas.topic import Topic
 from schemas.topics import TOPICS
+from schemas.wire.message import WireMessage
 
 _KINDS = frozenset(kind.value for kind in PresenceKind)
 

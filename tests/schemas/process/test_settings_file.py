@@ -11,7 +11,7 @@ import pytest
 
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
-from recordings.settings import RecorderSettings
+from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
 from schemas.bus.settings import ListenSettings
 from schemas.config.match_config import MatchConfig, load_match
@@ -19,7 +19,7 @@ from schemas.config.settings import RecordOptions, Settings
 from schemas.errors import TouchlineError
 from schemas.process.settings_file import read_settings, run_process, write_settings
 from schemas.side import Side
-from sim_host.settings import HostSettings
+from sim_host.server.settings import HostSettings
 
 EXAMPLES: dict[str, Settings] = {
     "sim_host": HostSettings(config=MatchConfig(seed=7), listen="tcp/0.0.0.0:7447", insecure=True),

@@ -13,13 +13,13 @@ from schemas.config.roster import Placement
 from schemas.config.scene import SceneOperation, SceneRequest
 from schemas.errors import TouchlineError
 from schemas.game import ActionName, EventKind, Phase, RefereeAction, TeamPhase
-from schemas.message import VERSION
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command, Drive, Kick, KickMode, Motion, Radio
 from schemas.messages.host import Applied, Belief
 from schemas.messages.sight import ReceivedRadio, Sight
 from schemas.messages.world import World
 from schemas.side import Side
+from schemas.wire.message import VERSION
 from sim_host.match.simulation import Simulation, TickResult
 
 

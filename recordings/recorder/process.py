@@ -7,7 +7,7 @@ import threading
 
 from recordings.recorder.record import record
 from recordings.recorder.recorder import RecordingSummary
-from recordings.settings import RecorderSettings
+from recordings.recorder.settings import RecorderSettings
 from schemas.process.scheduling import use_batch_scheduling
 
 _SELDOM = 100_000

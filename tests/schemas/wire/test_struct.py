@@ -12,17 +12,17 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
-from schemas.faults import FaultError
 from schemas.game import GameEvent, Point
-from schemas.message import BadMessageError, WireMessage
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import BallBelief, Command, Drive, Kick, KickMode, Motion, Radio
 from schemas.messages.host import Applied, AppliedInput, Belief
 from schemas.messages.manual import ManualDrive
 from schemas.messages.sight import Sight
 from schemas.protocol.examples import examples
-from schemas.struct import Struct, StructMessage
 from schemas.topics import TOPICS
+from schemas.wire.faults import FaultError
+from schemas.wire.message import BadMessageError, WireMessage
+from schemas.wire.struct import Struct, StructMessage
 
 SIGHT = examples()[Sight]
 PAYLOAD = SIGHT.encode()

@@ -10,7 +10,7 @@ from schemas.bus.zenoh.bus import open_host
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
 from schemas.process.scheduling import use_batch_scheduling
-from sim_host.settings import HostSettings
+from sim_host.server.settings import HostSettings
 
 log = logging.getLogger("sim_host")
 

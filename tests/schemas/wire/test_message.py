@@ -8,14 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from schemas.config.scene import SceneOperation, SceneRequest
-from schemas.faults import FaultError
 from schemas.game import ActionName, Phase, RefereeAction, TeamPhase
-from schemas.message import BadMessageError, Message
 from schemas.messages.command import Command, Drive, Kick, KickMode, Radio
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.world import BallTruth, World
 from schemas.side import Side
 from schemas.topics import TOPICS
+from schemas.wire.faults import FaultError
+from schemas.wire.message import BadMessageError, Message
 
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 

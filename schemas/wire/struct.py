@@ -19,10 +19,10 @@ from msgspec import Meta
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema, from_json
 
-from schemas.described import field_docstrings
-from schemas.faults import Fault, FaultError, FaultKind, fault_in, hints_of, not_json, validated
-from schemas.json_schema import in_one_piece, published
-from schemas.message import VERSION, decode_payload
+from schemas.wire.faults import Fault, FaultError, FaultKind, fault_in, hints_of, not_json, validated
+from schemas.wire.field_docstrings import field_docstrings
+from schemas.wire.json_schema import in_one_piece, published
+from schemas.wire.message import VERSION, decode_payload
 
 encode = msgspec.json.Encoder(enc_hook=dict).encode
 """Structs, models, dataclasses and mappings of them as UTF-8 JSON; floats keep every bit, and NaN is null."""
@@ -57,12 +57,12 @@ class Struct(msgspec.Struct, frozen=True, forbid_unknown_fields=True, gc=False):
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """As a field of a model: in one piece, which `schemas.message.Part.json_schema` separates again."""
+        """As a field of a model: in one piece, which `schemas.wire.message.Part.json_schema` separates again."""
         return in_one_piece(cls.json_schema())
 
 
 class StructMessage(Struct, frozen=True, kw_only=True):
-    """A whole message, with the version of the protocol. See `schemas.message.WireMessage`."""
+    """A whole message, with the version of the protocol. See `schemas.wire.message.WireMessage`."""
 
     max_bytes: ClassVar[int] = 65_536
 

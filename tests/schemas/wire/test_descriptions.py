@@ -17,8 +17,8 @@ from schemas.messages.manual import ManualDrive
 from schemas.messages.sight import Sight
 from schemas.messages.world import World
 from schemas.protocol.fields import rows
-from schemas.struct import Struct
 from schemas.topics import TOPICS
+from schemas.wire.struct import Struct
 
 ROOTS = [kind for topic in TOPICS.values() for kind in (topic.message, topic.reply) if kind is not None]
 

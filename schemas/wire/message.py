@@ -1,6 +1,7 @@
 """The base of every wire message: frozen, without unknown fields, finite, and versioned.
 
-Each message is a pydantic model, or a msgspec struct (`schemas.struct`) where it is written and read in every tick.
+Each message is a pydantic model or, where it is written and read in every tick, a msgspec struct
+(`schemas.wire.struct`).
 `WireMessage` is the interface of both.
 """
 
@@ -12,9 +13,9 @@ from msgspec import Meta
 from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
 from pydantic_core import from_json, to_json
 
-from schemas.described import Described
-from schemas.faults import Fault, fault_of
-from schemas.json_schema import with_definitions
+from schemas.wire.faults import Fault, fault_of
+from schemas.wire.field_docstrings import Described
+from schemas.wire.json_schema import with_definitions
 
 VERSION = "2.0"
 """Version of the protocol that this package implements, "major.minor"."""

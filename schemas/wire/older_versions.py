@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from pydantic_core import from_json
 
-from schemas.message import VERSION
-from schemas.struct import encode
+from schemas.wire.message import VERSION
+from schemas.wire.struct import encode
 
 MAJOR = VERSION.split(".")[0]
 READABLE = ("1", MAJOR)

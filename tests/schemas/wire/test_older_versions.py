@@ -4,11 +4,11 @@ import msgspec
 import pytest
 from pydantic import BaseModel
 
-from schemas.message import VERSION
-from schemas.older_versions import MAJOR, READABLE, RENAMINGS, Renaming, converted, is_readable
 from schemas.protocol.examples import examples
 from schemas.protocol.fields import is_part, parts_of
 from schemas.topics import TOPICS
+from schemas.wire.message import VERSION
+from schemas.wire.older_versions import MAJOR, READABLE, RENAMINGS, Renaming, converted, is_readable
 
 KEYS = {topic.key for topic in TOPICS.values()}
 
