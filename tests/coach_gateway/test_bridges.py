@@ -21,17 +21,14 @@ from coach_gateway.refbox.server import ServerAddress
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_host
-from schemas.config.match_config import load_match
-from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
 from schemas.config.settings_file import write_settings
 from schemas.errors import TouchlineError
 from schemas.game import Phase
 from schemas.messages.game import GameState
-from schemas.messages.setup import Setup
 from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import SETUP, STATE
+from support.messages import make_setup
 
 LIMIT_S = 60.0
 """To start, a process takes a second of a core: many, where others want it, too."""
@@ -127,7 +124,7 @@ def test_bridges_need_no_web_server() -> None:
 @pytest.mark.processes
 def test_one_process_has_all_bridges_and_ends_on_a_signal(tmp_path: Path) -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
-    setup = Setup.of(load_match(None, {}), load_profile("msl"), load_rule_book("friendly"))
+    setup = make_setup()
     tokens = tmp_path / "tokens.json"
     bridges = BridgeOptions(udp=0, refbox_server=["0"], audience=["127.0.0.1:9"])
     write_settings(GatewaySettings(connect=endpoint, tokens=tokens, bridges=bridges), tmp_path / "bridges.json")

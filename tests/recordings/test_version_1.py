@@ -7,7 +7,7 @@ runs, a ball placed by an operator, and a goal given by a coach.
 from pathlib import Path
 
 import pytest
-from recordings.editing.copying import filter_recording
+from recordings.editing.filtering import filter_recording
 from typer.testing import CliRunner
 
 from recordings.reading.cursor import Cursor

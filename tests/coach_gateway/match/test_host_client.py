@@ -6,17 +6,14 @@ from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import Medium
-from schemas.config.match_config import load_match
-from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.game import ActionName
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
 from schemas.messages.game import ActionReply, RefereeAction
-from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import ACTION, ACTIVE_ORDER, ORDER, SETUP
+from support.messages import make_setup
 
 MICROSECONDS = 1_795_275_009_214_000
 """Since 1970: far beyond any clock in ms."""
@@ -31,11 +28,6 @@ def seat(medium: Medium) -> Bus:
     return medium.open_bus("friendly", SteppedClock())
 
 
-def setup_of_a_match() -> Setup:
-    match = load_match(None, {f"teams.{side}.size": 2 for side in Side})
-    return Setup.of(match, load_profile("msl"), load_rule_book("friendly"))
-
-
 @pytest.fixture
 def host(medium: Medium):
     """Answers how the match is set up, and refuses every action but `stop`; gives the actions it was asked for.
@@ -44,7 +36,7 @@ def host(medium: Medium):
     """
     bus = seat(medium)
     setups, actions = bus.serve(SETUP), bus.serve(ACTION)
-    setup = setup_of_a_match().model_copy(update={"orders": {Side.MAGENTA: MICROSECONDS}})
+    setup = make_setup(size=2).model_copy(update={"orders": {Side.MAGENTA: MICROSECONDS}})
     asked: list[RefereeAction] = []
 
     def answer_setups() -> None:

@@ -8,14 +8,13 @@ from coach_gateway.match.live import LiveMatch
 from coach_gateway.refbox.call_generator import CallGenerator
 from schemas.bus.in_process_bus import Medium
 from schemas.config.match_config import load_match
-from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
 from schemas.game import REFBOX, ActionName, Phase, Score
 from schemas.messages.game import GameState, RefereeAction
 from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock, WallClock
 from schemas.side import Side
 from schemas.topics import BELIEF, EVENT, SETUP, STATE
+from support.messages import make_setup
 
 
 def test_without_a_host_the_reply_is_a_refusal_with_the_reason(opened: Any, until: Any) -> None:
@@ -180,19 +179,15 @@ def test_a_setup_that_changes_while_the_host_replies_is_queried_again(until: Any
             asked.extend(iter(server.receive, None))
             return len(asked)
 
-        def setup(size: int) -> Setup:
-            match = load_match(None, {f"teams.{side}.size": size for side in Side})
-            return Setup.of(match, load_profile("msl"), load_rule_book("friendly"))
-
         states.put(GameState(tick=1, time=0.02, phase=Phase.PLAY))
         await until(look, "the question")
         states.put(GameState(tick=2, time=0.04, phase=Phase.PLAY, episode=2))
         look()
-        asked[0].reply(setup(1))  # as it was before the scene that came meanwhile
+        asked[0].reply(make_setup(size=1))  # as it was before the scene that came meanwhile
         await until(lambda: len(live.sides) == 2)
         clock.sleep_until(10.0)
         await until(lambda: look() == 2, "another question")
-        asked[1].reply(setup(3))
+        asked[1].reply(make_setup(size=3))
         await until(lambda: len(live.sides) == 6)
         stop = asyncio.Event()
         stop.set()

@@ -18,64 +18,10 @@ from schemas.game import REFBOX, ActionName, Phase
 from schemas.messages.coach import CoachMode
 from schemas.messages.game import ActionReply, RefereeAction
 from schemas.side import Side
+from support.referee_box import CYAN_AT, MAGENTA_AT, Box
 
-CYAN_AT, MAGENTA_AT = "224.16.32.44", "224.16.32.55"
 RESTARTS = {"KICKOFF": "kick_off", "FREEKICK": "free_kick", "GOALKICK": "goal_kick", "THROWIN": "throw_in"}
 RESTARTS |= {"CORNER": "corner", "PENALTY": "penalty"}
-
-
-class Box:
-    """A referee box: welcomes each base station with its address, and sends everything to all of them."""
-
-    def __init__(self, greets: bool = True, reads: bool = True) -> None:
-        self.greets = greets
-        self.reads = reads
-        self.links: list[asyncio.StreamWriter] = []
-        self.came = 0
-        self.states: list[Any] = []
-        """World states that came."""
-
-    async def open(self, port: int = 0) -> int:
-        door = socket.socket()
-        door.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        kept = 2**20
-        if not self.reads:  # else the stream and the kernel on both ends, by its large segments, swallow megabytes
-            kept = 1024
-            door.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, kept)
-            door.setsockopt(socket.IPPROTO_TCP, socket.TCP_MAXSEG, 536)
-        door.bind(("127.0.0.1", port))
-        self._server = await asyncio.start_server(self._meet, sock=door, limit=kept)
-        return int(self._server.sockets[0].getsockname()[1])
-
-    async def close(self) -> None:
-        self._server.close()
-        self.hang_up()
-        await asyncio.sleep(0)
-
-    def hang_up(self) -> None:
-        for link in self.links:
-            link.transport.abort()
-        self.links.clear()
-
-    def send(self, data: bytes) -> None:
-        for link in self.links:
-            link.write(data)
-
-    def say(self, command: str, target: str = "", **more: Any) -> None:
-        self.send(json.dumps({"command": command, "targetTeam": target, **more}).encode() + b"\x00")
-
-    async def _meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        if self.greets:
-            target = (CYAN_AT, MAGENTA_AT)[self.came % 2]
-            writer.write(json.dumps({"command": "WELCOME", "targetTeam": target}).encode() + b"\x00")
-        self.links.append(writer)
-        self.came += 1
-        try:
-            while self.reads:
-                self.states.append(json.loads((await reader.readuntil(b"\x00"))[:-1]))
-            await asyncio.Event().wait()
-        except (OSError, asyncio.IncompleteReadError):
-            writer.transport.abort()
 
 
 @pytest.fixture
@@ -234,12 +180,12 @@ def test_park_is_ordered_to_the_robots_and_the_next_command_has_them_play(met: A
         async with met() as (bench, box, _):
             bench.stage.say(phase=Phase.HALF_TIME)
             box.say("PARK")
-            await until(lambda: len(bench.stage.orders) == 2)
+            await until(lambda: len(bench.stage.given_orders) == 2)
             bench.stage.say(phase=Phase.STOPPED, half=2)
             await until(lambda: bench.live.state.half == 2)
             box.say("KICKOFF", MAGENTA_AT)
-            await until(lambda: len(bench.stage.orders) == 4)
-            modes = [(side, order.mode) for side, order in bench.stage.orders]
+            await until(lambda: len(bench.stage.given_orders) == 4)
+            modes = [(side, order.mode) for side, order in bench.stage.given_orders]
             assert modes == [(side, mode) for mode in (CoachMode.PARK, CoachMode.PLAY) for side in Side]
 
     asyncio.run(play())

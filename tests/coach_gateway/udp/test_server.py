@@ -249,7 +249,7 @@ def test_a_datagram_sent_three_times_is_done_once_and_answered_each_time(served:
             await until(lambda: len(program.acks(asked)) == 3)
             assert [ack["duplicate"] for ack in program.acks(asked)] == [False, True, True]
             assert len({ack["order"] for ack in program.acks(asked)}) == 1
-            assert [(side, order.mode) for side, order in bench.stage.orders] == [(Side.CYAN, CoachMode.HOLD)]
+            assert [(side, order.mode) for side, order in bench.stage.given_orders] == [(Side.CYAN, CoachMode.HOLD)]
 
     asyncio.run(play())
 
@@ -328,7 +328,7 @@ def test_the_example_coaches_a_side_with_nothing_but_pythons_own_library(served:
                 said = 0
                 while True:
                     await asyncio.sleep(0.01)
-                    for _, order in bench.stage.orders[said:]:
+                    for _, order in bench.stage.given_orders[said:]:
                         told = {f"cyan{number}": True for number in (1, 2, 3)}
                         standing.put(ActiveOrder(tick=1, time=0.0, order=order, acknowledged=told))
                         said += 1
@@ -346,7 +346,7 @@ def test_the_example_coaches_a_side_with_nothing_but_pythons_own_library(served:
             assert "order mode hold: acknowledged by all" in lines
             assert any(line.startswith("a corner for us: our_corner is for the referee alone") for line in lines)
             assert "cyan2 at 1.00, 2.00, wait" in lines
-            given: list[CoachOrder] = [order for _, order in bench.stage.orders]
+            given: list[CoachOrder] = [order for _, order in bench.stage.given_orders]
             assert [order.mode.value for order in given] == ["hold", "play", "test", "play"]
 
     asyncio.run(play())

@@ -9,8 +9,10 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from schemas.messages.world import ObstacleTruth
 from schemas.topics import WORLD
-
-from .conftest import SOON, FakeHost, Gateway, Visitor, world
+from support.fake_host import FakeHost
+from support.messages import make_world
+from support.page_gateway import SOON, Gateway
+from support.visitor import Visitor
 
 Visit = Callable[..., Visitor]
 
@@ -155,7 +157,7 @@ def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
     quick, slow = Visitor(gateway.origin), Visitor(gateway.origin, sock=narrow, max_queue=1)
     slow.hear("host", there=True)
     pillar = ObstacleTruth(x=1, y=2, heading=0, radius=0.5, height=1, shape="cylinder", size_x=1, size_y=1)
-    full = world(0).model_copy(update={"obstacles": {f"pillar{number}": pillar for number in range(400)}})
+    full = make_world(0).model_copy(update={"obstacles": {f"pillar{number}": pillar for number in range(400)}})
     for tick in range(1, 101):
         host.put(WORLD, full.model_copy(update={"tick": tick}))
         quick.hear("frame", tick=tick)

@@ -7,8 +7,9 @@ import pytest
 from coach_gateway.access.client_network import client_network
 from coach_gateway.web import socket_endpoint
 from coach_gateway.web.pages import Page, Pages
-
-from .conftest import FakeHost, Gateway, Visitor
+from support.fake_host import FakeHost
+from support.page_gateway import Gateway
+from support.visitor import Visitor
 
 
 @pytest.mark.parametrize(

@@ -14,8 +14,9 @@ from schemas.game import ActionName
 from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.manual import TIMEOUT_S, ManualDrive
 from schemas.side import Side
-
-from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, wait_for
+from support.fake_host import FakeHost
+from support.page_gateway import SOON, TOKENS, Gateway
+from support.visitor import Visitor, wait_for
 
 Visit = Callable[..., Visitor]
 

@@ -13,8 +13,10 @@ from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.world import RobotTruth
 from schemas.side import Side
 from schemas.topics import EVENT, WORLD
-
-from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, event, world
+from support.fake_host import FakeHost
+from support.messages import make_event, make_world
+from support.page_gateway import SOON, TOKENS, Gateway
+from support.visitor import Visitor
 
 Visit = Callable[..., Visitor]
 
@@ -119,7 +121,7 @@ def test_a_host_that_goes_is_seen_to_go_and_one_that_comes_is_welcomed_without_t
     first.play(100)
     first.happen(100, "of the first match")
     page.hear("event")
-    first.die()
+    first.close()
     page.hear("host", there=False)
     gone = page.ask("action", action={"action": "stop"})
     assert (gone["accepted"], gone["reason"]) == (False, "the host is gone; wait until it is back")
@@ -142,9 +144,9 @@ def test_a_scene_with_other_robots_welcomes_all_pages_anew(visit: Visit, host: F
     standing = RobotTruth(x=0, y=0, z=0, heading=0, vx=0, vy=0, omega=0, holding=False)
     host.play(1)
     page.hear("frame", tick=1)
-    host.put(WORLD, world(2).model_copy(update={"robots": {"cyan1": standing}}))
+    host.put(WORLD, make_world(2).model_copy(update={"robots": {"cyan1": standing}}))
     assert page.hear("welcome")["setup"]["match"] == "friendly"
-    host.put(WORLD, world(3).model_copy(update={"robots": {"cyan1": standing}, "episode": 2}))
+    host.put(WORLD, make_world(3).model_copy(update={"robots": {"cyan1": standing}, "episode": 2}))
     page.hear("welcome")
 
 
@@ -156,7 +158,7 @@ def test_messages_repeated_when_a_link_comes_back_are_neither_news_nor_another_h
     past = host.bus.subscribe(EVENT)
     for tick in range(3):
         host.happen(tick, f"event {tick}")
-    page.hear("event", event=event(2, "event 2").model_dump(mode="json"))
+    page.hear("event", event=make_event(2, "event 2").model_dump(mode="json"))
     for received in iter(past.receive, None):
         for reader in readers:
             reader.deliver(received.key, received)
@@ -205,7 +207,7 @@ def test_a_server_that_is_started_again_has_the_same_tokens_and_all_events(
 def test_a_replay_sends_all_its_events_at_once_and_none_again(
     host_of: Callable[..., FakeHost], gateway_of: Callable[..., Gateway]
 ) -> None:
-    host = host_of(recorded=[event(1, "first"), event(900, "last")])
+    host = host_of(recorded=[make_event(1, "first"), make_event(900, "last")])
     page = Visitor(gateway_of().origin)
     assert page.hear("welcome", live=False)["beliefs"] == ["cyan", "magenta"]
     assert [page.hear("event")["event"]["text"] for _ in range(2)] == ["first", "last"]

@@ -11,8 +11,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from coach_gateway.web.listener import free_port, listen
-
-from .conftest import SOON, Gateway
+from support.page_gateway import SOON, Gateway
 
 
 @pytest.fixture

@@ -22,15 +22,12 @@ from coach_gateway.web.settings import WebSettings
 from coach_gateway.web.waiting_page import WaitingPage
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_host
-from schemas.config.match_config import load_match
-from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
 from schemas.config.settings_file import write_settings
-from schemas.messages.setup import Setup
 from schemas.process.clock import WallClock
 from schemas.topics import SETUP
-
-from .conftest import SOON, TOKENS, Visitor
+from support.messages import make_setup
+from support.page_gateway import SOON, TOKENS
+from support.visitor import Visitor
 
 
 @contextlib.contextmanager
@@ -114,7 +111,7 @@ def test_a_served_page_waits_for_its_host_and_meets_it(tmp_path: Path) -> None:
             page = Visitor(origin)  # as a page does by itself
             query = setups.receive(SOON)
             assert query is not None
-            query.reply(Setup.of(load_match(None, {}), load_profile("msl"), load_rule_book("friendly")))
+            query.reply(make_setup())
             page.hear_what_is_played()
             page.token = json.loads(tokens.read_text())["referee"]
             assert page.ask("token")["accepted"]

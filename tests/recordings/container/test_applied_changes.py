@@ -3,9 +3,9 @@
 import json
 
 import pytest
-from schemas.messages.host import RosterEntry
 
 from recordings.container.applied_changes import changes_in
+from schemas.config.roster import RosterEntry
 from schemas.messages.applied import Applied
 from schemas.protocol.examples import examples
 from schemas.side import Side

@@ -80,7 +80,9 @@ def test_one_bit_of_one_input_is_caught_at_its_tick(operated: Path, edited, at_t
     result = run(edited(operated, "host/applied", at_tick(tick, faster)), "--jobs", "1")
     assert result.exit_code == 1
     said = result.stdout.splitlines()
-    assert said[0].startswith(f"tick {tick} ({tick * 0.02:.2f} s) is the first that differs: what cyan2 was told")
+    assert said[0].startswith(
+        f"tick {tick} ({tick * 0.02:.2f} s) is the first that differs: the applied input of cyan2"
+    )
     assert said[1].startswith("  input of cyan2: drive.vx is ") and "in its command" in said[1]
     assert f"identical before that: {tick} ticks" in said
 

@@ -10,9 +10,6 @@ from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.orders import OrderBook
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import Medium
-from schemas.config.match_config import load_match
-from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, OffField, Phase, Point, Score
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
@@ -24,6 +21,7 @@ from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import BELIEF, EVENT, HEALTH, STATE, WORLD
+from support.messages import make_setup
 from touchline.commands.watch import watch_on
 from touchline.watch.drawing import draw_match
 from touchline.watch.panel import orders, robots
@@ -34,7 +32,7 @@ WIDTH, HEIGHT = 90, 30
 
 @pytest.fixture(scope="module")
 def setup() -> Setup:
-    return Setup.of(load_match(None, {}), load_profile("msl"), load_rule_book("friendly"))
+    return make_setup()
 
 
 def robot(x: float, y: float, heading: float = 0.0, **more: object) -> RobotTruth:

@@ -304,7 +304,7 @@ def test_a_robot_is_driven_by_keys_in_place_of_its_brain_and_given_back(match, v
     assert [options.nth(number).get_attribute("value") for number in range(options.count())] == ["", "cyan1", "cyan2"]
     tab.page.locator("#drive-robot").select_option("cyan2")
     tab.page.locator("#drive-take").click()
-    match.until(lambda: said(match, "cyan2 is driven manually"))
+    match.until(lambda: said(match, "cyan2 is under manual control"))
     match.until(lambda: abs(match.world["robots"]["cyan2"]["vx"]) < 0.02)
     heading = match.world["robots"]["cyan2"]["heading"]
     tab.page.keyboard.down("w")
@@ -348,7 +348,7 @@ def test_leaving_the_page_gives_the_robot_back(match, visit) -> None:
     tab.open("drive")
     tab.page.locator("#drive-robot").select_option("magenta1")
     tab.page.locator("#drive-take").click()
-    match.until(lambda: said(match, "magenta1 is driven manually"))
+    match.until(lambda: said(match, "magenta1 is under manual control"))
     tab.page.goto("about:blank")
     match.until(lambda: said(match, "magenta1 is given back to its brain"))
 

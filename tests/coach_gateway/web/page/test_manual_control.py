@@ -35,7 +35,7 @@ def take(match, tab, robot: str):
     tab.open("drive")
     tab.page.locator("#drive-robot").select_option(robot)
     tab.page.locator("#drive-take").click()
-    match.until(lambda: said(match, f"{robot} is driven manually"))
+    match.until(lambda: said(match, f"{robot} is under manual control"))
     return hands
 
 
