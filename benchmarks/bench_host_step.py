@@ -11,9 +11,10 @@ import time
 from collections.abc import Callable
 
 from schemas.config.match_config import load_match
-from schemas.message import VERSION
-from schemas.messages.command import BallBelief, Command, Drive, Motion, Radio
-from schemas.struct import encode
+from schemas.messages.command import Command, Drive
+from schemas.messages.radio import BallBelief, Motion, Radio
+from schemas.wire.message import VERSION
+from schemas.wire.struct import encode
 from sim_host.match.simulation import Simulation
 from sim_host.physics.engine import Engine
 

@@ -21,7 +21,7 @@ from running_match import HERE, launch, running_match
 
 from recordings.editing.recovery import recover
 from recordings.reading.recording import open_recording
-from recordings.settings import RecorderSettings
+from recordings.recorder.settings import RecorderSettings
 from schemas.bus.contract import Subscription
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_client

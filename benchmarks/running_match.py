@@ -12,7 +12,7 @@ from schemas.bus.endpoint import with_free_port
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.settings import Settings
 from schemas.side import Side
-from sim_host.settings import HostSettings
+from sim_host.server.settings import HostSettings
 
 HERE = Path(__file__).parent
 

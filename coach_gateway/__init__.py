@@ -1,4 +1,4 @@
-"""Where people and coach programs come in. Knows the bus; nothing of physics, teams or files."""
+"""How people and coach programs take part in a match. Knows the bus, and nothing of physics, teams or files."""
 
 from typing import TYPE_CHECKING
 

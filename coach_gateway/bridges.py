@@ -6,17 +6,16 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 
 from coach_gateway import refbox
-from coach_gateway.access.rights import COACHES
+from coach_gateway.access.roles import COACHES
 from coach_gateway.access.tokens import Tokens
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.ports import port_tried
+from coach_gateway.ports import LOOPBACK, port_tried
 from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from coach_gateway.service import Service
 from coach_gateway.settings import BridgeOptions
 from coach_gateway.udp.server import UdpServer
-from coach_gateway.web.settings import LOOPBACK
 from schemas.bus.contract import Bus
 from schemas.errors import TouchlineError
 from schemas.side import Side
@@ -24,26 +23,26 @@ from schemas.side import Side
 
 @dataclass(frozen=True, slots=True)
 class Bridges:
-    """What whoever runs the gateway wants beside the page."""
+    """The bridges that are served beside the page."""
 
     udp: int | None = None
     """Port for coach programs; 0 takes a free one."""
     boxes: tuple[BoxAddress, ...] = ()
-    """Referee boxes of the league, one for each team that we are a base station of."""
+    """Referee boxes of the league, one for each team whose base station this is."""
     server_addresses: tuple[ServerAddress, ...] = ()
-    """Where our referee is met as a referee box."""
+    """Where our referee serves as a referee box."""
     audience: tuple[tuple[str, int], ...] = ()
-    """Who is sent the audience feed."""
+    """Host and port of each receiver of the audience feed."""
     listen: str = LOOPBACK
-    """Address that programs and base stations come to."""
+    """Address that programs and base stations connect to."""
 
     @property
     def wanted(self) -> bool:
-        """There is any."""
+        """Whether there is any bridge."""
         return self.udp is not None or bool(self.boxes or self.server_addresses or self.audience)
 
     def try_ports(self) -> None:
-        """Make sure that whoever is to come can be listened for, all of them beside each other.
+        """Make sure that all ports can be listened on at the same time.
 
         Raises:
             TouchlineError: a port is taken.
@@ -62,7 +61,7 @@ def bridges_of(options: BridgeOptions) -> Bridges:
     """The bridges that these options ask for.
 
     Raises:
-        TouchlineError: an address, a port or a door that is none, or a referee box without a team.
+        TouchlineError: an invalid address or port, or a referee box without a team.
     """
     if options.refbox is None and options.team:
         raise TouchlineError("--team is for --refbox HOST, which is not given")
@@ -79,7 +78,7 @@ def bridges_of(options: BridgeOptions) -> Bridges:
 
 
 def services_of(bus: Bus, wanted: Bridges, tokens: Tokens, log: Callable[[str], None]) -> list[Service]:
-    """The services of these bridges: first the one that follows the match for all of them."""
+    """The services of these bridges; the first follows the match for all of them."""
     if not wanted.wanted:
         return []
     live = LiveMatch(bus)
@@ -103,7 +102,7 @@ def _side_of(tokens: Tokens, token: str) -> Side | None:
 
 
 def _address(option: str, word: str, default: int | None) -> tuple[str, int]:
-    """HOST:PORT, where the port may be left out if there is a usual one."""
+    """Host and port of HOST:PORT, where the port may be left out if there is a default."""
     host, _, port = word.rpartition(":") if ":" in word else (word, "", "" if default is None else str(default))
     if host and port.isascii() and port.isdigit() and 0 < int(port) <= _LAST_PORT and _is_name(host.strip("[]")):
         return host.strip("[]"), int(port)
@@ -112,7 +111,7 @@ def _address(option: str, word: str, default: int | None) -> tuple[str, int]:
 
 
 def _is_name(host: str) -> bool:
-    """A host's address or name, as far as its spelling shows; an IPv6 address stands in brackets before its port."""
+    """Whether this is spelled like a host's address or name; an IPv6 address needs brackets before its port."""
     try:
         host.encode("idna")
     except UnicodeError:
@@ -121,7 +120,7 @@ def _is_name(host: str) -> bool:
 
 
 def _server_address(word: str, listen: str) -> ServerAddress:
-    """PORT, or SIDE:PORT for a door of one team's own."""
+    """PORT, or SIDE:PORT for a port that one team alone uses."""
     side, _, port = word.rpartition(":")
     known = [known.value for known in Side]
     if port.isascii() and port.isdigit() and int(port) <= _LAST_PORT and (not side or side in known):

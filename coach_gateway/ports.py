@@ -1,4 +1,4 @@
-"""Ports that bridges listen on: tried before there is a match, so that one that is taken is told at once."""
+"""Ports that bridges listen on. They are tried before there is a match, so that a taken port is reported at once."""
 
 import errno
 import socket
@@ -7,13 +7,16 @@ from contextlib import ExitStack, contextmanager
 
 from schemas.errors import TouchlineError
 
+LOOPBACK = "127.0.0.1"
+"""Address that only this machine can reach."""
+
 
 @contextmanager
 def port_tried(option: str, address: str, port: int, kind: socket.SocketKind) -> Iterator[None]:
-    """Make sure that this port can be listened on, and let it go again at the end of the block.
+    """Make sure that this port can be listened on, and release it at the end of the block.
 
     Raises:
-        TouchlineError: it cannot.
+        TouchlineError: the port cannot be listened on.
     """
     with ExitStack() as stack:
         try:
@@ -30,9 +33,9 @@ def port_tried(option: str, address: str, port: int, kind: socket.SocketKind) ->
 
 
 def cannot_listen(option: str, address: str, port: int, error: OSError | UnicodeError) -> TouchlineError:
-    """What people are told of a port that cannot be had."""
+    """The error for a port that cannot be listened on."""
     if isinstance(error, socket.gaierror | UnicodeError) or error.errno == errno.EADDRNOTAVAIL:
-        return TouchlineError(f"--listen-bridges {address} is no address of this machine; 0.0.0.0 is all it has")
+        return TouchlineError(f"--listen-bridges {address} is not an address of this machine; 0.0.0.0 is all of them")
     return TouchlineError(
         f"{option} {port} cannot be listened on at {address} ({error.strerror}); choose another port, or 0"
     )

@@ -1,9 +1,10 @@
-"""The services of the gateway's process: they share one seat on the bus and run until they are told to stop.
+"""The services of the gateway's process. They share one connection to the bus, and run until they are stopped.
 
-The process waits for a host however long that takes, and stays when the host goes: its link comes back by itself.
+The process waits for a host for any length of time. It stays when the host leaves, and its link reconnects by itself.
 """
 
 import asyncio
+import contextlib
 import signal
 from collections.abc import Callable, Sequence
 from typing import Protocol
@@ -24,7 +25,7 @@ class Service(Protocol):
         """Serve until `stop` is set, and leave nothing open.
 
         Raises:
-            TouchlineError: it cannot begin; then the whole process ends with that one line.
+            TouchlineError: the service cannot start; then the whole process ends with that one line.
         """
 
 
@@ -35,10 +36,10 @@ def run(
     log: Callable[[str], None],
     waiting_page: Service | None = None,
 ) -> None:
-    """Meet the host and run the services until SIGINT or SIGTERM comes; meanwhile `waiting_page` serves those who wait.
+    """Connect to the host and run the services until SIGINT or SIGTERM; `waiting_page` is served until there is a host.
 
     Raises:
-        TouchlineError: a service cannot begin.
+        TouchlineError: a service cannot start.
     """
     parse_endpoint(connect)
     asyncio.run(_run(connect, match, make, log, waiting_page))
@@ -65,7 +66,7 @@ async def _run(
 
 
 async def _wait(connect: str, match: str, stop: asyncio.Event, waiting_page: Service | None) -> Bus | None:
-    """A seat in the match, however long that takes; nothing once `stop` is set."""
+    """A connection to the match, after any length of time; None once `stop` is set."""
     met = asyncio.Event()
     waiting = asyncio.create_task(waiting_page.serve(met)) if waiting_page is not None else None
     bus = None
@@ -80,7 +81,7 @@ async def _wait(connect: str, match: str, stop: asyncio.Event, waiting_page: Ser
 
 
 async def _connect(connect: str, match: str, stop: asyncio.Event) -> Bus | None:
-    """A seat in the match, where it can be had soon."""
+    """A connection to the match; None if no host answers within one attempt."""
     try:
         bus: Bus = await asyncio.to_thread(open_client, match, WallClock(), connect, _LOOK_S)
     except BusError:
@@ -92,7 +93,7 @@ async def _connect(connect: str, match: str, stop: asyncio.Event) -> Bus | None:
 
 
 async def together(services: Sequence[Service], stop: asyncio.Event) -> None:
-    """Run services beside each other; where one fails, the others are told to stop, and its error is raised."""
+    """Run services concurrently; if one fails, the others are stopped and its error is raised."""
     tasks = [asyncio.create_task(service.serve(stop)) for service in services]
     done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_EXCEPTION)
     if any(task.exception() is not None for task in done):
@@ -100,3 +101,10 @@ async def together(services: Sequence[Service], stop: asyncio.Event) -> None:
         await asyncio.wait(tasks)
     for task in tasks:
         task.result()
+
+
+async def pause(stop: asyncio.Event, seconds: float) -> bool:
+    """Wait `seconds` of wall time, or until `stop` is set; whether it is."""
+    with contextlib.suppress(TimeoutError):
+        await asyncio.wait_for(stop.wait(), seconds)
+    return stop.is_set()

@@ -5,8 +5,9 @@ from typing import Annotated
 
 from pydantic import Field
 
+from coach_gateway.ports import LOOPBACK
 from coach_gateway.refbox.framing import BoxProtocol
-from coach_gateway.web.settings import LOOPBACK, WebSettings
+from coach_gateway.web.settings import WebSettings
 from schemas.bus.settings import ClientSettings
 from schemas.config.settings import CommandLine, Settings
 from schemas.side import Side

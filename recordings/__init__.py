@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from recordings.settings import RecorderSettings
+    from recordings.recorder.settings import RecorderSettings
 
 
 def run(settings: "RecorderSettings") -> int:
@@ -12,6 +12,6 @@ def run(settings: "RecorderSettings") -> int:
     Raises:
         TouchlineError: no host answers, or the file cannot be written.
     """
-    from recordings.process import run as run_process
+    from recordings.recorder.process import run as run_process
 
     return run_process(settings)

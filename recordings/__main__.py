@@ -3,8 +3,8 @@
 import sys
 
 from recordings import run
-from recordings.settings import RecorderSettings
-from schemas.process.settings_file import run_process
+from recordings.recorder.settings import RecorderSettings
+from schemas.config.settings_file import run_process
 
 if __name__ == "__main__":
     sys.exit(run_process("recordings", RecorderSettings, run))

@@ -1,4 +1,4 @@
-"""The robot side: a brain's contract, runner, world model, skills, the teams that ship. Knows no simulator."""
+"""Robot agents: the contract of a brain, its runner, a world model, skills, the shipped teams. Knows no simulator."""
 
 from typing import TYPE_CHECKING
 

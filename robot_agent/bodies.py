@@ -1,13 +1,13 @@
-"""What moves on the pitch as plain numbers in the team frame, and where it will be a moment later."""
+"""Robots and ball as plain numbers in the team frame, and their extrapolation in time."""
 
 import math
 from typing import NamedTuple, Protocol
 
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 
 class Moving(Protocol):
-    """A robot as skills take it, `Body` or `schemas.messages.command.Motion`: m, rad, m/s, rad/s."""
+    """A robot as skills take it, `Body` or `schemas.messages.radio.Motion`: m, rad, m/s, rad/s."""
 
     @property
     def x(self) -> float: ...
@@ -34,7 +34,7 @@ class Body(NamedTuple):
     omega: float = 0.0
 
     def after(self, time: float) -> "Body":
-        """Where it is `time` s later if it goes on as it does."""
+        """The body `time` s later at constant velocity."""
         x, y, heading, vx, vy, omega = self
         return Body(x + vx * time, y + vy * time, heading + omega * time, vx, vy, omega)
 
@@ -48,7 +48,7 @@ class Ball(NamedTuple):
     vy: float = 0.0
 
     def after(self, time: float, deceleration: float) -> "Ball":
-        """Where it is `time` s later if nobody touches it and it loses `deceleration` m/s of speed each second."""
+        """The ball `time` s later, untouched, with a constant `deceleration` in m/s²."""
         x, y, vx, vy = self
         speed = math.hypot(vx, vy)
         left = speed - deceleration * time
@@ -63,7 +63,7 @@ class Ball(NamedTuple):
 
 
 class DriveLimits(NamedTuple):
-    """What the drive can do, and how late a demand acts."""
+    """Limits of the drive, and the tick that a demand takes to act."""
 
     speed: float
     turn_rate: float
@@ -74,7 +74,7 @@ class DriveLimits(NamedTuple):
 
     @classmethod
     def of(cls, setup: Setup) -> "DriveLimits":
-        """Those of the robot whose numbers the setup has: a briefing's has its own."""
+        """The limits of the robot whose model the setup has; the setup of a briefing has the robot's own."""
         drive = setup.drive
         return cls(
             drive.max_speed,
@@ -86,7 +86,7 @@ class DriveLimits(NamedTuple):
         )
 
     def capped(self, speed: float | None = None, turn_rate: float | None = None) -> "DriveLimits":
-        """The same drive, told to be slower."""
+        """The same limits with lower speeds."""
         return DriveLimits(
             self.speed if speed is None else min(self.speed, speed),
             self.turn_rate if turn_rate is None else min(self.turn_rate, turn_rate),

@@ -1,4 +1,4 @@
-"""What a brain is, what it is told before the match, and how one is loaded from `module:name`."""
+"""What a brain is, its briefing before the match, and how it is loaded from `module:name`."""
 
 import importlib
 import pkgutil
@@ -13,21 +13,21 @@ from typing import Any, Protocol
 
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.command import Command
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.side import Side
 
 
 class Brain(Protocol):
-    """Moves one robot: everything in and everything out is in the team frame, which attacks +x."""
+    """Controls one robot. Everything in and out is in the team frame, which attacks +x."""
 
     def act(self, sight: Sight) -> Command:
-        """The answer to one sight; called once for each tick, in order."""
+        """The command for one sight; called once for each tick, in order."""
 
 
 @dataclass(frozen=True, slots=True)
 class Briefing:
-    """What a brain is told once, before its first sight."""
+    """What a brain knows before its first sight."""
 
     robot: str
     side: Side
@@ -43,16 +43,14 @@ class Briefing:
         """The briefing of one robot of a match.
 
         Raises:
-            TouchlineError: nobody of that name plays.
+            TouchlineError: no robot of that name is in the match.
         """
         for side, team in setup.teams.items():
             if robot in team.robots:
                 mates = tuple(name for name in team.robots if name != robot)
                 return cls(robot, side, team.robots.index(robot) + 1, mates, setup.for_robot(robot))
         names = [name for team in setup.teams.values() for name in team.robots]
-        raise TouchlineError(
-            f'robot is "{robot}", who does not play in match "{setup.match}"; {did_you_mean(robot, names)}'
-        )
+        raise TouchlineError(f'robot is "{robot}", which is not in match "{setup.match}"; {did_you_mean(robot, names)}')
 
 
 class _FunctionBrain:
@@ -71,7 +69,7 @@ def load_brain(spec: str, briefing: Briefing) -> Brain:
     Modules are also looked for in the current directory.
 
     Raises:
-        TouchlineError: one line that says which part of the spec is wrong, or what its code raised, and where.
+        TouchlineError: one line with the wrong part of the spec, or with what its code raised, and where.
     """
     module_name, _, name = spec.partition(":")
     if not all(part.isidentifier() for part in (*module_name.split("."), name)):
@@ -120,7 +118,7 @@ def _import(spec: str, module_name: str) -> ModuleType:
 
 
 def _modules_in(package: str) -> list[str]:
-    """The modules beside which a missing one was looked for; at the top, those of the current directory."""
+    """The modules of a package; without a package, those of the current directory."""
     places: Any = [str(Path.cwd())]
     if package:
         spec = find_spec(package)

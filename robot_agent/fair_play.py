@@ -1,6 +1,6 @@
-"""What the rules in play ask of one robot, in its own numbers: infinite or nothing where the rule book does not ask.
+"""Limits of the rules in play for one robot, which are infinite or off where the rule book has none.
 
-Knows what a robot knows: its own catches and ways exactly, who has the ball from what it sees.
+Uses only what a robot knows: its own catches and distances exactly, possession from what it sees.
 """
 
 import math
@@ -10,46 +10,46 @@ from robot_agent.bodies import Body
 from robot_agent.skills.take_ball import HAS_IT
 from robot_agent.world_model import WorldBelief
 from schemas.game import TeamPhase
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 Point = tuple[float, float]
 
 SHORT_STAY = 2.0
-"""s; a shorter time is none to leave an area in."""
+"""s; a shorter time is too short to leave an area."""
 HALFWAY = 0.25
-"""m beyond the halfway line where the other half begins for sure."""
+"""m beyond the halfway line, where the ball is in the other half in spite of noise."""
 GOES_BACK = -0.05
-"""m/s along the kick axis; slower is going backward."""
+"""m/s along the kick axis; a lower speed is driving backward."""
 _ROLL_MARGIN = 0.3
-"""m more than the rule book's free roll, for noise."""
+"""m added to the rule book's free roll, for noise."""
 
 
 class RuleLimits(NamedTuple):
-    """The rule book's demands."""
+    """The limits of the rule book."""
 
     circle: float
     """m; how far the ball may be dribbled from where it was caught."""
     backward: float
-    """m; how far one may drive backward with the ball, more than once."""
+    """m; how far a robot may drive backward with the ball more than once."""
     keeps_out: bool
-    """Nobody but the goalkeeper enters a goal area."""
+    """Only the goalkeeper may enter a goal area."""
     takes_turns: bool
-    """One field robot of a side at a time is in a penalty area."""
+    """Only one field robot of a side at a time may be in a penalty area."""
     at_once: bool
-    """A second one there is a foul at once, or nearly so."""
+    """A second robot there is a foul at once, or nearly so."""
     passes_first: bool
-    """A ball won in the own half is passed in the other before it is shot."""
+    """A ball won in the own half has to be passed in the other half before a goal counts."""
     roll: float
-    """m of free roll that make a pass."""
+    """m of free roll that count as a pass."""
 
     @property
     def counts_ways(self) -> bool:
-        """Whether any way with the ball is too long."""
+        """Whether any distance with the ball is limited."""
         return math.isfinite(self.circle) or math.isfinite(self.backward)
 
     @classmethod
     def of(cls, setup: Setup) -> "RuleLimits":
-        """Those of the match."""
+        """The limits of a match."""
         fouls, handling, scoring = setup.fouls, setup.handling, setup.scoring
         if fouls is None or handling is None or scoring is None:
             return cls(math.inf, math.inf, False, False, False, False, 0.0)
@@ -76,7 +76,7 @@ class Carry(NamedTuple):
 
 
 def carry_after(before: Carry | None, belief: WorldBelief) -> Carry | None:
-    """The carry after one more sight; it ends with the hold."""
+    """The carry after one more sight; None without the ball."""
     if not belief.holding or belief.ball is None:
         return None
     ball = belief.ball.now[:2]
@@ -92,22 +92,22 @@ class Possession(NamedTuple):
 
     ours: bool | None = None
     won_ahead: bool = False
-    """Our side won it in the other half."""
+    """Our side won the ball in the other half."""
     received: bool = False
-    """Since then one of us has received a pass there."""
+    """Since then one of our robots has received a pass there."""
     holder: str | None = None
-    """Who of us had it last."""
+    """The robot of our side that had the ball last."""
     left: Point = (0.0, 0.0)
-    """m; where the ball was then."""
+    """m; where the ball was at that time."""
 
     @property
     def may_score(self) -> bool:
-        """Whether a goal counts that is kicked from where the ball is."""
+        """Whether a goal from the ball's place would count."""
         return self.left[0] > HALFWAY and (self.won_ahead or self.received)
 
 
 def possession_after(before: Possession, belief: WorldBelief, name: str, roll: float) -> Possession:
-    """Who has the ball after one more sight; `roll` in m makes a pass."""
+    """Possession after one more sight; a roll of `roll` m counts as a pass."""
     if belief.ball is None:
         return before
     ball, phase = belief.ball.now[:2], belief.game.phase
@@ -127,7 +127,7 @@ def possession_after(before: Possession, belief: WorldBelief, name: str, roll: f
 
 
 def _nearest_of_us(belief: WorldBelief, ball: Point, name: str) -> str | None:
-    """Who of us has the ball."""
+    """The robot of our side that has the ball; None where none has."""
     if belief.holding:
         return name
     bodies = [(belief.me, name), *[(mate.body, other) for other, mate in belief.mates.items()]]

@@ -1,4 +1,4 @@
-"""Opponents as a robot follows them from picture to picture: moved on to now, and remembered while they are hidden."""
+"""Opponents tracked from picture to picture: extrapolated to now, and remembered while they are hidden."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -7,15 +7,15 @@ from typing import NamedTuple
 Point = tuple[float, float]
 
 REMEMBERED = 0.6
-"""s; an opponent that was not seen for longer may be anywhere."""
+"""s; an opponent that was not seen for longer is forgotten."""
 _NEAR = 0.6
-"""m; what is seen this close to where an opponent should be is that opponent."""
+"""m; an obstacle this close to where an opponent should be is that opponent."""
 _TRUST = 0.6
-"""Share of a new position that is believed at once; the rest stays with what was expected."""
+"""Weight of a new position, against the expected one."""
 _TRUST_VELOCITY = 0.2
-"""Likewise of what a new position says of the velocity."""
+"""Weight of the velocity that a new position implies."""
 _STILL = 0.3
-"""m/s; a slower velocity is as likely noise."""
+"""m/s; a lower velocity is as likely noise."""
 
 
 class _Track(NamedTuple):
@@ -29,28 +29,28 @@ class _Track(NamedTuple):
 
 
 def _after(tracks: Iterable[_Track], time: float) -> list[Point]:
-    """Where they are `time` s later."""
+    """Their places `time` s later."""
     return [(x, y) if math.hypot(vx, vy) < _STILL else (x + vx * time, y + vy * time) for x, y, vx, vy, _ in tracks]
 
 
 class Opponents:
-    """Takes in what each picture shows."""
+    """Tracks the opponents of each picture."""
 
     def __init__(self) -> None:
         self._tracks: list[_Track] = []
         self._pictured = -math.inf
-        """s; when the newest picture was taken."""
+        """s; time of the newest picture."""
 
     def is_newer(self, pictured: float) -> bool:
-        """Whether a picture that was taken at that time, s, is newer than what was taken in."""
+        """Whether a picture of this time, s, is newer than the newest so far."""
         return pictured > self._pictured + 1e-6
 
     def now(self, age: float) -> list[Point]:
-        """Where they are `age` s after the newest picture."""
+        """Their places `age` s after the newest picture."""
         return _after(self._tracks, age)
 
     def update(self, seen: Sequence[Point], pictured: float) -> None:
-        """The opponents of a new picture, taken at that time, in its order; then those that are remembered."""
+        """Take in a picture of the time `pictured`, s. Its opponents come first, in its order, then remembered ones."""
         dt = pictured - self._pictured
         self._pictured = pictured
         before = [track for track in self._tracks if track.unseen + dt <= REMEMBERED]

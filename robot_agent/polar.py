@@ -1,4 +1,4 @@
-"""Places as a camera sees them: how far away, and in which direction from the kicking direction."""
+"""Places as a camera sees them: distance, and bearing from the kick axis."""
 
 import math
 from typing import NamedTuple
@@ -21,6 +21,6 @@ def polar(me: Moving, x: float, y: float) -> Polar:
 
 
 def point(me: Moving, seen: Polar) -> tuple[float, float]:
-    """The way back: what a robot sees in polar coordinates as a point of the team frame, m."""
+    """A place in a robot's polar coordinates as a point of the team frame, m."""
     direction = me.heading + seen.bearing
     return me.x + seen.distance * math.cos(direction), me.y + seen.distance * math.sin(direction)

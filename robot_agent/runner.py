@@ -1,4 +1,4 @@
-"""Runs one brain on the bus: a sight in, a command out, until the host or a person ends it."""
+"""Runs one brain on the bus: a sight in, a command out, until the host leaves or the process is ended."""
 
 import gc
 import sys
@@ -9,23 +9,23 @@ from robot_agent.contract import Brain
 from schemas.bus.contract import Bus, NoReplyError, PresenceKind
 from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
-from schemas.message import BadMessageError
 from schemas.messages.command import Command
-from schemas.messages.host import Setup, SetupRequest
+from schemas.messages.setup import Setup, SetupRequest
 from schemas.messages.sight import Sight
 from schemas.topics import COMMAND, SETUP, SIGHT
+from schemas.wire.message import BadMessageError
 
 _IDLE = 0.25
 """s without a sight after which the host is looked for."""
 _ASK = 1.0
-"""s that one question for the setup stays open."""
+"""s that one query for the setup stays open."""
 
 
 class BrainError(Exception):
-    """The brain raised, or answered with something that is no command; the cause has the traceback."""
+    """The brain raised, or returned something that is not a command; the cause has the traceback."""
 
     def report(self) -> str:
-        """For the log: where the brain raised, then at which tick and what, in the last line."""
+        """The traceback of the brain, with the tick and the exception in the last line."""
         cause = self.__cause__
         if cause is None:
             return f"{self}\n"
@@ -35,15 +35,15 @@ class BrainError(Exception):
 
 
 class Runner:
-    """Answers the sights of one robot, each once."""
+    """Answers each sight of one robot once."""
 
     def __init__(self, bus: Bus, brain: Brain, robot: str) -> None:
         self.brain = brain
         self.answered = 0
         self.repeated = 0
-        """Sights that came again and got the same answer again."""
+        """Sights that came again, and got the same command again."""
         self.invalid = 0
-        """Payloads on the sight's key that were no sight."""
+        """Payloads on the sight's key that were not a sight."""
         self._clock = bus.clock
         self._sights = bus.subscribe(SIGHT, robot=robot)
         self._commands = bus.publisher(COMMAND, robot=robot)
@@ -51,10 +51,10 @@ class Runner:
         self._last_answer = b""
 
     def answer_next(self, timeout: float | None) -> bool:
-        """Answer the newest sight, waiting up to `timeout` s for one (None: for ever); whether one was answered.
+        """Answer the newest sight, waiting up to `timeout` s for one (None: for ever); returns whether there was one.
 
         Raises:
-            BrainError: the brain could not answer.
+            BrainError: the brain raised, or returned no command.
         """
         sight = self.next_sight(timeout)
         if sight is None:
@@ -74,10 +74,10 @@ class Runner:
             return None
 
     def answer(self, sight: Sight) -> None:
-        """Send the brain's command; a sight that came before gets the same answer as before.
+        """Send the brain's command; a repeated sight gets the same command again.
 
         Raises:
-            BrainError: the brain could not answer.
+            BrainError: the brain raised, or returned no command.
         """
         self._clock.sim_ns = round(sight.time * 1e9)
         if sight.tick == self._last_tick:
@@ -89,7 +89,7 @@ class Runner:
         self._commands.put_payload(self._last_answer)
 
     def restart(self, brain: Brain) -> None:
-        """Begin anew with a new brain: the next sight is of another match, whose ticks begin at 0 again."""
+        """Start over with a new brain: the next sight is of another match, whose ticks begin at 0 again."""
         self.brain = brain
         self._last_tick = None
 
@@ -105,11 +105,11 @@ class Runner:
     def _count_invalid(self, error: BadMessageError) -> None:
         self.invalid += 1
         if self.invalid == 1:
-            sys.stderr.write(f"a sight was skipped, as all like it will be: {error}\n")
+            sys.stderr.write(f"a sight was skipped, and further ones will be without notice: {error}\n")
 
 
 def ask_setup(bus: Bus, patience: float) -> Setup:
-    """How the match is set up; asks until the host answers.
+    """How the match is set up; repeats the query until the host replies.
 
     Raises:
         TouchlineError: no host for `patience` s of wall time.
@@ -122,7 +122,7 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
         except NoReplyError as error:
             if clock.now() >= deadline:
                 raise TouchlineError(
-                    f"match {bus.match}: no host told the setup for {patience:g} s ({error}); "
+                    f"match {bus.match}: no host replied with the setup within {patience:g} s ({error}); "
                     "is --match the name of the match that the host plays?"
                 ) from None
             clock.sleep_until(clock.now() + 0.1)
@@ -133,10 +133,10 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
 def serve(bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float) -> int:
     """Run a robot until its host has been gone for `patience` s; the exit status of the process.
 
-    A host that left and is back plays another match, for which the brain is built anew before it sees anything of it.
+    A host that has left and is back plays another match: the brain is built again before its first sight of it.
 
     Raises:
-        TouchlineError: the brain that `build` makes cannot be made, or there is no host to begin with.
+        TouchlineError: `build` cannot make the brain, or there is no host.
     """
     runner = Runner(bus, build(ask_setup(bus, patience)), robot)
     host = HostWatch(bus)

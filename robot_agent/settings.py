@@ -6,7 +6,7 @@ from pydantic import Field
 
 from schemas.bus.settings import ClientSettings
 from schemas.config.settings import CommandLine
-from schemas.message import Name
+from schemas.wire.message import Name
 
 
 class AgentSettings(ClientSettings):

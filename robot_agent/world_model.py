@@ -1,8 +1,8 @@
-"""What a robot believes of the pitch: its own sight fused with what its teammates say on the radio.
+"""What a robot believes of the pitch: its own sights fused with its teammates' radio messages.
 
-Positions are smoothed over a few pictures; a jump (a kick, a robot that was set down elsewhere, a change of sides) is
-taken at once. What a picture shows is moved on by its age, and what it does not show any more is remembered for a
-while. All in the team frame.
+Positions are smoothed over a few pictures. A jump (a kick, a robot that was placed, a change of sides) is taken over at
+once. What a picture shows is extrapolated by its age, and what it does not show any more is remembered for a while.
+Everything is in the team frame.
 """
 
 import math
@@ -13,29 +13,29 @@ from robot_agent.bodies import Ball, Body
 from robot_agent.contract import Briefing
 from robot_agent.opponents import Opponents
 from schemas.frames import wrap
-from schemas.game import GameView
-from schemas.messages.command import Motion
+from schemas.messages.game import GameView
+from schemas.messages.radio import Motion
 from schemas.messages.sight import BallSight, ReceivedRadio, Sight
 
 FRESH = 0.2
 """s; a ball seen longer ago than this by the robot itself may have been seen later by a teammate."""
 LOST = 3.0
-"""s; a ball that nobody has seen for longer is nowhere: one has to look for it."""
+"""s; a ball that no robot of the team has seen for longer is lost, and has to be searched for."""
 STALE = 1.2
-"""s; a teammate's word older than this is not believed any more (NuBot's world model: 1200 ms)."""
+"""s; a teammate's radio message older than this is ignored (NuBot's world model: 1200 ms)."""
 SAME = 0.5
 """m; an obstacle this close to where a teammate should be is that teammate."""
 _TRUST = 0.4
-"""Share of a new position that is believed at once; the rest stays with what was expected."""
+"""Weight of a new position, against the expected one."""
 _TRUST_VELOCITY = 0.5
 _JUMP = 0.25
-"""m; a position farther from the expected one than this is no noise."""
+"""m; a position farther from the expected one than this is not noise."""
 _JUMP_SPEED = 0.8
-"""m/s; likewise for the ball's velocity."""
+"""m/s; a velocity of the ball that differs more from the expected one is not noise."""
 
 
 class Teammate(NamedTuple):
-    """A teammate as last heard, moved on to now."""
+    """A teammate by its newest radio message, extrapolated to now."""
 
     body: Body
     role: str
@@ -44,7 +44,7 @@ class Teammate(NamedTuple):
 
 
 class SeenBall(NamedTuple):
-    """The ball as believed now, and how many s ago it was last seen, by whomever."""
+    """The ball as believed now, and how many s ago any robot of the team saw it."""
 
     now: Ball
     age: float
@@ -60,24 +60,24 @@ class WorldBelief(NamedTuple):
     holding: bool
     ball: SeenBall | None
     mates: dict[str, Teammate]
-    """Teammates heard of lately, in the order of the team."""
+    """Teammates with recent radio messages, in the order of the team."""
     opponents: list[tuple[float, float]]
     game: GameView
     kicker_ready: bool = True
 
     @property
     def others(self) -> list[tuple[float, float]]:
-        """Where everybody else is, of both teams."""
+        """Places of all other robots of both teams."""
         return [*self.opponents, *[mate.body[:2] for mate in self.mates.values()]]
 
 
 def places_of(mates: Mapping[str, Teammate]) -> dict[str, tuple[float, float]]:
-    """Where each teammate is."""
+    """Place of each teammate."""
     return {name: mate.body[:2] for name, mate in mates.items()}
 
 
 class WorldModel:
-    """Takes in one sight after the other."""
+    """Takes in sights one after the other."""
 
     def __init__(self, briefing: Briefing) -> None:
         self._teammates = briefing.teammates
@@ -91,7 +91,7 @@ class WorldModel:
         self._opponents = Opponents()
 
     def update(self, sight: Sight) -> WorldBelief:
-        """The scene after one more sight."""
+        """The belief after one more sight."""
         dt = sight.time - self._time if self._time is not None else 0.0
         self._time = sight.time
         self._me = me = _smooth_body(self._me, sight.self, dt)
@@ -105,18 +105,18 @@ class WorldModel:
         )
 
     def _mates(self, radio: dict[str, ReceivedRadio], game: GameView) -> dict[str, Teammate]:
-        """Those who were heard lately and are on the field."""
+        """Teammates on the field with recent radio messages."""
         mates = {}
-        standings = game.robots
+        records = game.robots
         for name in self._teammates:
-            if name in standings and standings[name].off_field is not None:
+            if name in records and records[name].off_field is not None:
                 continue
-            heard = radio.get(name)
-            if heard is None or (age := heard.age) > STALE or (motion := heard.self) is None:
+            received = radio.get(name)
+            if received is None or (age := received.age) > STALE or (motion := received.self) is None:
                 continue
             vx, vy, omega = motion.vx, motion.vy, motion.omega
             body = Body(motion.x + vx * age, motion.y + vy * age, motion.heading + omega * age, vx, vy, omega)
-            mates[name] = Teammate(body, heard.role or "", heard.intention or "", heard.pass_to)
+            mates[name] = Teammate(body, received.role or "", received.intention or "", received.pass_to)
         return mates
 
     def _believed_ball(self, sight: Sight, me: Body, dt: float) -> SeenBall | None:
@@ -132,32 +132,32 @@ class WorldModel:
         last = self._freshest(own, sight.radio)
         if last is None or last.age > FRESH:
             spot = sight.game.spot
-            if spot is not None:  # the referee has put it there
+            if spot is not None:  # the referee has placed it there
                 return SeenBall(Ball(spot.x, spot.y), 0.0)
         return last if last is not None and last.age <= LOST else None
 
     def _freshest(self, own: BallSight | None, radio: dict[str, ReceivedRadio]) -> SeenBall | None:
-        """The ball that was seen last, by the robot or a teammate, rolled on to now.
+        """The ball as last seen by the robot or a teammate, extrapolated to now.
 
-        A teammate says where it believed the ball to be when it spoke.
+        A teammate sends where it believes the ball to be at the time of its message.
         """
         found: tuple[float, float, Ball] | None = None
         if own is not None:
             found = own.age, own.age, Ball(own.x, own.y, own.vx, own.vy)
         for name in self._teammates:
-            heard = radio.get(name)
-            if heard is None or heard.ball is None:
+            received = radio.get(name)
+            if received is None or received.ball is None:
                 continue
-            age = heard.age + heard.ball.age
+            seen, age = received.ball, received.age + received.ball.age
             if found is None or age < found[0]:
-                found = age, heard.age, Ball(heard.ball.x, heard.ball.y, heard.ball.vx, heard.ball.vy)
+                found = age, received.age, Ball(seen.x, seen.y, seen.vx, seen.vy)
         if found is None:
             return None
         age, time, ball = found
         return SeenBall(ball.after(time, self._deceleration), age)
 
     def _smooth_ball(self, seen: BallSight, time: float, dt: float) -> Ball:
-        """The own ball at `time`, s: a new picture is fused with what was expected, an old one says nothing new."""
+        """The own ball at `time`, s: a new picture is fused with the expected ball, an old one adds nothing."""
         pictured = time - seen.age
         is_new = pictured > self._pictured + 1e-6
         self._pictured = pictured
@@ -195,7 +195,7 @@ def _smooth_body(before: Body | None, seen: Motion, dt: float) -> Body:
 
 
 def _opponents(sight: Sight, mates: dict[str, Teammate]) -> list[tuple[float, float]]:
-    """The obstacles that are no teammate: each teammate accounts for the one nearest to it, if near enough."""
+    """The obstacles that are not teammates: each teammate accounts for the obstacle nearest to it, if near enough."""
     left = [(obstacle.x, obstacle.y) for obstacle in sight.obstacles]
     for mate in mates.values():
         at_x, at_y = mate.body[:2]

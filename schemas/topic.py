@@ -6,7 +6,7 @@ from enum import StrEnum
 from functools import cache
 
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.message import WireMessage
+from schemas.wire.message import WireMessage
 
 
 class Party(StrEnum):

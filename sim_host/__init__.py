@@ -7,7 +7,7 @@ code of the teams nor coaches nor recordings.
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from sim_host.settings import HostSettings
+    from sim_host.server.settings import HostSettings
 
 
 def run(settings: "HostSettings") -> int:
@@ -16,6 +16,6 @@ def run(settings: "HostSettings") -> int:
     Raises:
         TouchlineError: PyBullet is missing, or the endpoint cannot be listened on or is open to others unguarded.
     """
-    from sim_host.process import run as run_process
+    from sim_host.server.process import run as run_process
 
     return run_process(settings)

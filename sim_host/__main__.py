@@ -2,9 +2,9 @@
 
 import sys
 
-from schemas.process.settings_file import run_process
+from schemas.config.settings_file import run_process
 from sim_host import run
-from sim_host.settings import HostSettings
+from sim_host.server.settings import HostSettings
 
 if __name__ == "__main__":
     sys.exit(run_process("sim_host", HostSettings, run))

@@ -1,1 +1,67 @@
-"""The front door: the command line, and the processes of a match. The only package that may know all others."""
+"""Touchline for users' code: what a brain, a test or a script needs, in one import.
+
+    from touchline import Brain, Briefing, Command, Drive, Kick, Sight, play_match, skills
+
+Names are imported when they are first used. A robot needs no PyBullet, and a script that plays no match does not
+load it.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from robot_agent.contract import Brain, Briefing
+    from schemas.config.match_config import MatchConfig, load_match
+    from schemas.messages.command import Command, Drive, Kick, KickMode
+    from schemas.messages.radio import BallBelief, Motion, Radio
+    from schemas.messages.sight import Sight
+    from touchline import skills
+    from touchline.play import MatchOutcome, play_match
+
+_HOMES = {
+    "BallBelief": "schemas.messages.command",
+    "Brain": "robot_agent.contract",
+    "Briefing": "robot_agent.contract",
+    "Command": "schemas.messages.command",
+    "Drive": "schemas.messages.command",
+    "Kick": "schemas.messages.command",
+    "KickMode": "schemas.messages.command",
+    "MatchConfig": "schemas.config.match_config",
+    "MatchOutcome": "touchline.play",
+    "Motion": "schemas.messages.command",
+    "Radio": "schemas.messages.command",
+    "Sight": "schemas.messages.sight",
+    "load_match": "schemas.config.match_config",
+    "play_match": "touchline.play",
+}
+"""Name → the module that defines it; `play_match` and `MatchOutcome` need PyBullet."""
+
+__all__ = [
+    "BallBelief",
+    "Brain",
+    "Briefing",
+    "Command",
+    "Drive",
+    "Kick",
+    "KickMode",
+    "MatchConfig",
+    "MatchOutcome",
+    "Motion",
+    "Radio",
+    "Sight",
+    "load_match",
+    "play_match",
+    "skills",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "skills":
+        return import_module("touchline.skills")
+    if name not in _HOMES:
+        raise AttributeError(f"module 'touchline' has no attribute {name!r}")
+    return getattr(import_module(_HOMES[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -39,30 +39,42 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-app.command("match")(match.match)
-app.command("host")(host.host)
-app.command("agent")(agent.agent)
-app.add_typer(coach.app, name="coach")
-app.command("watch")(watch.watch)
-app.add_typer(parameters.app, name="parameters")
-app.add_typer(scene.app, name="scene")
-app.command("scenes")(scenes.scenes)
-app.command("drive")(drive.drive)
-app.command("record")(record.record)
-app.add_typer(recorder.app, name="recorder")
-app.command("replay")(replay.replay)
-app.command("player")(player.player)
-app.command("info")(info.info)
-app.command("recover")(recover.recover)
-app.command("diff")(diff.diff)
-app.command("filter")(filter.filter)
-app.command("merge")(merge.merge)
-app.command("stats")(stats.stats)
-app.command("export")(export.export)
-app.command("import")(import_log.import_log)
-app.command("verify")(verify.verify)
-app.command("topics")(topics.topics)
-app.command("schema")(schema.schema)
+PLAY = "Play"
+WATCH = "Watch"
+OPERATE = "Operate a running match"
+PROCESSES = "Processes on several machines"
+RECORDINGS = "Recordings"
+PROTOCOL = "Protocol"
+
+app.command("match", rich_help_panel=PLAY)(match.match)
+app.command("scenes", rich_help_panel=PLAY)(scenes.scenes)
+
+app.command("watch", rich_help_panel=WATCH)(watch.watch)
+app.command("replay", rich_help_panel=WATCH)(replay.replay)
+app.command("player", rich_help_panel=WATCH)(player.player)
+
+app.add_typer(coach.app, name="coach", rich_help_panel=OPERATE)
+app.add_typer(scene.app, name="scene", rich_help_panel=OPERATE)
+app.add_typer(parameters.app, name="parameters", rich_help_panel=OPERATE)
+app.command("drive", rich_help_panel=OPERATE)(drive.drive)
+app.add_typer(recorder.app, name="recorder", rich_help_panel=OPERATE)
+
+app.command("host", rich_help_panel=PROCESSES)(host.host)
+app.command("agent", rich_help_panel=PROCESSES)(agent.agent)
+app.command("record", rich_help_panel=PROCESSES)(record.record)
+
+app.command("info", rich_help_panel=RECORDINGS)(info.info)
+app.command("stats", rich_help_panel=RECORDINGS)(stats.stats)
+app.command("verify", rich_help_panel=RECORDINGS)(verify.verify)
+app.command("diff", rich_help_panel=RECORDINGS)(diff.diff)
+app.command("filter", rich_help_panel=RECORDINGS)(filter.filter)
+app.command("merge", rich_help_panel=RECORDINGS)(merge.merge)
+app.command("recover", rich_help_panel=RECORDINGS)(recover.recover)
+app.command("export", rich_help_panel=RECORDINGS)(export.export)
+app.command("import", rich_help_panel=RECORDINGS)(import_log.import_log)
+
+app.command("topics", rich_help_panel=PROTOCOL)(topics.topics)
+app.command("schema", rich_help_panel=PROTOCOL)(schema.schema)
 
 
 def main() -> None:

@@ -1,1 +1,1 @@
-"""Who may do what, and how much of it: rights, tokens, origins, rate limits. Knows no protocol and no bus."""
+"""Access control: roles, rights, tokens, origins, rate limits. Knows no protocol and no bus."""

@@ -1,15 +1,15 @@
-"""Where pages come from, as far as room is shared out: one address, or one network of those given to a home."""
+"""The network that a page is counted for: one IPv4 address, or one IPv6 /64 network."""
 
 from ipaddress import IPv6Address, ip_address
 
 _NETWORK_BITS = 64
-"""Of an IPv6 address: whoever has one has all that begin alike."""
+"""Bits of an IPv6 address that one client shares with all its other addresses."""
 
 
 def client_network(address: str | None) -> str | None:
-    """Whom the room that a page takes is counted for; nobody where that is this machine itself.
+    """The address or network that a page is counted for; None for this machine itself.
 
-    A proxy on this machine brings pages of everywhere, so none are counted for it.
+    A proxy on this machine forwards pages from everywhere, so pages from this machine are not counted.
     """
     if address is None:
         return None

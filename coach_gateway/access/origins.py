@@ -1,7 +1,7 @@
-"""Which pages may speak to this server: its own, and those that whoever runs it allows.
+"""Which origins may use this server: its own, and those that its operator allows.
 
-A browser names the page's origin, and a page cannot lie about it. The name in the address has to be one that nobody
-else can have led here: an address in numbers, `localhost`, or this machine's own name.
+A browser sends the page's origin, which a page cannot forge. The host name in it must be one that no foreign DNS entry
+can point here: a numeric address, `localhost`, or this machine's own name.
 """
 
 import ipaddress
@@ -13,27 +13,27 @@ from schemas.errors import TouchlineError
 
 
 class Origins:
-    """The origins that are ours."""
+    """The allowed origins."""
 
     def __init__(self, allowed: Iterable[str] = (), names: Iterable[str] = ()) -> None:
-        """`allowed` are whole origins; `names` those of this machine, by default what it calls itself.
+        """`allowed` are whole origins; `names` are host names of this machine, by default its own.
 
         Raises:
-            TouchlineError: an origin that is none.
+            TouchlineError: an invalid origin.
         """
         self._allowed = frozenset(_checked(origin) for origin in allowed)
         own = socket.gethostname().lower()
         self._names = frozenset(names or ("localhost", own, f"{own}.local"))
 
     def allows(self, origin: str | None, host: str | None) -> bool:
-        """Whether a page of this origin may speak to us; `host` is whom it thinks it speaks to, `127.0.0.1:8080`."""
+        """Whether a page of this origin may connect; `host` is the Host header, `127.0.0.1:8080`."""
         if origin is None:
             return False
         if origin in self._allowed:
             return True
         try:
             parts = urlsplit(origin)
-        except ValueError:  # no browser says such a thing
+        except ValueError:  # no browser sends such an origin
             return False
         if parts.scheme != "http" or host is None or parts.netloc.lower() != host.lower():
             return False
@@ -50,7 +50,7 @@ def _is_numeric(name: str) -> bool:
 
 
 def _checked(origin: str) -> str:
-    """As browsers write it: in small letters."""
+    """An origin as browsers write it, in lower case."""
     plain = origin.lower()
     try:
         parts = urlsplit(plain)

@@ -1,8 +1,8 @@
-"""How much a page, a program or a box may say: so many messages a second, with some at once. Pure."""
+"""How many messages a page, a program or a box may send: a rate, with a burst allowed. Pure."""
 
 
 class TokenBucket:
-    """Fills up with time, and is used up by messages."""
+    """Fills up with time, and is drained by messages."""
 
     def __init__(self, per_second: float, at_once: float, now: float) -> None:
         self._per_second = per_second
@@ -11,7 +11,7 @@ class TokenBucket:
         self._looked_at = now
 
     def allow(self, now: float) -> bool:
-        """Whether one more is allowed at this wall time in s; if so it is used up."""
+        """Whether one more message is allowed at this wall time in s; if so, it is counted."""
         self._left = min(self._at_once, self._left + (now - self._looked_at) * self._per_second)
         self._looked_at = now
         if self._left < 1.0:

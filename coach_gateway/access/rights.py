@@ -1,16 +1,11 @@
-"""Who may do what from the page: one table of deeds, and whose robots a deed is about. Pure."""
+"""Which role may do which deed, as one table; a coach may do some deeds for its own side alone. Pure."""
 
 from collections.abc import Mapping
-from typing import Any
 
-from coach_gateway.web.protocol import PageAction, PageDrive, PageOrder, PageParameters, PageRequest, Role
+from coach_gateway.access.roles import COACHES, Role
 from schemas.errors import did_you_mean
 from schemas.game import ActionName
-from schemas.messages.parameters import ParameterOperation
 from schemas.side import Side
-
-COACHES = {Role.CYAN: Side.CYAN, Role.MAGENTA: Side.MAGENTA}
-"""Coach → its side."""
 
 _REFEREE = frozenset({Role.REFEREE})
 _BENCH = frozenset({Role.REFEREE, *COACHES})
@@ -27,7 +22,7 @@ RIGHTS: dict[str, frozenset[Role]] = {
     "scene": _REFEREE,
     "replay": _REFEREE,
 }
-"""Deed → the roles that may do it: referee's actions by their names, and what else the page asks for."""
+"""Deed → the roles that may do it: the referee's actions by name, and other requests of the page."""
 
 _FOR_A_SIDE = frozenset(
     {ActionName.REPAIR.value, ActionName.SUBSTITUTE.value, ActionName.ENTER.value, "order", "drive"}
@@ -36,57 +31,46 @@ _FOR_A_SIDE = frozenset(
 
 
 def deeds_of(role: Role) -> list[str]:
-    """What a role may do."""
+    """The deeds of a role."""
     return [deed for deed, roles in RIGHTS.items() if role in roles]
 
 
 def sides_shown(role: Role, *, to_all: bool) -> list[Side]:
-    """Whose own affairs, orders or beliefs, a role is shown: a coach never the other side's, unless `to_all`."""
+    """The sides whose orders or beliefs a role is shown: a coach only its own, unless `to_all`."""
     if to_all or role is Role.REFEREE:
         return list(Side)
     return [COACHES[role]] if role in COACHES else []
 
 
-def refusal(role: Role, request: PageRequest, robots: Mapping[str, Side]) -> str | None:
-    """Why a role may not do what is asked; nothing when it may. `robots` are all that take part, with their sides."""
-    deed = _deed(request)
-    if deed is None:
-        return None
-    who = RIGHTS[deed]
-    if role not in who:
-        need = "the referee's token" if who == _REFEREE else "the token of that side's coach or the referee's"
-        return f"{deed.replace('_', ' ')} needs {need}; this page has {_has(role)}"
+def refusal(
+    role: Role, deed: str, robots: Mapping[str, Side], *, side: Side | None = None, robot: str | None = None
+) -> str | None:
+    """Why a role may not do a deed of `RIGHTS`; None when it may.
+
+    `side` is the side that an order is for, `robot` the robot that any other deed is about. `robots` are all robots of
+    the match with their sides.
+    """
+    allowed = RIGHTS[deed]
+    if role not in allowed:
+        need = "the referee's token" if allowed == _REFEREE else "the token of that side's coach or the referee's"
+        return f"{deed.replace('_', ' ')} needs {need}; this page has {_token_of(role)}"
     if role in COACHES and deed in _FOR_A_SIDE:
-        return _why_not_own(COACHES[role], request, robots)
+        return _refusal_of_other_side(COACHES[role], robots, side, robot)
     return None
 
 
-def _has(role: Role) -> str:
+def _token_of(role: Role) -> str:
     return "none" if role is Role.SPECTATOR else f"that of {role.value}'s coach"
 
 
-def _deed(request: PageRequest) -> str | None:
-    """The deed as the table names it; nothing for what anybody may request."""
-    match request:
-        case PageAction():
-            return request.action.action.value
-        case PageParameters():
-            changes = request.request.operation in (ParameterOperation.SET, ParameterOperation.RESET)
-            return "parameters" if changes else "read_parameters"
-    return None if request.deed == "token" else request.deed
-
-
-def _why_not_own(own: Side, request: Any, robots: Mapping[str, Side]) -> str | None:
-    """Why this is not for the coach of that side."""
-    if isinstance(request, PageOrder):
-        side: Side | None = request.side
-        what = f"an order to {request.side.value}"
+def _refusal_of_other_side(own: Side, robots: Mapping[str, Side], side: Side | None, robot: str | None) -> str | None:
+    """Why a deed for this side or about this robot is not for the coach of `own`; None when it is."""
+    if side is not None:
+        subject = f"an order to {side.value}"
+    elif robot is None:
+        return f"name one of {own.value}'s robots"
+    elif robot in robots:
+        side, subject = robots[robot], robot
     else:
-        robot = request.robot if isinstance(request, PageDrive) else request.action.robot
-        if robot is None:
-            return f"name one of {own.value}'s robots"
-        side = robots.get(robot)
-        what = robot
-        if side is None:
-            return f'there is no robot "{robot}"; {did_you_mean(robot, list(robots))}'
-    return None if side is own else f"{what} is not for {own.value}'s coach"
+        return f'there is no robot "{robot}"; {did_you_mean(robot, list(robots))}'
+    return None if side is own else f"{subject} is not for {own.value}'s coach"

@@ -1,4 +1,4 @@
-"""The tokens: whoever has one may command in its role. They stand in a file, so that they outlast the process."""
+"""The tokens: each gives the rights of one role. They are kept in a file, so that they outlast the process."""
 
 import hmac
 import json
@@ -10,17 +10,17 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Self
 
-from coach_gateway.web.protocol import Role
+from coach_gateway.access.roles import Role
 from schemas.errors import TouchlineError
 
-_LEAST = 8
-"""Characters that a token has at least."""
+_MIN_LENGTH = 8
+"""Characters of a token, at least."""
 _RANDOM_BYTES = 16
 
 
 @dataclass(frozen=True, slots=True)
 class Tokens:
-    """One token for each role but the spectator's, who has none."""
+    """One token for each role except the spectator, who has none."""
 
     referee: str
     cyan: str
@@ -32,9 +32,9 @@ class Tokens:
         return cls(*(secrets.token_urlsafe(_RANDOM_BYTES) for _ in fields(cls)))
 
     def role_of(self, token: str) -> Role | None:
-        """Whom a token stands for: a spectator where it is empty, nothing where it is nobody's.
+        """The role of a token: spectator for an empty token, None for an unknown one.
 
-        Takes equally long for every token of one length.
+        Takes the same time for every token of one length.
         """
         if not token:
             return Role.SPECTATOR
@@ -45,7 +45,7 @@ class Tokens:
         return found
 
     def lines(self) -> list[str]:
-        """Each role and its token, for whoever runs the process."""
+        """Each role and its token, for the operator."""
         return [f"{field.name}'s token: {getattr(self, field.name)}" for field in fields(self)]
 
     def of(self, role: Role) -> str:
@@ -54,12 +54,12 @@ class Tokens:
 
 
 def page_address(origin: str, token: str) -> str:
-    """Where a browser finds the page with a token, which stays in the browser: what stands behind # is not sent."""
+    """The page's address with a token, which stays in the browser: a browser does not send what follows #."""
     return f"{origin}/#token={token}" if token else f"{origin}/"
 
 
 def tokens_of(path: Path | None) -> Tokens:
-    """Those of a file, or without one new ones that last as long as the process.
+    """The tokens of a file; without one, new tokens that last as long as the process.
 
     Raises:
         TouchlineError: as `read_or_make`.
@@ -68,10 +68,10 @@ def tokens_of(path: Path | None) -> Tokens:
 
 
 def read_or_make(path: Path) -> Tokens:
-    """The tokens of a file; a file that is not there is made, for its owner's eyes alone.
+    """The tokens of a file; a missing file is created, readable by its owner alone.
 
     Raises:
-        TouchlineError: others may read it, or it is not what it should be.
+        TouchlineError: others may read the file, or its content is invalid.
     """
     try:
         return _make(path)
@@ -82,10 +82,10 @@ def read_or_make(path: Path) -> Tokens:
 
 
 def _make(path: Path) -> Tokens:
-    """The file appears at once and whole: a bridge and a page may be started beside each other."""
+    """Create the file atomically: a bridge and a page may start at the same time."""
     tokens = Tokens.random()
     text = json.dumps({field.name: getattr(tokens, field.name) for field in fields(Tokens)}, indent=2)
-    handle, draft = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)  # for its owner's eyes alone
+    handle, draft = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)  # readable by its owner alone
     try:
         with os.fdopen(handle, "w", encoding="utf-8") as file:
             file.write(text + "\n")
@@ -103,14 +103,14 @@ def _read(path: Path) -> Tokens:
     except OSError as error:
         raise TouchlineError(f"--tokens {path} cannot be read ({error.strerror}); name another file") from None
     except ValueError:
-        raise TouchlineError(f"--tokens {path} is not JSON; delete it, and it is made anew") from None
+        raise TouchlineError(f"--tokens {path} is not JSON; delete it, and it is created again") from None
     if open_to & 0o077:
         raise TouchlineError(f"--tokens {path} may be read by others (mode {open_to:o}); chmod 600 {path}")
     names = [field.name for field in fields(Tokens)]
     given = [content.get(name) for name in names] if isinstance(content, dict) else []
-    tokens = [token for token in given if isinstance(token, str) and len(token) >= _LEAST]
+    tokens = [token for token in given if isinstance(token, str) and len(token) >= _MIN_LENGTH]
     if len(set(tokens)) != len(names):
         raise TouchlineError(
-            f"--tokens {path}: {', '.join(names)} need a token each, different ones of at least {_LEAST} characters"
+            f"--tokens {path}: {', '.join(names)} need a token each, all different, {_MIN_LENGTH} characters or longer"
         )
     return Tokens(*tokens)

@@ -1,4 +1,4 @@
-"""The match as plain lines, one whenever something changes, until its host goes."""
+"""The match as plain lines, one for each change, until its host leaves."""
 
 import threading
 from collections.abc import Callable
@@ -6,41 +6,40 @@ from collections.abc import Callable
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import event_line, state_line
 from schemas.bus.contract import Bus, PresenceKind
-from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
-from schemas.game import GameEvent, GameState
-from schemas.messages.host import Health
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.health import Health
 
 _POLL = 0.05
 """s of wall time between looks."""
 
 
 def log_changes(bus: Bus, log: Callable[[str], None], stop: threading.Event, patience: float = 5.0) -> None:
-    """Say a line for each change until the host goes or `stop` is set.
+    """Log a line for each change until the host leaves or `stop` is set.
 
     Raises:
-        TouchlineError: no host shows itself within `patience` s of wall time.
+        TouchlineError: no host appears within `patience` s of wall time.
     """
     follower = MatchFollower(bus)
-    host = HostWatch(bus)
     bus.declare_alive(PresenceKind.COACH, "watch")
-    if not host.wait(patience):
+    if not follower.host.wait(patience):
         raise TouchlineError(f'match "{bus.match}": no host plays it there; name the match with --match')
     before: GameState | None = None
     going = True
     while going:
-        going = not (host.has_left() or stop.is_set())  # looked at first, so that the last messages are still said
-        for message in follower.update():
+        going = not stop.is_set()
+        for message in follower.update().messages:
             line = change_line(before, message)
             before = message if isinstance(message, GameState) else before
             if line is not None:
                 log(line)
+        going = going and not follower.gone
         if going:
             bus.clock.sleep_until(bus.clock.now() + _POLL)
 
 
 def change_line(before: GameState | None, message: GameEvent | GameState | Health) -> str | None:
-    """The line for a message, or nothing when it holds nothing new to people."""
+    """The line for a message; None when it holds nothing new to people."""
     match message:
         case GameEvent():
             return event_line(message)

@@ -1,16 +1,32 @@
-"""What can be seen of a match from outside: the newest state and health, all events, and how fast it is played."""
+"""One follower of a match: subscribes, keeps the newest of each kind, notices another host, and returns what is new.
 
-from collections.abc import Iterable
+Everything in the gateway and on the command line that watches a match uses it: the page, coach programs, the referee
+box, `touchline watch` and the status line of `touchline match`.
+"""
+
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
-from schemas.bus.contract import Bus, ReceivedMessage, Subscription
-from schemas.game import GameEvent, GameState, Phase
-from schemas.message import BadMessageError
-from schemas.messages.host import Health, RecorderProgress
-from schemas.topics import EVENT, HEALTH, RECORDER_PROGRESS, STATE
+from coach_gateway.match.host_change import HostChangeDetector
+from coach_gateway.match.orders import OrderBook, OrderFollower
+from schemas.bus.contract import Bus, PresenceKind, PresenceWatch, ReceivedMessage, Subscription
+from schemas.bus.host_watch import HostWatch
+from schemas.game import Phase
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.health import Health
+from schemas.messages.radio import Belief, Radio
+from schemas.messages.recorder import RecorderProgress
+from schemas.messages.world import World
+from schemas.side import Side
+from schemas.topics import BELIEF, EVENT, HEALTH, RECORDER_PROGRESS, STATE, WORLD
+from schemas.wire.message import BadMessageError
 
 _SETTLES_S = 0.2
-"""Wall time without another state after which the last one is the newest: a host's cache may tell the oldest first."""
+"""Wall time without another state after which the last one is the newest: a host's cache may deliver the oldest
+first."""
+_LATE_TICKS = 50
+"""Ticks that a state may be older than one before it. An even older one means that a replay has gone back."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,51 +38,141 @@ class MatchTime:
     wall_ns: int
 
 
-@dataclass
+@dataclass(slots=True)
+class MatchNews:
+    """What one update has brought."""
+
+    presence_changed: bool = False
+    """The host has come or gone."""
+    refboxes_changed: bool = False
+    """A base station has connected to a referee box, or disconnected."""
+    new_host: bool = False
+    """Another host plays. The rest of this news is about the new host alone."""
+    rewound: bool = False
+    """A replay has gone back."""
+    events: list[GameEvent] = field(default_factory=list)
+    states: list[GameState] = field(default_factory=list)
+    healths: list[Health] = field(default_factory=list)
+    world: bool = False
+    """A newer tick has come."""
+    beliefs: list[str] = field(default_factory=list)
+    """Keys of newer beliefs."""
+    orders: list[Side] = field(default_factory=list)
+    """Sides whose order, or whose acknowledgements, have changed."""
+
+    @property
+    def messages(self) -> list[GameEvent | GameState | Health]:
+        """Events, then states, then healths."""
+        return [*self.events, *self.states, *self.healths]
+
+
+class _Details(NamedTuple):
+    """Subscriptions that only a closer look needs."""
+
+    worlds: Subscription
+    beliefs: Subscription
+    orders: OrderFollower
+    presences: PresenceWatch
+
+
 class MatchFollower:
     """The match as the bus brings it; `update` takes in what has come."""
 
-    bus: Bus
-    past: bool = False
-    """Events of before are wanted, too, as far as the host keeps them."""
-    state: GameState | None = None
-    health: Health | None = None
-    events: list[GameEvent] = field(default_factory=list)
-    recorders: dict[str, RecorderProgress] = field(default_factory=dict)
-    """What each recorder said last."""
-    unreadable: int = 0
-    """Messages that could not be read; each was left out."""
-    first: MatchTime | None = None
-    """The first tick seen."""
-    last: MatchTime | None = None
-    """The newest tick seen."""
+    def __init__(self, bus: Bus, *, details: bool = False) -> None:
+        """With `details` worlds, beliefs, orders and referee boxes are followed too, and events begin with the past
+        ones that the host still keeps.
+        """
+        self.bus = bus
+        self.host = HostWatch(bus)
+        self.gone = False
+        """The host was there and is no more."""
+        self.there = False
+        """The host is there."""
+        self.hosts = 0
+        """Hosts that have come after the first."""
+        self.state: GameState | None = None
+        """The newest state. That of an earlier host stays until the next one has published its own."""
+        self.health: Health | None = None
+        self.events: list[GameEvent] = []
+        self.recorders: dict[str, RecorderProgress] = {}
+        """Recorder → its newest progress."""
+        self.orders = OrderBook()
+        self.refboxes: list[str] = []
+        """Names of the sides whose base stations are connected to a referee box."""
+        self.unreadable = 0
+        """Messages that could not be read; each was left out."""
+        self.first: MatchTime | None = None
+        """The first tick seen."""
+        self.last: MatchTime | None = None
+        """The newest tick seen."""
+        self._host_change = HostChangeDetector()
+        self._newest_tick = 0
+        self._payloads: dict[str, bytes] = {}
+        self._world: World | None = None
+        self._beliefs: dict[str, Belief] = {}
+        self._unread: dict[str, ReceivedMessage] = {}
+        self._events = bus.subscribe(EVENT, history=details)
+        self._states, self._healths = bus.subscribe(STATE), bus.subscribe(HEALTH)
+        self._progress = bus.subscribe(RECORDER_PROGRESS)
+        self._details = self._follow_details() if details else None
 
-    def __post_init__(self) -> None:
-        self._subscriptions: tuple[Subscription, ...] = tuple(
-            self.bus.subscribe(topic, history=self.past and topic is EVENT) for topic in (EVENT, STATE, HEALTH)
-        )
-        self._progress = self.bus.subscribe(RECORDER_PROGRESS)
+    def update(self) -> MatchNews:
+        """Take in what has come since the last call, without waiting, and return what of it is new."""
+        news = MatchNews()
+        there, self.gone = self.there, self.host.has_left()
+        self.there = self.host.seen and not self.gone
+        news.presence_changed = self.there != there
+        for message, received in self._messages(self._events, news):
+            self._add_event(message, received)
+            news.events.append(message)
+        for message, received in self._messages(self._states, news):
+            self._rewind(message, news)
+            self._set_state(message, received)
+            news.states.append(message)
+        for message, received in self._messages(self._healths, news):
+            self._set_health(message, received)
+            news.healths.append(message)
+        for received in iter(self._progress.receive, None):
+            progress = self._decoded(received)
+            if progress is not None:
+                self.recorders[received.chunks["name"]] = progress
+        if self._details is not None:
+            self._update_details(self._details, news)
+        return news
 
-    def update(self) -> list[GameEvent | GameState | Health]:
-        """Take in what has come since the last call, without waiting; returns it, events first."""
-        fresh: list[GameEvent | GameState | Health] = []
-        for subscription in self._subscriptions:
-            while (received := subscription.receive()) is not None:
-                message = self._read(received)
-                if message is not None:
-                    fresh.append(message)
-        while (received := self._progress.receive()) is not None:
-            self._note_progress(received)
-        return fresh
+    @property
+    def world(self) -> World | None:
+        """The newest tick; None before the first, and without `details`."""
+        self._read_details()
+        return self._world
 
-    def complete(self, messages: Iterable[ReceivedMessage]) -> list[GameEvent | GameState | Health]:
-        """Take in what was told and has not come, from whoever kept it; returns what of it is new, in its order."""
-        fresh = []
+    @property
+    def beliefs(self) -> dict[str, Belief]:
+        """Robot → its newest belief, in its team's frame."""
+        self._read_details()
+        return self._beliefs
+
+    @property
+    def payloads(self) -> dict[str, bytes]:
+        """Key → newest valid payload of state, health, world and beliefs, as it came."""
+        self._read_details()
+        return self._payloads
+
+    @property
+    def radios(self) -> dict[str, Radio]:
+        """Robot → what it sent last on the radio."""
+        return {robot: belief.radio for robot, belief in self.beliefs.items()}
+
+    def complete(self, messages: Iterable[ReceivedMessage]) -> list[GameEvent | GameState]:
+        """Take in recorded events and states of which some have not come; returns the new ones, in their order."""
+        fresh: list[GameEvent | GameState] = []
         for received in messages:
             message = self._decoded(received)
-            is_known = message in self.events if isinstance(message, GameEvent) else self._is_past(message)
-            if message is not None and not is_known:
-                self._update_with(message, received)
+            if isinstance(message, GameEvent) and message not in self.events:
+                self._add_event(message, received)
+                fresh.append(message)
+            elif isinstance(message, GameState) and (self.state is None or message.tick > self.state.tick):
+                self._set_state(message, received)
                 fresh.append(message)
         self.events.sort(key=lambda event: event.tick)
         return fresh
@@ -101,44 +207,95 @@ class MatchFollower:
             return 0.0
         return (self.last.time - self.first.time) / self.wall_s
 
-    def _note_progress(self, received: ReceivedMessage) -> None:
-        try:
-            self.recorders[received.chunks["name"]] = received.message()
-        except BadMessageError:
-            self.unreadable += 1
+    def _follow_details(self) -> _Details:
+        bus = self.bus
+        worlds, beliefs = bus.subscribe(WORLD, newest=True), bus.subscribe(BELIEF, newest=True)
+        return _Details(worlds, beliefs, OrderFollower(bus, self.orders), bus.watch_alive())
 
-    def _is_past(self, message: GameState | Health | None) -> bool:
-        """Whether something as new has been seen."""
-        seen = self.state if isinstance(message, GameState) else self.health
-        return message is not None and seen is not None and message.tick <= seen.tick
+    def _update_details(self, details: _Details, news: MatchNews) -> None:
+        for presence in iter(details.presences.receive, None):
+            if presence.kind is PresenceKind.REFBOX and presence.alive != (presence.name in self.refboxes):
+                (self.refboxes.append if presence.alive else self.refboxes.remove)(presence.name)
+                news.refboxes_changed = True
+        for received in iter(details.worlds.receive, None):
+            self._check_host(received, news)
+            self._unread[received.key] = received
+            news.world = True
+        for received in iter(details.beliefs.receive, None):
+            self._check_host(received, news)
+            self._unread[received.key] = received
+            news.beliefs.append(received.key)
+        news.orders = details.orders.update()
 
-    def _read(self, received: ReceivedMessage) -> GameEvent | GameState | Health | None:
-        message = self._decoded(received)
-        if message is not None:
-            self._update_with(message, received)
-        return message
+    def _read_details(self) -> None:
+        """Read the newest worlds and beliefs, of which most are replaced before anything asks for them."""
+        unread, self._unread = self._unread, {}
+        for received in unread.values():
+            message = self._decoded(received)
+            if message is None:
+                continue
+            self._payloads[received.key] = received.payload
+            if isinstance(message, World):
+                self._world = message
+            else:
+                self._beliefs[received.chunks["robot"]] = message
 
-    def _decoded(self, received: ReceivedMessage) -> GameEvent | GameState | Health | None:
-        try:
-            message: GameEvent | GameState | Health = received.message()
-        except BadMessageError:
-            self.unreadable += 1
-            return None
-        return message
+    def _messages(self, subscription: Subscription, news: MatchNews) -> Iterator[tuple[Any, ReceivedMessage]]:
+        for received in iter(subscription.receive, None):
+            message = self._decoded(received)
+            if message is not None:
+                self._check_host(received, news)
+                yield message, received
 
-    def _update_with(self, message: GameEvent | GameState | Health, received: ReceivedMessage) -> None:
-        match message:
-            case GameEvent():
-                self.events.append(message)
-            case GameState():
-                self.state = message
-            case Health():
-                self.health = message
-        if message.tick > 0 and received.stamp is not None:
-            self._note_time(MatchTime(message.tick, message.time, received.stamp.sent_ns))
+    def _check_host(self, received: ReceivedMessage, news: MatchNews) -> None:
+        """With the first message of another host, forget what the host before has published."""
+        if not self._host_change.is_new_host(received):
+            return
+        self.hosts += 1
+        self.health = self.first = self.last = self._world = None
+        self._newest_tick = 0
+        for content in (self.events, self._payloads, self.orders, self._beliefs, self._unread):
+            content.clear()
+        news.new_host = True
+        for messages in (news.events, news.states, news.healths, news.beliefs):
+            messages.clear()
+        news.world = news.rewound = False
 
-    def _note_time(self, time: MatchTime) -> None:
+    def _rewind(self, state: GameState, news: MatchNews) -> None:
+        """Forget the events that lie ahead again where a replay has gone back."""
+        if state.tick < self._newest_tick - _LATE_TICKS:
+            self.events[:] = [event for event in self.events if event.tick <= state.tick]
+            self.orders.clear()
+            news.rewound = True
+        self._newest_tick = state.tick
+
+    def _add_event(self, event: GameEvent, received: ReceivedMessage) -> None:
+        self.events.append(event)
+        self._note_time(event, received)
+
+    def _set_state(self, state: GameState, received: ReceivedMessage) -> None:
+        self.state = state
+        self._payloads[received.key] = received.payload
+        self._note_time(state, received)
+
+    def _set_health(self, health: Health, received: ReceivedMessage) -> None:
+        self.health = health
+        self._payloads[received.key] = received.payload
+        self._note_time(health, received)
+
+    def _note_time(self, message: GameEvent | GameState | Health, received: ReceivedMessage) -> None:
+        if message.tick == 0 or received.stamp is None:
+            return
+        time = MatchTime(message.tick, message.time, received.stamp.sent_ns)
         if self.first is None or time.tick < self.first.tick:
             self.first = time
         if self.last is None or time.tick >= self.last.tick:
             self.last = time
+
+    def _decoded(self, received: ReceivedMessage) -> Any:
+        """The valid message; None when it is not one."""
+        try:
+            return received.message()
+        except BadMessageError:
+            self.unreadable += 1
+            return None

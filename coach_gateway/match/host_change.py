@@ -1,4 +1,4 @@
-"""Who writes what is heard: another host counts its messages from their beginning."""
+"""Whether messages come from another host than before: a new host counts its messages from 0 again."""
 
 from schemas.bus.contract import ReceivedMessage, Stamp
 
@@ -10,9 +10,9 @@ class HostChangeDetector:
         self._stamps: dict[str, Stamp] = {}
 
     def is_new_host(self, received: ReceivedMessage) -> bool:
-        """Whether this is the first that is heard of another host; then nothing of the one before counts.
+        """Whether this is the first message of another host; then nothing of the host before counts.
 
-        What is only told again, as it is when a link comes back, is older than what was heard last.
+        A message that is only delivered again, as happens when a link comes back, is older than the newest one.
         """
         stamp, before = received.stamp, self._stamps.get(received.key)
         if stamp is None or (before is not None and stamp.sent_ns <= before.sent_ns):

@@ -1,33 +1,33 @@
-"""The core of the coach gateway: asks the referee, orders a side, and knows how the match is set up."""
+"""Requests to the host: actions of the referee, orders to a side, live parameters, scenes, replay, and the setup."""
 
 from typing import Any
 
 from coach_gateway.match.orders import OrderFollower, Receipt
 from schemas.bus.contract import Bus, NoReplyError, Publisher
-from schemas.config.scene import SceneReply, SceneRequest
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.faults import FaultError, validated
-from schemas.game import ActionReply, RefereeAction
-from schemas.message import BadMessageError, WireMessage
 from schemas.messages.coach import CoachOrder
-from schemas.messages.host import Setup, SetupRequest
+from schemas.messages.game import ActionReply, RefereeAction
 from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.messages.replay import ReplayReply, ReplayRequest
+from schemas.messages.scene import SceneReply, SceneRequest
+from schemas.messages.setup import Setup, SetupRequest
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import ACTION, ORDER, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
+from schemas.wire.faults import FaultError, validated
+from schemas.wire.message import BadMessageError, WireMessage
 
 _LOOK_S = 0.02
 """s of wall time between two looks for acknowledgements."""
 
 
 class HostClient:
-    """One coach's seat in a match."""
+    """One client of a match's host."""
 
     def __init__(self, bus: Bus, patience: float = 3.0) -> None:
         self._bus = bus
         self._patience = patience
-        """How long an answer may take, in s of wall time."""
+        """How long a reply may take, in s of wall time."""
         self._orders: dict[Side, Publisher] = {}
         self._sequence = 0
         self._watch: OrderFollower | None = None
@@ -42,7 +42,7 @@ class HostClient:
         return setup
 
     def act(self, action: RefereeAction) -> ActionReply:
-        """Ask the referee for an action; the reply says whether it was accepted, and why not.
+        """Ask the referee for an action; the reply has whether it was accepted, and why not.
 
         Raises:
             TouchlineError: no host answers for this match.
@@ -51,7 +51,7 @@ class HostClient:
         return reply
 
     def parameters(self, request: ParametersRequest) -> ParametersReply:
-        """Ask for live parameters, or change them; the reply says whether it was accepted, and why not.
+        """Ask for live parameters, or change them; the reply has whether it was accepted, and why not.
 
         Raises:
             TouchlineError: no host answers for this match.
@@ -60,7 +60,7 @@ class HostClient:
         return reply
 
     def scene(self, request: SceneRequest) -> SceneReply:
-        """Set bodies down, add or remove some, or begin anew; the reply says whether it was accepted, and why not.
+        """Place, add or remove bodies, or start over; the reply has whether it was accepted, and why not.
 
         Raises:
             TouchlineError: no host answers for this match.
@@ -69,27 +69,27 @@ class HostClient:
         return reply
 
     def replay(self, request: ReplayRequest) -> ReplayReply:
-        """Ask a replay how it stands, or to go elsewhere; the reply says whether it was accepted, and why not.
+        """Read the status of a replay, or control it; the reply has whether it was accepted, and why not.
 
         Raises:
-            TouchlineError: no replay answers, as when a match is played.
+            TouchlineError: no replay answers, as in a match.
         """
         reply: ReplayReply = self._ask(REPLAY_CONTROL, request)
         return reply
 
     @property
     def orders(self) -> OrderFollower:
-        """Which orders stand and who has acknowledged them, from when this was first asked for."""
+        """Active orders and their acknowledgements, from the first use of this property on."""
         if self._watch is None:
             self._watch = OrderFollower(self._bus)
         return self._watch
 
     def order(self, side: Side, **content: Any) -> CoachOrder:
-        """Give a side its new standing order, numbered after every one before it; returns it once the host has it.
+        """Send a side its new order, numbered after all before it; returns it once the host has it.
 
         Raises:
-            TouchlineError: no host answers for this match, a robot named in the order is not in it, or a field may not
-                be what it is.
+            TouchlineError: no host answers for this match, a robot named in the order is not in it, or a field is
+                invalid.
         """
         setup = self.setup()
         robots = setup.teams[side].robots
@@ -105,11 +105,11 @@ class HostClient:
         if side not in self._orders:
             self._orders[side] = self._bus.publisher(ORDER, side=side.value)
         self._orders[side].put(order)
-        self.setup()  # answered after the order on the same link: the host has taken the order in
+        self.setup()  # its reply comes after the order on the same link: the host has received the order
         return order
 
     def wait_for_robots(self, side: Side, order: CoachOrder, patience: float) -> Receipt:
-        """Who has acknowledged an order, waiting up to `patience` s of wall time for all of them."""
+        """The robots that have acknowledged an order, waiting up to `patience` s of wall time for all of them."""
         clock = self._bus.clock
         deadline = clock.now() + patience
         while True:
@@ -120,9 +120,9 @@ class HostClient:
             clock.sleep_until(clock.now() + _LOOK_S)
 
     def _next_number(self, side: Side, setup: Setup) -> int:
-        """Wall time in ms numbers the orders of successive processes; where a larger number stands, from that one on.
+        """The number of the next order: wall time in ms, or one more than a larger number that is active.
 
-        An older host's setup does not tell what stands; what was heard of it since counts there.
+        The setup has the number that was active when the host replied. An order that was published since counts too.
         """
         self.orders.update()
         active = self.orders.book.active(side)
@@ -137,4 +137,4 @@ class HostClient:
                 f'match "{self._bus.match}": {error}; name the match that the host plays with --match'
             ) from None
         except BadMessageError as error:
-            raise TouchlineError(f"{topic.key}: the host's answer cannot be read: {error}") from None
+            raise TouchlineError(f"{topic.key}: the host's reply cannot be read: {error}") from None

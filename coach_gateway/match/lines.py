@@ -1,10 +1,11 @@
 """The match in plain words: one line for a state, one for an event."""
 
-from schemas.game import SIDED, GameEvent, GameStage, GameState
+from schemas.game import SIDED, GameStage
+from schemas.messages.game import GameEvent, GameState
 
 
 def printable(text: str) -> str:
-    """What others have written as one line that cannot speak to the terminal it is shown on."""
+    """A text from the network as one line without control characters, which a terminal would obey."""
     return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in text)
 
 
@@ -20,7 +21,7 @@ def score_text(state: GameState) -> str:
 
 
 def phase_text(state: GameState) -> str:
-    """What is being played and by whom: `throw in, magenta` before START, `throw in, magenta, started` after it."""
+    """The phase and its side: `throw in, magenta` before START, `throw in, magenta, started` after it."""
     words = [state.phase.value.replace("_", " ")]
     if state.phase in SIDED:
         if state.side is not None:
@@ -51,7 +52,7 @@ def discipline_phrases(state: GameState) -> list[str]:
 
 
 def state_line(state: GameState) -> str:
-    """Clock, half, score and phase, who has cards or is off the field, and what is proposed."""
+    """Clock, half, score and phase, robots with cards or off the field, and what is proposed."""
     parts = [f"{clock_text(state.clock):>7}", half_text(state), score_text(state), phase_text(state)]
     discipline = discipline_phrases(state)
     if discipline:

@@ -1,38 +1,35 @@
-"""A running match for bridges that wait for many things at once: the newest of everything, and word of what changes.
+"""A running match for bridges that wait for many things at once: follows it, and takes requests to its host.
 
-One task follows the bus; questions to the host wait in a thread, and hold up nobody.
+One task follows the bus. Requests to the host wait in threads, and delay nothing else.
 """
 
 import asyncio
-import contextlib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeVar
 
-from coach_gateway.match.host_change import HostChangeDetector
+from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
-from coach_gateway.match.orders import OrderFollower
-from schemas.bus.contract import Bus, PresenceKind, ReceivedMessage, Subscription
-from schemas.bus.host_watch import HostWatch
+from coach_gateway.match.orders import OrderBook
+from coach_gateway.service import pause
+from schemas.bus.contract import Bus, PresenceKind
 from schemas.errors import TouchlineError
-from schemas.game import REFBOX, ActionName, ActionReply, GameEvent, GameState, RefereeAction
-from schemas.message import BadMessageError
+from schemas.game import REFBOX, ActionName
 from schemas.messages.coach import CoachOrder
-from schemas.messages.host import Belief, Setup
+from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeAction
+from schemas.messages.radio import Belief
+from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
-from schemas.topics import BELIEF, EVENT, STATE, WORLD
 
 _LOOK_S = 0.01
 """s of wall time between two looks at the bus."""
 _ASK_S = 1.0
 """s of wall time until a host that did not answer is asked again how its match is set up."""
 _CATCH_UP_S = 1.0
-"""s of wall time that a state which was told before an answer may come after it."""
-_LATE_TICKS = 50
-"""Ticks that a state may be older than one before it; with one that is older still the match has gone back."""
-_QUESTIONS = 4
-"""At the same time; further ones wait. A stop, and what a league's box says, wait for no others."""
+"""s of wall time that a state published before a reply may arrive after it."""
+_REQUESTS = 4
+"""Requests at the same time; further ones wait. A stop, and what a league's box commands, wait for no others."""
 _T = TypeVar("_T")
 
 
@@ -41,38 +38,20 @@ class LiveMatch:
 
     def __init__(self, bus: Bus) -> None:
         self._bus = bus
+        self.follower = MatchFollower(bus, details=True)
         self._client = HostClient(bus)
         self._order_clients = {side: HostClient(bus) for side in Side}
-        self._states, self._events = bus.subscribe(STATE), bus.subscribe(EVENT, history=True)
-        self._worlds = bus.subscribe(WORLD, newest=True)
-        self._beliefs = bus.subscribe(BELIEF, newest=True)
-        self._watch = bus.watch_alive()
-        self._presence = HostWatch(bus)
-        self._threads = ThreadPoolExecutor(_QUESTIONS, thread_name_prefix="question")
-        self._urgent = ThreadPoolExecutor(_QUESTIONS, thread_name_prefix="urgent")
+        self._threads = ThreadPoolExecutor(_REQUESTS, thread_name_prefix="request")
+        self._urgent = ThreadPoolExecutor(_REQUESTS, thread_name_prefix="urgent")
         self._ordering = {side: asyncio.Lock() for side in Side}
-        self._host_change = HostChangeDetector()
         self._ended = False
         self._asked_at = -_ASK_S
         self._asking: asyncio.Task[None] | None = None
         self._stale = True
-        self._refboxes: dict[Side, bool] = {}
-        self._newest_beliefs: dict[str, ReceivedMessage] = {}
-        self._world: ReceivedMessage | None = None
-        self.there = False
-        """The host is there."""
         self.setup: Setup | None = None
-        """How the match is set up; nothing before the host has told."""
+        """How the match is set up; None before the host has answered."""
         self.sides: dict[str, Side] = {}
         """Robot → its side, of those that take part."""
-        self.state: GameState | None = None
-        self.events: list[GameEvent] = []
-        """All that the host remembers, in order."""
-        self.hosts = 0
-        """How many have come after the first; events are counted anew with each."""
-        self.orders = OrderFollower(bus)
-        self.unreadable = 0
-        """Messages that could not be read; each was left out."""
         self._state_handlers: list[Callable[[GameState], None]] = []
 
     async def serve(self, stop: asyncio.Event) -> None:
@@ -90,20 +69,16 @@ class LiveMatch:
 
     def update(self) -> None:
         """Take in what has come, without waiting, and ask for the setup where it is not known or has changed."""
-        while (presence := self._watch.receive()) is not None:
-            if presence.kind is PresenceKind.REFBOX and presence.name in set(Side):
-                self._refboxes[Side(presence.name)] = presence.alive
-        there = not self._presence.has_left() and self._presence.seen
-        self._stale = self._stale or (there and not self.there)  # another host may play another match
-        self.there = there
-        for event in self._messages(self._events):
-            self.events.append(event)
-        for state in self._messages(self._states):
-            self._update_state(state)
-        self._world = self._worlds.receive() or self._world
-        for received in iter(self._beliefs.receive, None):
-            self._newest_beliefs[received.chunks["robot"]] = received
-        self.orders.update()
+        episode = self.state.episode if self.state is not None else None
+        news = self.follower.update()
+        came = news.presence_changed and self.there  # another host may play another match
+        if came or news.new_host or news.rewound:
+            self._stale = True
+        for state in news.states:
+            self._stale = self._stale or episode not in (None, state.episode)
+            episode = state.episode
+            for handle in self._state_handlers:
+                handle(state)
         self._refresh_setup()
 
     @property
@@ -112,9 +87,34 @@ class LiveMatch:
         return self._bus.clock.now()
 
     @property
+    def there(self) -> bool:
+        """The host is there."""
+        return self.follower.there
+
+    @property
+    def hosts(self) -> int:
+        """Hosts that have come after the first; events are counted anew with each."""
+        return self.follower.hosts
+
+    @property
+    def state(self) -> GameState | None:
+        """The newest state of the game; None before the first."""
+        return self.follower.state
+
+    @property
+    def events(self) -> list[GameEvent]:
+        """All that the host remembers, in order."""
+        return self.follower.events
+
+    @property
+    def orders(self) -> OrderBook:
+        """The active order of each side."""
+        return self.follower.orders
+
+    @property
     def world(self) -> World | None:
-        """The newest tick; nothing before the first."""
-        return self._read(self._world) if self._world is not None else None
+        """The newest tick; None before the first."""
+        return self.follower.world
 
     @property
     def time(self) -> float:
@@ -124,29 +124,32 @@ class LiveMatch:
 
     @property
     def refboxes(self) -> list[Side]:
-        """The sides whose base stations hear a league's referee box."""
-        return [side for side in Side if self._refboxes.get(side, False)]
+        """The sides whose base stations are connected to a league's referee box."""
+        return [side for side in Side if side.value in self.follower.refboxes]
 
     def beliefs(self, sides: Iterable[Side]) -> dict[str, Belief]:
-        """Robot → what it said last, of these sides, in its team's frame."""
+        """Robot → its newest belief, of these sides, in its team's frame."""
         wanted = list(sides)
-        said = {name: self._read(one) for name, one in self._newest_beliefs.items() if self.sides.get(name) in wanted}
-        return {name: belief for name, belief in sorted(said.items()) if belief is not None}
+        beliefs = self.follower.beliefs
+        return {name: beliefs[name] for name in sorted(beliefs) if self.sides.get(name) in wanted}
 
     def on_state(self, handle: Callable[[GameState], None]) -> None:
-        """Have every state told from now on, in order, beginning with the one that stands."""
+        """Call `handle` with every state from now on, in order, beginning with the newest one."""
         self._state_handlers.append(handle)
         if self.state is not None:
             handle(self.state)
 
     def connect_refbox(self, side: Side, *, connected: bool) -> None:
-        """Tell everybody whether this side's base station hears a referee box: then others may only stop the game."""
+        """Declare on the bus whether this side's base station is connected to a referee box.
+
+        While one is, everyone else may only stop the game.
+        """
         (self._bus.declare_alive if connected else self._bus.withdraw_alive)(PresenceKind.REFBOX, side.value)
 
     async def act(self, action: RefereeAction) -> ActionReply:
         """Ask the referee; without a host the answer is a refusal that says so.
 
-        When it returns, `state` is what the action has led to, so that who asks on decides by no older one.
+        When it returns, `state` is at least as new as the action: the next request never rests on an older state.
         """
         urgent = action.action is ActionName.STOP or action.source == REFBOX
         threads = self._urgent if urgent else self._threads
@@ -159,17 +162,17 @@ class LiveMatch:
         return reply
 
     async def _catch_up(self, tick: int) -> None:
-        """Wait for the state of a tick, which the host has told; one that is lost on its way is not waited for long."""
+        """Wait for the state of a tick that the host has published, for a limited time in case it was lost."""
         until = self.now + _CATCH_UP_S
         while (self.state is None or self.state.tick < tick) and self.now < until:
             await asyncio.sleep(_LOOK_S)
             self.update()
 
     async def order(self, side: Side, **content: Any) -> CoachOrder:
-        """Give a side its new standing order; of two, the later one has the larger number. No side waits for the other.
+        """Send a side its new order; of two orders the later has the larger number. No side waits for the other.
 
         Raises:
-            TouchlineError: no host answers, or the order may not be what it is.
+            TouchlineError: no host answers, or the order is invalid.
         """
         async with self._ordering[side]:
             return await self._in_thread(lambda: self._order_clients[side].order(side, **content), self._threads)
@@ -179,62 +182,19 @@ class LiveMatch:
             raise TouchlineError("the gateway ends")
         return await asyncio.get_running_loop().run_in_executor(threads, ask)
 
-    def _update_state(self, state: GameState) -> None:
-        if self.state is not None and state.tick < self.state.tick - _LATE_TICKS:  # a replay has gone back
-            self.events = [event for event in self.events if event.tick <= state.tick]
-            self.orders.book.clear()
-            self._stale = True
-        elif self.state is not None and state.episode != self.state.episode:
-            self._stale = True
-        self.state = state
-        for handle in self._state_handlers:
-            handle(state)
-
     def _refresh_setup(self) -> None:
-        """Ask how the match is set up, one question at a time."""
+        """Query how the match is set up, one query at a time."""
         asking = self._asking is not None and not self._asking.done()
         if self._stale and not asking and self.now >= self._asked_at + _ASK_S:
             self._asked_at = self.now
             self._asking = asyncio.get_running_loop().create_task(self._ask_setup())
 
     async def _ask_setup(self) -> None:
-        self._stale = False  # another host may come before this one has answered
+        self._stale = False  # another host may come before this one replies
         try:
             setup = await self._in_thread(self._client.setup, self._threads)
         except TouchlineError:
-            self._stale = True  # there is no host yet; it is asked again
+            self._stale = True  # there is no host yet; the query is repeated
             return
         self.setup = setup
         self.sides = {name: side for side, team in setup.teams.items() for name in team.robots}
-
-    def _messages(self, subscription: Subscription) -> Iterator[Any]:
-        """What has come, message by message: with the first of another host, what was before is forgotten."""
-        for received in iter(subscription.receive, None):
-            message = self._read(received)
-            if message is None:
-                continue
-            if self._host_change.is_new_host(received):
-                self._reset()
-            yield message
-
-    def _reset(self) -> None:
-        """Another host plays: what the one before has said of events, orders and beliefs no longer counts."""
-        self.hosts += 1
-        self.events.clear()
-        self.orders.book.clear()
-        self._newest_beliefs.clear()
-        self._stale = True
-
-    def _read(self, received: ReceivedMessage) -> Any:
-        try:
-            return received.message()
-        except BadMessageError:
-            self.unreadable += 1
-            return None
-
-
-async def pause(stop: asyncio.Event, seconds: float) -> bool:
-    """Wait so long, or until `stop` is set; whether it is."""
-    with contextlib.suppress(TimeoutError):
-        await asyncio.wait_for(stop.wait(), seconds)
-    return stop.is_set()

@@ -1,29 +1,43 @@
-"""Which order stands for each side, and which robots have acknowledged it: the tracker that every bridge uses.
+"""Which order is active for each side, and which robots have acknowledged it.
 
-The host says both on `team/{side}/standing`: on change, and once a simulated second for those who come later.
-`OrderBook` is pure and is told; `OrderFollower` hears it on a bus. `HostClient.order` gives an order,
-`HostClient.wait_for_robots` waits for its receipt, and `HostClient.orders.update()` brings the news of all orders,
-whoever gave them.
+The host publishes both on `team/{side}/standing`: on change, and once a simulated second for late subscribers.
+`OrderBook` is pure and keeps them; `OrderFollower` fills it from a bus. `HostClient.order` sends an order,
+`HostClient.wait_for_robots` waits for its receipt, and `HostClient.orders.update()` returns news of all orders,
+including those of other clients.
 """
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Annotated, Any
+
+from msgspec import Meta
 
 from schemas.bus.contract import Bus
-from schemas.message import BadMessageError
-from schemas.messages.coach import ActiveOrder
+from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER
+from schemas.wire.message import BadMessageError
+
+
+class OrderContent(CoachOrder, frozen=True, kw_only=True):
+    """An order that the gateway numbers."""
+
+    sequence: Annotated[int, Meta(ge=1)] = 1
+    """Filled in by the gateway."""
+
+    def content(self) -> dict[str, Any]:
+        """The fields that describe what the robots do."""
+        return {name: getattr(self, name) for name in self.__struct_fields__ if name not in ("version", "sequence")}
 
 
 class OrderStatus(StrEnum):
-    """What became of an order."""
+    """How far an order has come."""
 
     PENDING = "pending"
-    """The host has not said yet that it stands."""
+    """The host has not published yet that it is active."""
     ACTIVE = "active"
     REPLACED = "replaced"
-    """One with a larger number stands."""
+    """An order with a larger number is active."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,42 +46,42 @@ class Receipt:
 
     status: OrderStatus
     acknowledged: tuple[str, ...] = ()
-    """Robots that have taken it in."""
+    """Robots that have acknowledged it."""
     missing: tuple[str, ...] = ()
     """Robots of the side that have not."""
 
     @property
     def is_final(self) -> bool:
-        """Nothing more is to be waited for."""
+        """Whether the receipt will not change any more."""
         return self.status is OrderStatus.REPLACED or (self.status is OrderStatus.ACTIVE and not self.missing)
 
     def __str__(self) -> str:
         if self.status is OrderStatus.PENDING:
-            return "no robot has had it yet"
+            return "no robot has received it yet"
         if self.status is OrderStatus.REPLACED:
-            return "another order with a larger number stands"
-        words = [f"acknowledged by {', '.join(self.acknowledged)}" if self.acknowledged else "acknowledged by nobody"]
+            return "replaced by an order with a larger number"
+        words = [f"acknowledged by {', '.join(self.acknowledged)}" if self.acknowledged else "acknowledged by no robot"]
         return "; ".join([*words, f"not yet by {', '.join(self.missing)}"] if self.missing else words)
 
 
 class OrderBook:
-    """The newest that was said of each side's order."""
+    """The newest of each side's order."""
 
     def __init__(self) -> None:
         self._active: dict[Side, ActiveOrder] = {}
 
     def update(self, side: Side, active: ActiveOrder) -> bool:
-        """Take in what was said; whether it says anything new of order or robots."""
+        """Take in an active order; returns whether order or acknowledgements are new."""
         before = self._active.get(side)
         self._active[side] = active
         return before is None or (before.order, before.acknowledged) != (active.order, active.acknowledged)
 
     def active(self, side: Side) -> ActiveOrder | None:
-        """The order that stands and who has acknowledged it; nothing while none was heard of."""
+        """The active order and its acknowledgements; None before any was published."""
         return self._active.get(side)
 
     def receipt(self, side: Side, sequence: int) -> Receipt:
-        """What is known of the order of that number."""
+        """The receipt of the order of that number."""
         active = self._active.get(side)
         if active is None or active.order.sequence < sequence:
             return Receipt(OrderStatus.PENDING)
@@ -81,21 +95,22 @@ class OrderBook:
         )
 
     def clear(self) -> None:
-        """Another host plays: no order stands there."""
+        """Forget all orders, as those of another host."""
         self._active.clear()
 
 
 class OrderFollower:
-    """Hears what the host says of the orders."""
+    """Follows the orders that the host publishes."""
 
-    def __init__(self, bus: Bus) -> None:
+    def __init__(self, bus: Bus, book: OrderBook | None = None) -> None:
+        """Fills `book`; by default a new one."""
         self._subscription = bus.subscribe(ACTIVE_ORDER)
-        self.book = OrderBook()
+        self.book = book if book is not None else OrderBook()
         self.unreadable = 0
         """Messages that could not be read; each was left out."""
 
     def update(self) -> list[Side]:
-        """Take in what has come, without waiting; returns the sides that there is news of, in the order it came."""
+        """Take in what has come, without waiting; returns the sides with news, in the order it came."""
         news: dict[Side, None] = {}
         while (received := self._subscription.receive()) is not None:
             try:

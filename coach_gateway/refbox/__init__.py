@@ -1,7 +1,7 @@
-"""The league's referee box: our teams as its base stations, and our referee in its place. Knows the bus, no physics.
+"""The league's referee box: our teams as its base stations, and our referee in its place. Knows the bus, not physics.
 
-Its protocols are those of the league's program RefBox: JSON ended by a zero byte since 2020, single characters before.
+The box's protocols are JSON ended by a zero byte since 2020, and single characters before.
 """
 
 DEFAULT_PORT = 28097
-"""The port on which RefBox listens for base stations."""
+"""The port of the league's box that base stations connect to."""

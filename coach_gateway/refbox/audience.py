@@ -1,25 +1,26 @@
-"""What the league's box sends to audience and score displays (RefBox 2, audience feed 1.2.0), from our game. Pure."""
+"""The feed that the league's box sends to audience and score displays, made from our game. Pure."""
 
 from collections.abc import Mapping
 from typing import Any
 
-from schemas.game import DisciplinaryRecord, GameStage, GameState, OffField, Phase
+from schemas.game import GameStage, OffField, Phase
 from schemas.league.calls import Call
-from schemas.messages.host import Setup
+from schemas.messages.game import DisciplinaryRecord, GameState
+from schemas.messages.setup import Setup
 from schemas.side import Side
 
 VERSION = "1.2.0"
 _COLOURS = {Side.CYAN: "00FFFF", Side.MAGENTA: "FF00FF"}
 _SHORT, _LONG = 8, 24
-"""Letters of a team's short and long name."""
+"""Letters of a team's short and long name, at most."""
 _ROBOTS = 5
-"""The feed has room for so many."""
+"""Robots of a team in the feed."""
 _STATES: tuple[str, ...] = (
     *("Pre-Game", "1st Half - STOP", "1st Half", "Halftime", "2nd Half - STOP", "2nd Half"),
     *("Pre-Overtime", "Overtime - 1st Half - STOP", "Overtime - 1st Half", "Overtime - Halftime"),
     *("Overtime - 2nd Half - STOP", "Overtime - 2nd Half", "Penalties - STOP", "Penalties", "End Game"),
 )
-"""The game states of RefBox 2 by number."""
+"""The box's states by number."""
 _STOPPED_IN_HALF = {1: 1, 2: 4, 3: 7, 4: 10}
 _AFTER_HALF = {1: 3, 2: 6, 3: 9, 4: 12}
 _BREAKS = (Phase.HALF_TIME, Phase.PARKING)
@@ -41,7 +42,7 @@ def state_number(state: GameState) -> int:
 
 
 class Audience:
-    """Follows the game for those who watch it."""
+    """Follows the game for the audience."""
 
     def __init__(self) -> None:
         self._half = 1
@@ -49,7 +50,7 @@ class Audience:
         self._effective_began = 0.0
 
     def teams(self, state: GameState, setup: Setup, worlds: Mapping[Side, Mapping[str, Any]]) -> dict[str, Any]:
-        """The object that is sent again and again; `worlds` are the teams' world states."""
+        """The object that is sent periodically; `worlds` are the teams' world states."""
         if state.half != self._half or state.clock < self._half_began:
             self._half, self._half_began, self._effective_began = state.half, state.clock, state.effective
         number = state_number(state)
@@ -66,7 +67,7 @@ class Audience:
 
 
 def event(call: Call, setup: Setup, numbers: Mapping[str, int]) -> dict[str, Any]:
-    """The object of one command; -1 where no robot is meant."""
+    """The object of one command; `robotID` is −1 where it names no robot."""
     return {
         "type": "event",
         "eventCode": call.signal.name,
@@ -78,24 +79,24 @@ def event(call: Call, setup: Setup, numbers: Mapping[str, int]) -> dict[str, Any
 
 def _team(side: Side, state: GameState, setup: Setup, worlds: Mapping[Side, Mapping[str, Any]]) -> dict[str, Any]:
     team = setup.teams[side]
-    standings = [state.robots.get(name, DisciplinaryRecord()) for name in team.robots[:_ROBOTS]]
-    standings += [DisciplinaryRecord()] * (_ROBOTS - len(standings))
+    records = [state.robots.get(name, DisciplinaryRecord()) for name in team.robots[:_ROBOTS]]
+    records += [DisciplinaryRecord()] * (_ROBOTS - len(records))
     return {
         "color": _COLOURS[side],
         "shortName": team.name[:_SHORT],
         "longName": team.name[:_LONG],
         "score": str(state.score.of(side)),
-        "robotState": [_word(standing) for standing in standings],
-        "robotWaitTime": [round(standing.left or 0.0) for standing in standings],
+        "robotState": [_robot_state(record) for record in records],
+        "robotWaitTime": [round(record.left or 0.0) for record in records],
         "worldState": worlds.get(side, {}),
     }
 
 
-def _word(standing: DisciplinaryRecord) -> str:
-    """Who is off the field for any other reason is in repair, as far as the box has words."""
-    if standing.off_field is not None:
-        return _WORDS.get(standing.off_field, "repair")
-    return "yellow" if standing.yellow else "play"
+def _robot_state(record: DisciplinaryRecord) -> str:
+    """The box's word for a robot; one off the field for a reason that the box lacks is in repair."""
+    if record.off_field is not None:
+        return _WORDS.get(record.off_field, "repair")
+    return "yellow" if record.yellow else "play"
 
 
 def _minutes(seconds: float) -> str:

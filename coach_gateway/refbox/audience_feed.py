@@ -1,4 +1,4 @@
-"""The audience feed on its way: over UDP, every 50 ms, to those who asked for it."""
+"""Sends the audience feed over UDP, every 50 ms, to a list of addresses."""
 
 import asyncio
 import json
@@ -6,28 +6,27 @@ import socket
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from coach_gateway.match.live import LiveMatch, pause
+from coach_gateway.match.live import LiveMatch
 from coach_gateway.refbox.audience import Audience, event
 from coach_gateway.refbox.call_generator import CallGenerator
 from coach_gateway.refbox.own_world_state import own_world_state
 from coach_gateway.refbox.team_world_state import TeamWorldState
+from coach_gateway.service import pause
 from schemas.errors import TouchlineError
-from schemas.game import GameState
 from schemas.league.robot_numbers import numbers_of
+from schemas.messages.game import GameState
 from schemas.side import Side
 
 EVERY_S = 0.05
-"""s of wall time, as in the league's RefBox."""
+"""s of wall time between two datagrams, as of the league's box."""
 _OLD_S = 1.0
-"""s of wall time after which a base station's world state no longer counts, and ours stands in."""
-
-
-_MOST_BYTES = 65_507
-"""Of one datagram, by UDP over IPv4."""
+"""s of wall time after which a base station's world state is replaced by ours."""
+_MAX_BYTES = 65_507
+"""Bytes of one UDP datagram over IPv4, at most."""
 
 
 class AudienceFeed:
-    """Sends to a list of addresses."""
+    """Sends the feed to a list of addresses."""
 
     def __init__(
         self,
@@ -36,7 +35,7 @@ class AudienceFeed:
         log: Callable[[str], None],
         team_states: Mapping[Side, TeamWorldState] | None = None,
     ) -> None:
-        """`team_states` is what base stations tell of the world, where there are some."""
+        """`team_states` are the world states of base stations, if there are any."""
         self._live = live
         self._addresses = addresses
         self._log = log
@@ -52,7 +51,7 @@ class AudienceFeed:
         """Send until `stop` is set.
 
         Raises:
-            TouchlineError: an address that nothing can be sent to.
+            TouchlineError: nothing can be sent to an address.
         """
         loop = asyncio.get_running_loop()
         try:
@@ -88,7 +87,7 @@ class AudienceFeed:
             return
         if not self._warned:
             self._warned = True
-            self._log("audience feed: a base station tells more than a datagram holds; what our robots say stands in")
+            self._log("audience feed: a world state is larger than a datagram; that of our robots is sent instead")
         self._send(self._audience.teams(state, setup, {side: self._own(side) for side in Side}))
 
     def _world(self, side: Side) -> Mapping[str, Any]:
@@ -105,9 +104,9 @@ class AudienceFeed:
         return own_world_state(side, setup, live.sides, live.state, world, live.beliefs([side]))
 
     def _send(self, content: Mapping[str, Any]) -> bool:
-        """Send it to everybody; whether it is small enough for that."""
+        """Send an object to all addresses; returns False if it does not fit into a datagram."""
         datagram = json.dumps(content, separators=(",", ":")).encode() + b"\x00"
-        if len(datagram) > _MOST_BYTES:
+        if len(datagram) > _MAX_BYTES:
             return False
         if self._transport is not None and not self._transport.is_closing():
             for address in self._targets:

@@ -1,25 +1,26 @@
-"""Our referee as the league's box would tell it: one state after the other becomes commands. Pure."""
+"""Our referee as commands of the league's box, made from one state after the other. Pure."""
 
 from collections.abc import Mapping
 
-from schemas.game import EventKind, GameState
+from schemas.game import EventKind
 from schemas.league.calls import Call, calls
 from schemas.league.signals import BY_NAME
+from schemas.messages.game import GameState
 from schemas.side import Side
 
 _HELD = (EventKind.CARD, EventKind.OFF_FIELD, EventKind.ON_FIELD)
-"""Signals of these kinds are said when the game next changes its state, as the box does (RefBox 2)."""
+"""Signals of these kinds wait until the game next changes its state, as in the box."""
 _AT_ONCE = (BY_NAME["SUBSTITUTION"],)
-"""All the same said at once."""
+"""Signals that do not wait, whatever their kind."""
 _NO_CHANGE = (BY_NAME["GOAL"], BY_NAME["SUBGOAL"], BY_NAME["IS_ALIVE"], *_AT_ONCE)
 """Signals that do not change the state of the game."""
 _RESET = Call(BY_NAME["RESET"])
 
 
 class CallGenerator:
-    """Follows the game; the first state that it hears of is where it begins, and says nothing.
+    """Follows the game from its first state on, which gives no command.
 
-    Where scenes, resets or another host begin anew, the box is reset.
+    A scene, a reset or another host gives the command RESET.
     """
 
     def __init__(self) -> None:
@@ -27,16 +28,16 @@ class CallGenerator:
         self._held: list[Call] = []
 
     def next_calls(self, state: GameState, sides: Mapping[str, Side]) -> list[Call]:
-        """What the next state has the box say; cards and repairs follow the command that changes the game's state."""
+        """The commands of the next state; cards and repairs follow the command that changes the game's state."""
         old, self._old = self._old, state
         if old is None:
             return []
         begun: list[Call] = []
         if state.episode != old.episode or state.tick < old.tick:
             old, self._held, begun = None, [], [_RESET]
-        said = calls(old, state, sides)
-        now = [call for call in said if not _is_held(call)]
-        self._held += [call for call in said if _is_held(call)]
+        new = calls(old, state, sides)
+        now = [call for call in new if not _is_held(call)]
+        self._held += [call for call in new if _is_held(call)]
         if any(call.signal not in _NO_CHANGE for call in now):
             now, self._held = now + self._held, []
         return begun + now

@@ -1,7 +1,7 @@
-"""A team's base station at a league's referee box: hears it, passes on what it says, tells it of the world.
+"""A team's base station at a league's referee box: forwards the box's commands, and uploads world states to it.
 
-The link is made again whenever it breaks, after a pause that grows. While it is up the referee's actions are locked for
-everybody else: the host sees a token of this process, and nothing has to be unlocked when the process dies.
+A broken link is reconnected after a pause that grows. While it is up, the referee's actions are locked for everyone
+else: the host sees a liveliness token of this process, so nothing has to be unlocked when the process dies.
 """
 
 import asyncio
@@ -12,40 +12,42 @@ from dataclasses import dataclass
 from typing import Any
 
 from coach_gateway.access.rate_limit import TokenBucket
-from coach_gateway.match.live import LiveMatch, pause
+from coach_gateway.match.live import LiveMatch
 from coach_gateway.refbox import DEFAULT_PORT, characters, commands
 from coach_gateway.refbox.forwarding import WAITS_FOR_START, SignalResponse, is_ours, response_to, speaks_for
 from coach_gateway.refbox.framing import BoxProtocol, Framer
 from coach_gateway.refbox.own_world_state import own_world_state
+from coach_gateway.service import pause
 from schemas.errors import TouchlineError
-from schemas.game import OfficiatingMode, RefereeAction
+from schemas.game import OfficiatingMode
 from schemas.league.robot_numbers import numbers_of
 from schemas.league.signals import Signal
 from schemas.messages.coach import CoachMode
+from schemas.messages.game import RefereeAction
 from schemas.side import Side
 
 UPLOAD_S = 0.05
-"""s of wall time between two world states. Ours: the league asks for at least ten a second."""
+"""s of wall time between two world states. Chosen here: the league requires at least ten per second."""
 _FIRST_PAUSE_S, _LONGEST_PAUSE_S = 0.25, 5.0
-"""s of wall time before the link is tried again, doubled each time up to the longest; a box that has said something is
-tried again soon."""
+"""s of wall time before the next attempt to connect, doubled each time up to the longest. After a link on which the box
+has sent something, the first pause applies again."""
 _CONNECT_S = 5.0
-"""s of wall time that one attempt to reach the box lasts at most."""
+"""s of wall time that one attempt to connect lasts at most."""
 _UNREAD = 262_144
-"""Bytes of world states that wait for a box that does not read; then newer ones are left out."""
+"""Bytes of world states that wait for a box that does not read; beyond them, newer ones are left out."""
 _UNREAD_S = 10.0
-"""s of wall time that a box may go without reading before the link is given up."""
+"""s of wall time without reading after which the link to a box is closed."""
 _MOST_WAITING = 500
-"""Commands that wait until the match can be officiated; of more the newest count."""
+"""Commands that wait until the match can be officiated; beyond them, the oldest are dropped."""
 _START_S = 10.0
-"""s of simulated time that START is asked for again: the rules' pauses are in simulated time, too."""
+"""s of simulated time during which START is repeated: the rules' pauses are in simulated time, too."""
 _START_AGAIN_S = 0.1
-"""s of wall time between two of them."""
+"""s of wall time between two repetitions of START."""
 
 
 @dataclass(frozen=True, slots=True)
 class BoxAddress:
-    """Where the box is, whose base station this is, and how the box speaks."""
+    """The box's address and protocol, and the team whose base station this is."""
 
     team: Side
     host: str
@@ -57,47 +59,47 @@ class RefBoxClient:
     """One base station."""
 
     def __init__(self, live: LiveMatch, box: BoxAddress, log: Callable[[str], None]) -> None:
-        """`log` is given a line whenever people should know something."""
+        """`log` is called with lines for people."""
         self._live = live
         self._box = box
         self._log = log
         self._target: str | None = None
-        """By what the box calls this team; it says so in WELCOME."""
+        """The address that the box uses for this team, from its WELCOME."""
         self._parked = False
         self._error_notices = TokenBucket(1.0, 5.0, live.now)
-        """How often people are told that something cannot be read."""
+        """How often an unreadable command is logged."""
         self._signals: asyncio.Queue[tuple[Signal, Side | None, int | None]] = asyncio.Queue()
         self.connected = False
         self.counts: Counter[str] = Counter()
-        """`heard`, `forwarded`, `refused`, `untold`, `unreadable`, `passed over`, `uploaded`, `left out`,
+        """`received`, `forwarded`, `refused`, `not forwarded`, `unreadable`, `dropped`, `uploaded`, `left out`,
         `connections`."""
 
     async def serve(self, stop: asyncio.Event) -> None:
-        """Be connected whenever the box is there, until `stop` is set."""
+        """Stay connected whenever the box is there, until `stop` is set."""
         wait = _FIRST_PAUSE_S
-        told = False
+        reported = False
         while not stop.is_set():
             try:
                 reader, writer = await self._connect(stop)
             except OSError as error:
-                if not (told or stop.is_set()):
-                    told = True
-                    self._log(f"referee box {self._box.host}:{self._box.port} is not there ({error}); trying on")
+                if not (reported or stop.is_set()):
+                    reported = True
+                    self._log(f"referee box {self._box.host}:{self._box.port} is not there ({error}); trying again")
                 await pause(stop, wait)
                 wait = min(2 * wait, _LONGEST_PAUSE_S)
                 continue
-            told, heard = False, self.counts["heard"]
+            reported, received = False, self.counts["received"]
             await self._run_connection(reader, writer, stop)
-            if self.counts["heard"] > heard:
+            if self.counts["received"] > received:
                 wait = _FIRST_PAUSE_S
             await pause(stop, wait)
             wait = min(2 * wait, _LONGEST_PAUSE_S)
 
     async def _connect(self, stop: asyncio.Event) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
-        """Reach the box, unless `stop` is set before.
+        """Connect to the box, unless `stop` is set first.
 
         Raises:
-            OSError: it is not there.
+            OSError: the box is not there.
         """
         reached = asyncio.create_task(asyncio.open_connection(self._box.host, self._box.port))
         stopped = asyncio.create_task(stop.wait())
@@ -112,7 +114,7 @@ class RefBoxClient:
     async def _run_connection(
         self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, stop: asyncio.Event
     ) -> None:
-        """One connection, from its beginning to its end."""
+        """Serve one connection from its beginning to its end."""
         self.counts["connections"] += 1
         self._target = None
         self._signals = asyncio.Queue()
@@ -138,7 +140,7 @@ class RefBoxClient:
             self._log(f"the referee box is gone; {self.summary()}")
 
     def summary(self) -> str:
-        """What came of it so far, in words."""
+        """All counts as text."""
         return ", ".join(f"{count} {what}" for what, count in sorted(self.counts.items()))
 
     def _set_connected(self, connected: bool) -> None:
@@ -154,7 +156,7 @@ class RefBoxClient:
             framer.garbage = 0
 
     def _read_message(self, message: dict[str, Any] | str) -> None:
-        """Note a signal; which team is meant is told apart here, in the order the box said it."""
+        """Queue the signal of a message. Its team is resolved here, in the order the box sent the messages."""
         if isinstance(message, str):
             signal, side = characters.read(message)
             self._note(signal, side, None)
@@ -171,14 +173,14 @@ class RefBoxClient:
         self._note(command.signal, self._side_of(command.target), command.robot)
 
     def _note(self, signal: Signal, side: Side | None, robot: int | None) -> None:
-        self.counts["heard"] += 1
+        self.counts["received"] += 1
         if self._signals.qsize() >= _MOST_WAITING:
             self._signals.get_nowait()
-            self.counts["passed over"] += 1
+            self.counts["dropped"] += 1
         self._signals.put_nowait((signal, side, robot))
 
     def _side_of(self, target: str) -> Side | None:
-        """Which side is meant: by the address of the welcome, or else by colour or name."""
+        """The side of a target: by the address of the welcome, or else by colour or name."""
         if not target:
             return None
         own = self._box.team
@@ -190,18 +192,18 @@ class RefBoxClient:
         return names.get(target.lower())
 
     async def _forward(self) -> None:
-        """Pass on the signals, one after the other, once there is a match that can be officiated."""
+        """Forward the signals one after the other, once there is a match that can be officiated."""
         while self._live.state is None or self._live.setup is None:
             await asyncio.sleep(UPLOAD_S)
         if self._live.setup.officiating not in (OfficiatingMode.MANUAL, None):
-            self._log("our own referee goes on deciding beside the box; start the match with --referee manual")
+            self._log("our own referee still decides beside the box; start the match with --referee manual")
         while True:
             signal, side, number = await self._signals.get()
             if not is_ours(signal, side, self._box.team, self._live.refboxes):
                 continue
             wanted = response_to(signal, side, self._robot(side, number), self._live.state)
             if wanted.reason:
-                self.counts["untold"] += 1
+                self.counts["not forwarded"] += 1
                 self._log(f"referee box: {wanted.reason}")
             await self._order(wanted.order, signal)
             await self._act(wanted)
@@ -212,7 +214,7 @@ class RefBoxClient:
         return next((name for name, its in numbers.items() if its == number and sides[name] is side), None)
 
     async def _act(self, wanted: SignalResponse) -> None:
-        """Ask for the actions; those after one that is refused are asked for all the same, as the box did."""
+        """Ask for the actions; a refused action does not stop those after it, since the box has decided all of them."""
         for action in wanted.actions:
             if wanted.until_running and action is wanted.actions[-1]:
                 await self._start(action)
@@ -226,7 +228,7 @@ class RefBoxClient:
             self._log(f"referee box: {reply.reason}")
 
     async def _start(self, action: RefereeAction) -> None:
-        """Bring the game on until it runs, unless the box says something else meanwhile."""
+        """Repeat START until the game runs, unless the box sends something else meanwhile."""
         until = self._live.time + _START_S
         reason = ""
         while self._signals.empty() and self._live.there and self._live.time < until and self._waits_for_start():
@@ -243,7 +245,7 @@ class RefBoxClient:
         return state is not None and state.phase in WAITS_FOR_START and not state.running
 
     async def _order(self, mode: CoachMode | None, signal: Signal) -> None:
-        """Send the robots to their places, and have them play again when the game goes on."""
+        """Send the order of a signal; robots that were parked play again when the game goes on."""
         if mode is None and self._parked and signal.phase is not None:
             mode = CoachMode.PLAY
         if mode is None:
@@ -258,7 +260,7 @@ class RefBoxClient:
                 self._log(f"referee box: {error}")
 
     async def _upload_states(self, writer: asyncio.StreamWriter) -> None:
-        """Send the newest world state at a steady rate; a box that does not read misses some, and at last the link."""
+        """Send the newest world state at a steady rate; returns when the box has not read for too long."""
         due = read_at = self._live.now
         while True:
             waiting = writer.transport.get_write_buffer_size()

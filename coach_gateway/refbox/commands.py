@@ -1,11 +1,11 @@
-"""The box's commands in JSON since 2020 (RefBox 2, jsonCommands.pdf), both ways. Pure."""
+"""The box's commands in JSON since 2020, both ways. Pure."""
 
 import json
 from typing import Any, NamedTuple
 
 from schemas.league.signals import SIGNALS, Signal
 
-_OTHER_WORDS = {
+_ALIASES = {
     "GAMEOVER": ("GAME_OVER",),
     "DROP_BALL": ("DROPPED_BALL",),
     "HALF_TIME": ("HALFTIME",),
@@ -15,7 +15,7 @@ _OTHER_WORDS = {
     "REPAIR_END": ("REPAIR_IN",),
     "PARK": ("PARKING",),
 }
-"""Spellings met beside the code's own: the document's, and older ones."""
+"""Signal → other spellings in use: those of the league's document, and older ones."""
 
 
 def _plain(word: str) -> str:
@@ -23,50 +23,50 @@ def _plain(word: str) -> str:
 
 
 _BY_WORD: dict[str, Signal] = {
-    _plain(word): signal for signal in SIGNALS for word in (signal.name, *_OTHER_WORDS.get(signal.name, ()))
+    _plain(word): signal for signal in SIGNALS for word in (signal.name, *_ALIASES.get(signal.name, ()))
 }
 
 
 class BoxCommand(NamedTuple):
-    """One command as the box says it."""
+    """One command of the box."""
 
     signal: Signal
     target: str = ""
-    """Which team is meant, by the address that the box calls it by; empty for both."""
+    """The address that the box uses for the team; empty for both teams."""
     robot: int | None = None
 
 
 class NoCommandError(ValueError):
-    """An object that is no command; the sentence says why."""
+    """An object that is not a command; the message has the reason."""
 
 
-def read(said: dict[str, Any]) -> BoxCommand:
-    """The command in an object; letters' case, underscores and hyphens do not matter, nor do further fields.
+def read(content: dict[str, Any]) -> BoxCommand:
+    """The command in an object; case, underscores, hyphens and further fields do not matter.
 
     Raises:
-        NoCommandError: it has none, or one that nobody knows.
+        NoCommandError: there is no command in it, or an unknown one.
     """
-    fields = {_plain(str(key)): value for key, value in said.items()}
+    fields = {_plain(str(key)): value for key, value in content.items()}
     word = fields.get("COMMAND")
     if not isinstance(word, str):
-        raise NoCommandError(f"no command in {json.dumps(said)[:60]}")
+        raise NoCommandError(f"no command in {json.dumps(content)[:60]}")
     signal = _BY_WORD.get(_plain(word))
     if signal is None:
-        raise NoCommandError(f'"{word[:40]}" is no command of the referee box')
+        raise NoCommandError(f'"{word[:40]}" is not a command of the referee box')
     target = fields.get("TARGETTEAM")
     return BoxCommand(signal, target.strip() if isinstance(target, str) else "", _robot(fields.get("ROBOTID")))
 
 
 def write(command: BoxCommand) -> bytes:
-    """The command as it goes over the wire."""
-    said: dict[str, Any] = {"command": command.signal.name, "targetTeam": command.target}
+    """The bytes of a command on the wire."""
+    content: dict[str, Any] = {"command": command.signal.name, "targetTeam": command.target}
     if command.robot is not None:
-        said["robotID"] = command.robot
-    return json.dumps(said).encode() + b"\x00"
+        content["robotID"] = command.robot
+    return json.dumps(content).encode() + b"\x00"
 
 
 def _robot(value: Any) -> int | None:
-    """The box says -1 where it means no robot in particular."""
+    """The robot's number; None where it is missing, or −1 as the box sends for no robot in particular."""
     if isinstance(value, str):
         value = value.strip()
         value = int(value) if value.isascii() and value.isdigit() and len(value) < 4 else None

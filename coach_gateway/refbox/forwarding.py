@@ -1,15 +1,16 @@
-"""What a base station of ours does about a signal of the league's referee box: one table. Pure.
+"""What a base station of ours does for each signal of the league's referee box, as one table. Pure.
 
-Two base stations of ours may hear one box: then each passes on what is meant for its own side, and cyan's what is meant
-for both.
+Two base stations of ours may be connected to one box. Then each forwards the signals for its own side, and cyan's also
+those for both.
 """
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
-from schemas.game import REFBOX, RESTARTS, ActionName, EventKind, GameStage, GameState, Phase, RefereeAction
+from schemas.game import REFBOX, RESTARTS, ActionName, EventKind, GameStage, Phase
 from schemas.league.signals import SIGNALS, Signal
 from schemas.messages.coach import CoachMode
+from schemas.messages.game import GameState, RefereeAction
 from schemas.side import Side
 
 BREAKS = (Phase.HALF_TIME, Phase.PARKING)
@@ -20,17 +21,17 @@ WAITS_FOR_START = RESTARTS | {Phase.PRE_GAME, Phase.STOPPED, *BREAKS}
 
 @dataclass(frozen=True, slots=True)
 class SignalResponse:
-    """What is to be done about one signal."""
+    """The actions and orders that follow from one signal."""
 
     actions: tuple[RefereeAction, ...] = ()
-    """For the referee, one after the other."""
+    """Actions for the referee, one after the other."""
     until_running: bool = False
-    """The last action is asked for again until the game runs: the box's START lets play begin at once, ours brings the
-    game on by one step."""
+    """The last action is repeated until the game runs: the box's START lets play begin at once, ours advances the game
+    by one step."""
     order: CoachMode | None = None
-    """For the sides that this base station speaks for."""
+    """Order for the sides that this base station speaks for."""
     reason: str = ""
-    """Why nothing is done, where our game has no word for it."""
+    """Why nothing is done, where our game has no counterpart."""
 
 
 _NOTHING = SignalResponse()
@@ -48,7 +49,7 @@ def _plain(name: ActionName) -> _Rule:
 def _for_robot(name: ActionName) -> _Rule:
     def rule(signal: Signal, side: Side | None, robot: str | None, _state: GameState) -> SignalResponse:
         if robot is None:
-            return SignalResponse(reason=f"{signal.name} for {side} names no robot that plays")
+            return SignalResponse(reason=f"{signal.name} for {side} names no robot of the match")
         return SignalResponse((_action(name, robot=robot),))
 
     return rule
@@ -60,7 +61,7 @@ def _start(_signal: Signal, _side: Side | None, _robot: str | None, state: GameS
 
 
 def _restart(signal: Signal, side: Side | None, _robot: str | None, state: GameState) -> SignalResponse:
-    """The restart itself; after a break the half has to begin first, which signals the kick-off of the right side."""
+    """The restart itself. After a break the half has to begin first, which signals the kick-off of the right side."""
     if signal.phase is None or (state.phase, state.side, state.running) == (signal.phase, side, False):
         return _NOTHING
     wanted = _action(ActionName(signal.phase.value), side)
@@ -72,7 +73,7 @@ def _next_half(_signal: Signal, _side: Side | None, _robot: str | None, state: G
 
 
 def _end(_signal: Signal, _side: Side | None, _robot: str | None, state: GameState) -> SignalResponse:
-    """The box ends the second half with it, and overtime may follow."""
+    """The end of the half or the game: the box ends the second half with it, too, and overtime may follow."""
     goes_on = state.half > 1 and state.stage is not GameStage.SHOOT_OUT
     return SignalResponse((_action(ActionName.END_HALF if goes_on else ActionName.END_GAME),))
 
@@ -82,7 +83,7 @@ def _park(_signal: Signal, _side: Side | None, _robot: str | None, _state: GameS
 
 
 def _known(_signal: Signal, _side: Side | None, _robot: str | None, _state: GameState) -> SignalResponse:
-    """Our game need not be told."""
+    """Our game needs no action for it."""
     return _NOTHING
 
 
@@ -128,19 +129,19 @@ FORWARD: Mapping[str, _Rule] = {
 
 
 def response_to(signal: Signal, side: Side | None, robot: str | None, state: GameState) -> SignalResponse:
-    """What a signal leads to: `side` is whom it is meant for, `robot` the name of the robot, if it names one."""
+    """What follows from a signal for `side`; `robot` is the name of the robot, if the signal names one."""
     if signal.sided and side is None:
-        return SignalResponse(reason=f"{signal.name} does not tell which team is meant")
+        return SignalResponse(reason=f"{signal.name} does not name its team")
     return FORWARD[signal.name](signal, side, robot, state)
 
 
 def speaks_for(own: Side, connected: Collection[Side]) -> tuple[Side, ...]:
-    """The sides that a base station speaks for: its own, and the other while nobody else does."""
+    """The sides that a base station speaks for: its own, and the other while that has no base station."""
     return (own,) if own.opponent in connected else (own, own.opponent)
 
 
 def is_ours(signal: Signal, side: Side | None, own: Side, connected: Collection[Side]) -> bool:
-    """Whether the base station of `own` passes a signal on; base stations of the sides `connected` hear a box."""
+    """Whether the base station of `own` forwards a signal; `connected` are the sides whose base stations have a box."""
     if signal.sided and side is not None:
         return side in speaks_for(own, connected)
     return own is Side.CYAN or own.opponent not in connected

@@ -1,7 +1,7 @@
 """From a stream of bytes to messages: JSON objects ended by a zero byte, or single characters. Pure.
 
-However the stream is cut into pieces, the messages are the same. What is no message is counted and left out, and the
-next zero byte begins anew.
+The messages do not depend on how the stream is cut into pieces. Anything else is counted and left out, and reading
+resumes after the next zero byte.
 """
 
 import json
@@ -12,55 +12,56 @@ from typing import Any
 from schemas.league.signals import BY_CHARACTER
 
 LIMIT = 65_536
-"""Bytes of one JSON message; more is a sender that forgets its zero bytes. Teams' world states have 2 to 10 kB."""
+"""Bytes of one JSON message, at most; a larger one comes from a sender without zero bytes. World states of teams have
+2 to 10 kB."""
 _END = b"\x00"
 _SILENT = b"\x00\r\n"
-"""Between characters they mean nothing."""
+"""Bytes without meaning between characters."""
 _DECODER = json.JSONDecoder(strict=False)
 
 
 class BoxProtocol(StrEnum):
-    """How a referee box speaks."""
+    """The protocol of a referee box."""
 
     AUTO = "auto"
-    """As its first bytes show: JSON begins with a brace."""
+    """Detected by the first bytes: JSON begins with a brace."""
     JSON = "json"
     CHARACTERS = "characters"
 
 
 class Framer:
-    """Takes one connection's bytes."""
+    """Splits one connection's bytes into messages."""
 
     def __init__(self, protocol: BoxProtocol = BoxProtocol.AUTO, limit: int = LIMIT) -> None:
         self.protocol = protocol
-        """How the sender speaks, as far as that is known."""
+        """The protocol of the sender, as far as it is known."""
         self.garbage = 0
-        """Pieces that were no message; of characters each, of JSON each that had to be passed over."""
+        """Pieces that were not a message: single characters, or whole pieces of JSON that had to be skipped."""
         self._may_change = protocol is BoxProtocol.AUTO
         self._limit = limit
         self._piece = bytearray()
-        self._passing_over = False
+        self._skipping = False
 
     def feed(self, data: bytes) -> list[dict[str, Any] | str]:
         """The messages that these bytes complete: objects, or single characters."""
         messages: list[dict[str, Any] | str] = []
         at = 0
         while at < len(data):
-            if self.protocol is BoxProtocol.JSON or self._passing_over:
+            if self.protocol is BoxProtocol.JSON or self._skipping:
                 at = self._json(data, at, messages)
             else:
                 at = self._character(data, at, messages)
         return messages
 
     def _character(self, data: bytes, at: int, messages: list[dict[str, Any] | str]) -> int:
-        """One character; a brace is none: with it JSON begins, where nobody said that there is none."""
+        """Read one character. A brace begins JSON, unless the protocol was set to characters."""
         byte = data[at : at + 1]
         if byte == b"{":
             if self._may_change:
                 self.protocol = BoxProtocol.JSON
             else:
                 self.garbage += 1
-                self._passing_over = True
+                self._skipping = True
             return at
         character = byte.decode("latin-1")
         if character in BY_CHARACTER and (self.protocol is BoxProtocol.CHARACTERS or character != " "):
@@ -71,25 +72,25 @@ class Framer:
         return at + 1
 
     def _json(self, data: bytes, at: int, messages: list[dict[str, Any] | str]) -> int:
-        """Up to the next zero byte, or to the end of the data."""
+        """Read JSON up to the next zero byte, or to the end of the data."""
         end = data.find(_END, at)
         stop = len(data) if end < 0 else end
-        if not self._passing_over:
+        if not self._skipping:
             self._piece += data[at:stop]
             if len(self._piece) > self._limit:
                 self._piece.clear()
                 self.garbage += 1
-                self._passing_over = True
+                self._skipping = True
         if end < 0:
             return stop
-        if not self._passing_over:
+        if not self._skipping:
             messages.extend(self._objects(self._piece.decode("utf-8", errors="replace")))
         self._piece.clear()
-        self._passing_over = False
+        self._skipping = False
         return end + 1
 
     def _objects(self, text: str) -> Iterator[dict[str, Any]]:
-        """The objects of a piece; behind one that is broken, the rest of the piece is passed over."""
+        """The objects of a piece; after a broken one, the rest of the piece is skipped."""
         at = 0
         while text[at:].strip():
             begin = text.find("{", at)

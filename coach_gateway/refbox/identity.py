@@ -1,8 +1,8 @@
-"""Which team a base station is: by what it says, or by the port it came to; never by its address. Pure.
+"""Which team a base station belongs to: by its messages, or by the port it connects to; never by its address. Pure.
 
-It may declare itself: `{"type": "hello", "team": "cyan"}` with the colour or the team's name, or with the `token` of
-its coach, and with the `address` that it wants to be called by. Software that knows no such word is known by the
-`teamName` of its world states, or by a port that is one team's.
+A base station may identify itself: `{"type": "hello", "team": "cyan"}` with the colour or the team's name, or with the
+`token` of its coach, and with the `address` that it wants to be addressed by. Software without this message is
+identified by the `teamName` of its world states, or by a port that one team alone uses.
 """
 
 from collections.abc import Callable, Mapping
@@ -16,18 +16,18 @@ _MAX_WORD = 80
 
 
 class Identity(NamedTuple):
-    """Who has come, and by what it wants to be called."""
+    """The side of a base station, and the address that it wants."""
 
     side: Side
     address: str | None = None
 
 
 class UnknownTeamError(ValueError):
-    """It says who it is, and is not; the sentence tells why."""
+    """A base station has identified itself wrongly; the message has the reason."""
 
 
 def targets(names: Mapping[Side, str], addresses: Mapping[Side, str]) -> dict[Side, str]:
-    """By what each team is called in commands: its own wish, else its name; of two alike, magenta's ends with `:1`."""
+    """The address of each team in commands: the wanted one, else its name; if both are equal, magenta's gets `:1`."""
     called = {side: addresses.get(side) or names[side] for side in Side}
     if called[Side.CYAN] == called[Side.MAGENTA]:
         called[Side.MAGENTA] += ":1"
@@ -35,24 +35,24 @@ def targets(names: Mapping[Side, str], addresses: Mapping[Side, str]) -> dict[Si
 
 
 def identify(
-    said: Mapping[str, Any], names: Mapping[Side, str], of_token: Callable[[str], Side | None]
+    message: Mapping[str, Any], names: Mapping[Side, str], of_token: Callable[[str], Side | None]
 ) -> Identity | None:
-    """Who says this; nothing where that does not tell.
+    """The identity in a message; None where it has none.
 
     Raises:
-        UnknownTeamError: a name that no team has, or a token that is nobody's.
+        UnknownTeamError: a name that no team has, or an unknown token.
     """
-    if said.get("type") != HELLO:
-        team = said.get("teamName")
+    if message.get("type") != HELLO:
+        team = message.get("teamName")
         side = _by_name(team, names) if isinstance(team, str) else None
         return Identity(side) if side is not None else None
-    address = said.get("address")
+    address = message.get("address")
     called = address.strip()[:_MAX_WORD] if isinstance(address, str) and address.strip() else None
-    token, team = said.get("token"), said.get("team")
+    token, team = message.get("token"), message.get("team")
     if isinstance(token, str) and token:
         side = of_token(token)
         if side is None:
-            raise UnknownTeamError("the token is nobody's")
+            raise UnknownTeamError("unknown token")
         return Identity(side, called)
     side = _by_name(team, names) if isinstance(team, str) else None
     if side is None:
@@ -62,7 +62,7 @@ def identify(
 
 
 def _by_name(word: str, names: Mapping[Side, str]) -> Side | None:
-    """By colour, or by a name that one team alone has."""
+    """The side of a colour, or of a name that one team alone has."""
     plain = word.strip().lower()
     found = [side for side in Side if plain == side.value] or [
         side for side in Side if plain == names[side].strip().lower()

@@ -1,25 +1,25 @@
-"""What a base station of ours tells the referee box of the world: its robots' own words, where they speak. Pure.
+"""The world state that a base station of ours sends to the referee box, from its robots' own beliefs. Pure.
 
-Robots say on the radio where they are and where they see the ball. What a robot has not said lately is taken from the
-truth, and so are the opponents, of whom no word is said.
+Robots send on the radio where they are and where they see the ball. What a robot has not sent lately is taken from the
+truth, as are the opponents.
 """
 
 from collections.abc import Mapping
 from typing import Any
 
 from schemas.frames import Pose
-from schemas.game import GameState
 from schemas.league.robot_numbers import numbers_of
 from schemas.league.world_state import BallSeen, ObstacleSeen, RobotSeen, world_state
-from schemas.messages.command import Radio
-from schemas.messages.host import Belief, Setup
+from schemas.messages.game import GameState
+from schemas.messages.radio import Belief, Radio
+from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 
 OLD = 1.0
-"""Simulated time in s after which a word no longer counts. Ours: the radio carries one in every tick or every tenth."""
+"""Simulated time in s after which a belief no longer counts. Chosen here: robots send one each tick, or each tenth."""
 _SURE_FOR = 2.0
-"""s since a ball was seen until nobody is sure of it any more. Ours."""
+"""s since a ball was seen after which its confidence is 0. Chosen here."""
 
 
 def own_world_state(
@@ -30,13 +30,13 @@ def own_world_state(
     world: World,
     beliefs: Mapping[str, Belief],
 ) -> dict[str, Any]:
-    """The league's world state of a side; `beliefs` are the newest words of each robot, in the team frame."""
+    """The league's world state of a side; `beliefs` are the newest of each robot, in the team frame."""
     attack = side.attack(state.cyan_attacks if state is not None else 1)
     playing = {name: robot for name, robot in world.robots.items() if robot.off_field is None}
     mine = [name for name in playing if sides.get(name) is side]
-    words = {name: beliefs[name] for name in mine if name in beliefs and world.time - beliefs[name].time <= OLD}
+    recent = {name: beliefs[name] for name in mine if name in beliefs and world.time - beliefs[name].time <= OLD}
     numbers = numbers_of(sides)
-    ages = [world.time - word.time for word in words.values()]
+    ages = [world.time - belief.time for belief in recent.values()]
     obstacles = [
         ObstacleSeen(robot.x, robot.y, robot.vx, robot.vy, setup.robot.radius)
         for name, robot in playing.items()
@@ -46,30 +46,30 @@ def own_world_state(
     return world_state(
         setup.teams[side].name,
         attack,
-        [_robot(numbers[name], playing[name], words.get(name), attack) for name in mine],
-        _balls(setup, world, words, attack),
+        [_robot(numbers[name], playing[name], recent.get(name), attack) for name in mine],
+        _balls(setup, world, recent, attack),
         obstacles,
         age_ms=max(0, round(max(ages, default=0.0) * 1e3)),
     )
 
 
-def _robot(number: int, truth: RobotTruth, word: Belief | None, attack: int) -> RobotSeen:
-    radio = word.radio if word is not None else Radio()
-    said = radio.self
-    if said is None:
+def _robot(number: int, truth: RobotTruth, belief: Belief | None, attack: int) -> RobotSeen:
+    radio = belief.radio if belief is not None else Radio()
+    own = radio.self
+    if own is None:
         motion = (truth.x, truth.y, truth.heading, truth.vx, truth.vy, truth.omega)
     else:
-        pose = Pose(said.x, said.y, said.heading).team(attack)
-        motion = (pose.x, pose.y, pose.heading, attack * said.vx, attack * said.vy, said.omega)
+        pose = Pose(own.x, own.y, own.heading).team(attack)
+        motion = (pose.x, pose.y, pose.heading, attack * own.vx, attack * own.vy, own.omega)
     return RobotSeen(number, *motion, truth.holding, radio.intention or "")
 
 
-def _balls(setup: Setup, world: World, words: Mapping[str, Belief], attack: int) -> list[BallSeen]:
-    """The ball as the robot saw it that saw it last; the true one where nobody of the team speaks at all."""
-    if not words:
+def _balls(setup: Setup, world: World, beliefs: Mapping[str, Belief], attack: int) -> list[BallSeen]:
+    """The ball as last seen by any robot; the true ball where no robot of the team sends anything."""
+    if not beliefs:
         ball = world.ball
         return [BallSeen(ball.x, ball.y, ball.z, ball.vx, ball.vy, ball.vz)]
-    seen = [(word.radio.ball, world.time - word.time) for word in words.values() if word.radio.ball is not None]
+    seen = [(one.radio.ball, world.time - one.time) for one in beliefs.values() if one.radio.ball is not None]
     if not seen:
         return []
     newest, since = min(seen, key=lambda one: one[0].age + one[1])

@@ -1,7 +1,7 @@
-"""Our referee in place of the league's box: team software that connects hears its commands and tells it of the world.
+"""Our referee in place of the league's box: sends its commands to team software, and receives world states from it.
 
-Each command goes to everybody, with the address of the team that it means; WELCOME tells each its own. Somebody who
-does not read is dropped before what waits for it becomes much; nobody waits for anybody.
+Each command goes to all base stations, with the address of the team that it is for; WELCOME has each one's own address.
+A base station that does not read is dropped before much waits for it; none waits for another.
 """
 
 import asyncio
@@ -11,36 +11,36 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.ports import cannot_listen
+from coach_gateway.ports import LOOPBACK, cannot_listen
 from coach_gateway.refbox import DEFAULT_PORT, commands
 from coach_gateway.refbox.call_generator import CallGenerator
 from coach_gateway.refbox.commands import BoxCommand
 from coach_gateway.refbox.framing import BoxProtocol, Framer
 from coach_gateway.refbox.identity import Identity, UnknownTeamError, identify, targets
 from coach_gateway.refbox.team_world_state import TeamWorldState
-from schemas.game import GameState
 from schemas.league.calls import Call
 from schemas.league.robot_numbers import numbers_of
 from schemas.league.signals import BY_NAME, START, STOP
+from schemas.messages.game import GameState
 from schemas.side import Side
 
 MOST = 16
-"""Base stations at the same time; of more, those give way who have not said who they are, or they are turned away."""
+"""Base stations at the same time. A further one replaces one that has not identified itself, or is turned away."""
 UNREAD = 65_536
-"""Bytes that may wait for one that does not read. Ours: some thousand commands."""
+"""Bytes that may wait for a base station that does not read, about a thousand commands. Chosen here."""
 _SILENCE_S = 1.0
-"""s of wall time after which one that has not said who it is is welcomed all the same, with no team's address: some
-software waits for that before it says anything."""
+"""s of wall time after which a base station that has not identified itself is welcomed without an address: some
+software waits for the welcome before it sends anything."""
 _WELCOME = BY_NAME["WELCOME"]
 
 
 @dataclass(frozen=True, slots=True)
 class ServerAddress:
-    """Where to listen; whoever comes to the door of one side belongs to it."""
+    """Where to listen; base stations on the port of one side belong to that side."""
 
     port: int = DEFAULT_PORT
     side: Side | None = None
-    host: str = "127.0.0.1"
+    host: str = LOOPBACK
 
 
 @dataclass(eq=False)
@@ -54,7 +54,7 @@ class _Peer:
 
 
 class RefBoxServer:
-    """Everybody who is connected."""
+    """Serves all base stations that connect."""
 
     def __init__(
         self,
@@ -63,7 +63,7 @@ class RefBoxServer:
         log: Callable[[str], None],
         of_token: Callable[[str], Side | None] = lambda _token: None,
     ) -> None:
-        """`log` is given a line whenever people should know something; `of_token` tells whose coach has a token."""
+        """`log` is called with lines for people; `of_token` returns the side whose coach has a token."""
         self._live = live
         self._server_addresses = server_addresses
         self._log = log
@@ -72,9 +72,9 @@ class RefBoxServer:
         self._addresses: dict[Side, str] = {}
         self._peers: list[_Peer] = []
         self.ports: list[int] = []
-        """Where it listens, once it does."""
+        """Ports that it listens on, once it does."""
         self.team_states: dict[Side, TeamWorldState] = {side: TeamWorldState() for side in Side}
-        """What each team tells of the world."""
+        """The world states of each team."""
         live.on_state(self._send_calls)
 
     async def serve(self, stop: asyncio.Event) -> None:
@@ -102,7 +102,7 @@ class RefBoxServer:
             raise cannot_listen("--refbox-server", address.host, address.port, error) from None
 
     def send(self, calls: Sequence[Call]) -> None:
-        """Send these commands to everybody."""
+        """Send these commands to all base stations."""
         if calls and self._live.setup is not None:
             called = self._targets()
             numbers = numbers_of(self._live.sides)
@@ -128,7 +128,7 @@ class RefBoxServer:
     async def _run_connection(
         self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, address: ServerAddress
     ) -> None:
-        """One connection, from its beginning to its end."""
+        """Serve one connection from its beginning to its end."""
         host, port = (writer.get_extra_info("peername") or ("gone", 0))[:2]
         peer = _Peer(writer, f"{host}:{port}")
         if len(self._peers) >= MOST and not self._make_room():
@@ -141,9 +141,9 @@ class RefBoxServer:
             if address.side is not None:
                 self._settle(peer, Identity(address.side))
             while data := await reader.read(16_384):
-                for said in peer.framer.feed(data):
-                    if isinstance(said, dict):
-                        self._read_object(peer, said)
+                for message in peer.framer.feed(data):
+                    if isinstance(message, dict):
+                        self._read_object(peer, message)
         except (OSError, UnknownTeamError) as error:
             self._log(f"base station {peer.name}: {error}")
         finally:
@@ -151,29 +151,29 @@ class RefBoxServer:
             self._forget(peer)
 
     def _make_room(self) -> bool:
-        """Whether somebody gives way: whoever came first of those who have not said who they are."""
+        """Drop the first base station that has not identified itself; returns whether there was one."""
         unidentified = next((peer for peer in self._peers if peer.side is None), None)
         if unidentified is None:
             return False
-        self._log(f"base station {unidentified.name} gives way: it has not said who it is, and {MOST} are connected")
+        self._log(f"base station {unidentified.name} is dropped: it has no identity, and {MOST} are connected")
         self._drop(unidentified)
         return True
 
-    def _read_object(self, peer: _Peer, said: dict[str, Any]) -> None:
-        """One object of a base station: who it is, or how it sees the world.
+    def _read_object(self, peer: _Peer, message: dict[str, Any]) -> None:
+        """Handle one object of a base station: its identity, or its world state.
 
         Raises:
-            UnknownTeamError: it says that it is somebody whom nobody knows.
+            UnknownTeamError: it identifies itself as an unknown team.
         """
-        if peer.side is None or said.get("type") == "hello":
-            identity = identify(said, self._names(), self._of_token)
+        if peer.side is None or message.get("type") == "hello":
+            identity = identify(message, self._names(), self._of_token)
             if identity is not None:
                 self._settle(peer, identity)
-        if peer.side is not None and said.get("type") != "hello":
-            self.team_states[peer.side].update(said, self._live.now)
+        if peer.side is not None and message.get("type") != "hello":
+            self.team_states[peer.side].update(message, self._live.now)
 
     def _settle(self, peer: _Peer, identity: Identity) -> None:
-        """It is known who this is; one who was there for the team is replaced, and each team is told its address."""
+        """Note the identity of a base station; it replaces an earlier one of its team, and is sent its address."""
         for other in [other for other in self._peers if other is not peer and other.side is identity.side]:
             self._log(f"{identity.side}'s base station {other.name} is replaced by {peer.name}")
             self._drop(other)
@@ -183,7 +183,7 @@ class RefBoxServer:
             changed = changed or self._addresses.get(peer.side) != identity.address
             self._addresses[peer.side] = identity.address
         if changed:
-            self._log(f"{peer.side}'s base station has come from {peer.name}")
+            self._log(f"{peer.side}'s base station is {peer.name}")
             self._welcome(peer)
 
     def _welcome_unidentified(self, peer: _Peer) -> None:
@@ -191,11 +191,11 @@ class RefBoxServer:
             self._welcome(peer)
 
     def _welcome(self, peer: _Peer) -> None:
-        """Its own address, and whether the game runs: nobody plays on because it came late."""
+        """Send its own address, and whether the game runs: a team that connects late must know of a stop."""
         address = self._targets()[peer.side] if peer.side is not None else ""
         state = self._live.state
-        stands = START if state is not None and state.running else STOP
-        self._send(peer, commands.write(BoxCommand(_WELCOME, address)) + commands.write(BoxCommand(stands)))
+        running = START if state is not None and state.running else STOP
+        self._send(peer, commands.write(BoxCommand(_WELCOME, address)) + commands.write(BoxCommand(running)))
 
     def _send(self, peer: _Peer, text: bytes) -> None:
         transport = peer.writer.transport
@@ -214,6 +214,6 @@ class RefBoxServer:
     def _forget(self, peer: _Peer) -> None:
         self._drop(peer)
         who = f"{peer.side}'s base station {peer.name}" if peer.side is not None else f"base station {peer.name}"
-        told = f"; {self.team_states[peer.side].summary()}" if peer.side is not None else ""
-        odd = f"; {peer.framer.garbage} pieces that were no message" if peer.framer.garbage else ""
-        self._log(f"{who} is gone{told}{odd}")
+        summary = f"; {self.team_states[peer.side].summary()}" if peer.side is not None else ""
+        odd = f"; {peer.framer.garbage} pieces that were not a message" if peer.framer.garbage else ""
+        self._log(f"{who} is gone{summary}{odd}")

@@ -1,4 +1,4 @@
-"""What a team's base station tells of the world, read leniently: counted, and kept as it came."""
+"""The world states of a team's base station: read leniently, counted, and kept as they came."""
 
 from typing import Any
 
@@ -13,22 +13,22 @@ class TeamWorldState:
         self.states = 0
         """World states that could be read."""
         self.others = 0
-        """Objects that were none."""
+        """Objects that were not world states."""
         self.findings = Findings()
         """How they differ from the league's schema."""
         self.newest: dict[str, Any] | None = None
-        """As it came."""
+        """The newest world state as it came."""
         self.newest_at = 0.0
-        """When it came, wall time in s."""
+        """Wall time in s at which it came."""
 
-    def update(self, said: dict[str, Any], now: float) -> None:
-        """The next object, at wall time `now` in s."""
-        fields = fields_of(said, self.findings)
+    def update(self, content: dict[str, Any], now: float) -> None:
+        """Take in an object that came at wall time `now` in s."""
+        fields = fields_of(content, self.findings)
         if "robots" not in fields and fields.get("type") != "worldstate":
             self.others += 1
             return
         self.states += 1
-        self.newest, self.newest_at = said, now
+        self.newest, self.newest_at = content, now
         self.findings.place = f"world state {self.states}"
         for key in REQUIRED:
             if key not in fields:
@@ -40,10 +40,10 @@ class TeamWorldState:
                 self.findings.note("robot without a position", lost=True)
 
     def summary(self) -> str:
-        """In words."""
+        """Counts and findings as text."""
         odd = [*self.findings.lost, *self.findings.coped]
         kinds = "; ".join(f"{finding.what} ({finding.count})" for finding in odd[:3])
         more = f" and {len(odd) - 3} kinds more" if len(odd) > 3 else ""
         unlike = f", unlike the schema: {kinds}{more}" if odd else ""
-        others = f", {self.others} objects that are none" if self.others else ""
+        others = f", {self.others} other objects" if self.others else ""
         return f"{self.states} world states{others}{unlike}"

@@ -1,7 +1,7 @@
-"""Coach programs over UDP: JSON datagrams both ways, numbered and acknowledged. Knows the bus, no physics.
+"""Coach programs over UDP: JSON datagrams both ways, numbered and acknowledged. Knows the bus, and no physics.
 
-The paper's coach sent datagrams that one robot alone could take; here each order goes to every robot of its side.
+The paper's coach sent datagrams that only one robot could receive; here each order goes to every robot of its side.
 """
 
 DEFAULT_PORT = 28090
-"""Ours; the league's ports begin at 28097."""
+"""Chosen for this project, below the league's ports, which begin at 28097."""

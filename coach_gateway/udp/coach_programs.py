@@ -1,4 +1,4 @@
-"""All coach programs: who may come, what they may ask, what is answered at once and what has to be done. Pure."""
+"""The sessions of all coach programs: which datagrams are acknowledged at once, and which become requests. Pure."""
 
 import hmac
 import json
@@ -11,6 +11,7 @@ from pydantic import ValidationError
 
 from coach_gateway.access import rights
 from coach_gateway.access.rate_limit import TokenBucket
+from coach_gateway.access.roles import COACHES, Role
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode, Meaning, for_coach, for_referee
 from coach_gateway.udp.protocol import (
     MAX_BYTES,
@@ -25,25 +26,25 @@ from coach_gateway.udp.protocol import (
     ProgramRequest,
 )
 from coach_gateway.udp.session import AT_ONCE, PER_SECOND, SequenceStatus, Session
-from coach_gateway.web.protocol import OrderContent, PageAction, PageOrder, Role
-from schemas.faults import fault_of
-from schemas.game import ActionName, RefereeAction
+from schemas.game import ActionName
 from schemas.messages.coach import CoachMode
+from schemas.messages.game import RefereeAction
 from schemas.side import Side
+from schemas.wire.faults import fault_of
 
 MOST = 64
-"""Programs at the same time."""
+"""Programs that may be connected at the same time."""
 MOST_WAITING = 8
-"""Datagrams of one program that may wait for the host's answer; a stop may always be asked for."""
+"""Datagrams of one program that may wait for the host's reply; a stop is always accepted."""
 UNKNOWN_PER_SECOND, UNKNOWN_AT_ONCE = 20.0, 50.0
-"""Datagrams without a session that are read at all; the others are left out and not answered."""
+"""Datagrams without a session that are read per second; others are dropped without a reply."""
 
 Address = tuple[Any, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class PendingRequest:
-    """Something to be done for a program, and to be answered when it is."""
+    """An action or an order of a program that is carried out before it is acknowledged."""
 
     session: Session
     address: Address
@@ -51,43 +52,43 @@ class PendingRequest:
     kind: str
     action: RefereeAction | None = None
     sides: tuple[Side, ...] = ()
-    """Whom an order is for."""
+    """The sides that an order is for."""
     order: Mapping[str, Any] | None = None
 
     @property
     def is_stop(self) -> bool:
-        """The game is to be stopped."""
+        """Whether the request stops the game."""
         return self.action is not None and self.action.action is ActionName.STOP
 
 
 @dataclass(frozen=True, slots=True)
 class DatagramResult:
-    """What comes of a datagram: an answer at once, something to be done, or nothing at all."""
+    """What follows from a datagram: an acknowledgement, a request to carry out, or nothing."""
 
     ack: Ack | None = None
     request: PendingRequest | None = None
     events_since: int | None = None
-    """Tell the events from this one on again."""
+    """Number of the first event to send again."""
 
 
 _NOTHING = DatagramResult()
 
 
 class CoachPrograms:
-    """The sessions, by the address that their datagrams come from."""
+    """The sessions, by the source address of their datagrams."""
 
     def __init__(self, role_of: Callable[[str], Role | None], now: float) -> None:
-        """`role_of` tells whom a token stands for; `now` is wall time in s."""
+        """`role_of` returns the role of a token; `now` is wall time in s."""
         self._role_of = role_of
         self._unknown_limit = TokenBucket(UNKNOWN_PER_SECOND, UNKNOWN_AT_ONCE, now)
         self.sessions: dict[Address, Session] = {}
         self.invalid = 0
-        """Datagrams that were none of the protocol."""
+        """Datagrams that were invalid."""
         self.left_out = 0
-        """Datagrams of nobody's session, beyond what is read."""
+        """Datagrams without a session beyond the rate limit."""
 
     def handle(self, data: bytes, address: Address, now: float, robots: Mapping[str, Side]) -> DatagramResult:
-        """The next datagram; `robots` are all that take part."""
+        """Handle a datagram at wall time `now` in s; `robots` are all robots of the match with their sides."""
         session = self.sessions.get(address)
         if session is None and not self._unknown_limit.allow(now):
             self.left_out += 1
@@ -102,28 +103,28 @@ class CoachPrograms:
             return DatagramResult(self._begin(ask, address, now))
         if session is None or not hmac.compare_digest(session.key.encode(), ask.session.encode()):
             return DatagramResult(
-                _refused(ask, "there is no such session here; say hello, and give the session it answers")
+                _refused(ask, "unknown session; send a hello, and use the session of its acknowledgement")
             )
         session.heard_at = now
         return self._dispatch(session, ask, address, robots)
 
     def end(self, address: Address) -> None:
-        """A session is over."""
+        """End the session of an address."""
         self.sessions.pop(address, None)
 
     def finish(self, request: PendingRequest, ack: Ack) -> None:
-        """Something is done: its answer is kept in case the datagram comes again."""
+        """Keep the acknowledgement of a request, in case its datagram comes again."""
         request.session.answered(request.sequence, ack)
 
     def _begin(self, hello: Hello, address: Address, now: float) -> Ack:
-        """A program comes, or begins anew; a hello that comes again is answered with the session it began.
+        """Begin a session; a repeated hello gets the acknowledgement of the session that it began.
 
-        One that is said after anything else, whatever its number, is that of a program that was started again.
+        A hello after any other datagram is that of a restarted program, whatever its number.
         """
         session = self.sessions.get(address)
         role = self._role_of(hello.token)
         if role is None or role is Role.SPECTATOR:
-            return _refused(hello, "the token is nobody's; a side's coach or the referee has one")
+            return _refused(hello, "unknown token; use that of a side's coach or of the referee")
         if session is not None and session.role is role and hello.sequence == session.newest:
             known = session.answer(hello.sequence)
             if known is not None and known.of == "hello":
@@ -150,7 +151,7 @@ class CoachPrograms:
             return DatagramResult(before.model_copy(update={"duplicate": True})) if before is not None else _NOTHING
         done = self._do(session, ask, address, robots)
         if isinstance(done, PendingRequest) and session.waiting > MOST_WAITING and not done.is_stop:
-            done = f"{MOST_WAITING} datagrams of this program still wait for their answers"
+            done = f"{MOST_WAITING} datagrams of this program still wait for their acknowledgements"
         if isinstance(done, PendingRequest):
             return DatagramResult(request=done)
         ack = Ack(sequence=ask.sequence, of=ask.kind, accepted=not done, reason=done)
@@ -162,7 +163,7 @@ class CoachPrograms:
     def _do(
         self, session: Session, ask: ProgramRequest, address: Address, robots: Mapping[str, Side]
     ) -> PendingRequest | str:
-        """What is to be done; otherwise why not, empty where nothing more is to be done."""
+        """The request to carry out; otherwise the reason of a refusal, empty where nothing is left to do."""
         match ask:
             case ProgramAction():
                 return _act(session, ask.sequence, ask.kind, address, ask.action, robots)
@@ -174,7 +175,7 @@ class CoachPrograms:
 
 
 def _read(data: bytes) -> Any:
-    """The valid datagram, or the refusal of one that is none."""
+    """The valid datagram, or the refusal of an invalid one."""
     if len(data) > MAX_BYTES:
         return Ack(sequence=None, accepted=False, reason=f"{len(data)} bytes, at most {MAX_BYTES}")
     try:
@@ -203,13 +204,13 @@ def _refused(ask: Any, reason: str) -> Ack:
 
 
 def _late(ask: Any) -> Ack:
-    return _refused(ask, "late: a datagram with a larger number has been heard; say it again with a new number")
+    return _refused(ask, "late: a datagram with a larger number has been received; send it again with a new number")
 
 
 def _act(
     session: Session, sequence: int, kind: str, address: Address, action: RefereeAction, robots: Mapping[str, Side]
 ) -> PendingRequest | str:
-    why = rights.refusal(session.role, PageAction(id=0, deed="action", action=action), robots)
+    why = rights.refusal(session.role, action.action.value, robots, robot=action.robot)
     if why is not None:
         return why
     return PendingRequest(
@@ -218,10 +219,10 @@ def _act(
 
 
 def _order(session: Session, ask: ProgramOrder, address: Address, robots: Mapping[str, Side]) -> PendingRequest | str:
-    side = ask.side or rights.COACHES.get(session.role)
+    side = ask.side or COACHES.get(session.role)
     if side is None:
         return "the referee's order has to name its side"
-    why = rights.refusal(session.role, PageOrder(id=0, deed="order", side=side, order=OrderContent()), robots)
+    why = rights.refusal(session.role, "order", robots, side=side)
     if why is not None:
         return why
     content = ask.order.content()
@@ -241,13 +242,13 @@ def _match_mode(
     except KeyError:
         return f"mode is {ask.mode}; known: {', '.join(str(known.number) for known in MatchMode)}"
     if mode is MatchMode.TEST:
-        return "a test is an order: it says which"
-    own = rights.COACHES.get(session.role)
+        return "a test is an order, which names the test"
+    own = COACHES.get(session.role)
     if own is not None and ask.side not in (None, own):
         return f"the match mode of {ask.side} is not for {own.value}'s coach"
     meaning = for_coach(mode) if own is not None else for_referee(mode, ask.side or Side.CYAN)
     if meaning is None:
-        return f"{mode.value} is the referee's to give: it needs the referee's token"
+        return f"{mode.value} is for the referee alone: it needs the referee's token"
     return _request_for(session, ask, address, meaning, robots)
 
 
@@ -257,6 +258,6 @@ def _request_for(
     if meaning.action is not None:
         action = RefereeAction(action=meaning.action, side=meaning.side)
         return _act(session, ask.sequence, ask.kind, address, action, robots)
-    own = rights.COACHES.get(session.role)
+    own = COACHES.get(session.role)
     sides = (own,) if own is not None else tuple(Side) if ask.side is None else (ask.side,)
     return PendingRequest(session, address, ask.sequence, ask.kind, sides=sides, order={"mode": meaning.order})

@@ -1,7 +1,7 @@
-"""The words and numbers of the coach record of the NuBot coach program (simatch), both ways. Pure.
+"""The words and numbers of the coach record that the programs of the paper's authors send, both ways. Pure.
 
-`MatchMode` is what is played, as one team sees it; a test mode's number tells the test, and for motion also whether the
-ball is brought along and what is in the way avoided.
+`MatchMode` is what is played from one team's point of view. The number of a test mode has the test, and for motion also
+whether the ball is taken along and whether obstacles are avoided.
 """
 
 from enum import StrEnum
@@ -35,7 +35,7 @@ class MatchMode(StrEnum):
 
     @property
     def number(self) -> int:
-        """As the record has it."""
+        """The number in the record."""
         return _NUMBERS[self]
 
     @classmethod
@@ -43,13 +43,13 @@ class MatchMode(StrEnum):
         """The mode of a number.
 
         Raises:
-            KeyError: no mode has it.
+            KeyError: no mode has this number.
         """
         return _BY_NUMBER[number]
 
     @classmethod
     def of_game(cls, phase: TeamPhase, *, running: bool) -> "MatchMode":
-        """What a record would say of a game in that phase; before, between and after the halves robots are stopped."""
+        """The mode of a game in that phase; before, between and after the halves it is `stop`."""
         if running or phase is TeamPhase.PLAY:
             return cls.START
         if phase is TeamPhase.PARKING:
@@ -66,7 +66,7 @@ _BY_NUMBER = {number: mode for mode, number in _NUMBERS.items()}
 
 
 class RecordedTest(NamedTuple):
-    """One of the record's test modes, in the words of an order."""
+    """One of the record's test modes, as fields of an order."""
 
     test: CoachTest
     with_ball: bool = False
@@ -87,11 +87,11 @@ TEST_MODES: dict[int, RecordedTest] = {
 }
 """Number → test mode."""
 TEST_NUMBERS = {mode: number for number, mode in TEST_MODES.items()}
-"""Test mode → number; tests that the record does not know have none."""
+"""Test mode → number; tests that the record lacks have none."""
 
 
 class Meaning(NamedTuple):
-    """What a match mode asks for: an action of the referee, or an order to the robots of a side."""
+    """What a match mode requests: an action of the referee, or an order to the robots of a side."""
 
     action: ActionName | None = None
     side: Side | None = None
@@ -107,13 +107,13 @@ _ACTIONS = {
 
 
 def for_coach(mode: MatchMode) -> Meaning | None:
-    """What a side's coach can bring about by a match mode; nothing where it is the referee's."""
+    """What a match mode means from a side's coach; None where it is for the referee alone."""
     order = _ORDERS.get(mode)
     return Meaning(order=order) if order is not None else None
 
 
 def for_referee(mode: MatchMode, own: Side) -> Meaning | None:
-    """What the referee brings about by a match mode that is said from one side's point of view; a test is an order."""
+    """What a match mode means from the referee, from the point of view of `own`; None for a test, which is an order."""
     if mode in _ACTIONS:
         return Meaning(action=_ACTIONS[mode])
     if mode is MatchMode.PARK:

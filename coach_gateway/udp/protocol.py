@@ -1,28 +1,29 @@
-"""What coach programs and the gateway say to each other: one JSON object a datagram, described in `docs/coach.md`.
+"""Messages between coach programs and the gateway: one JSON object a datagram, described in `docs/coach.md`.
 
-Each datagram of a coach has a number larger than those before it, and is answered by an `ack` with that number. What
-was not answered may be sent again with its number: it is done once, and answered again.
+Each datagram of a coach has a number larger than those before it, and gets an `ack` with that number. A datagram
+without an `ack` may be sent again with its number: it is carried out once, and acknowledged again.
 """
 
 from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints, TypeAdapter
 
+from coach_gateway.access.roles import Role
+from coach_gateway.match.orders import OrderContent
 from coach_gateway.udp.coach_record import MatchMode
-from coach_gateway.web.protocol import OrderContent, Role
-from schemas.game import GameEvent, GameState, RefereeAction
-from schemas.message import Name, Part
-from schemas.messages.host import Belief
+from schemas.messages.game import GameEvent, GameState, RefereeAction
+from schemas.messages.radio import Belief
 from schemas.side import Side
+from schemas.wire.message import Name, Part
 
 MAX_BYTES = 8192
 """A datagram that is longer is refused unread."""
 DEFAULT_RATE, MAX_RATE = 20.0, 50.0
-"""Frames a second."""
+"""Frames per second of wall time."""
 
 
 class _NumberedRequest(Part):
-    """What every datagram of a coach has."""
+    """Fields of every datagram of a coach."""
 
     sequence: Annotated[int, Field(ge=1, lt=2**53, strict=True)]
     """Larger than that of every datagram before it in this session."""
@@ -30,27 +31,27 @@ class _NumberedRequest(Part):
 
 class _InSession(_NumberedRequest):
     session: Annotated[str, StringConstraints(max_length=64)]
-    """As the answer to `hello` gave it."""
+    """The session in the acknowledgement of the hello."""
 
 
 class Hello(_NumberedRequest):
-    """Begins a session; said again from the same address, another."""
+    """Begins a session; a further hello from the same address begins another one."""
 
     kind: Literal["hello"]
     token: Annotated[str, StringConstraints(max_length=200)]
-    """A side's coach's, or the referee's."""
+    """The token of a side's coach, or of the referee."""
     name: Annotated[str, StringConstraints(max_length=40, pattern=r"^[^\x00-\x1f\x7f-\x9f]*$")] = "coach"
-    """By what its actions are told of."""
+    """The name that the match records for its actions."""
     rate: Annotated[float, Field(ge=1.0, le=MAX_RATE)] = DEFAULT_RATE
-    """Frames a second, of wall time."""
+    """Frames per second of wall time."""
 
 
 class ProgramOrder(_InSession):
-    """Gives a side its new standing order."""
+    """Sends a side its new order."""
 
     kind: Literal["order"]
     side: Side | None = None
-    """A coach's own when left out; the referee says which."""
+    """By default the coach's own side; required from the referee."""
     order: OrderContent
     """A `CoachOrder` without its number; points in that team's frame, SI."""
     test_mode: Annotated[int, Field(ge=0, le=99)] | None = None
@@ -58,12 +59,12 @@ class ProgramOrder(_InSession):
 
 
 class ProgramMatchMode(_InSession):
-    """Says what is to be played, in the words or numbers of the paper's coach record."""
+    """Requests what is to be played, by a word or number of the paper's coach record."""
 
     kind: Literal["match_mode"]
     mode: MatchMode | int
     side: Side | None = None
-    """From whose point of view; a coach's own when left out, cyan's for the referee."""
+    """The side whose point of view it is; by default the coach's own, cyan for the referee."""
 
 
 class ProgramAction(_InSession):
@@ -74,15 +75,15 @@ class ProgramAction(_InSession):
 
 
 class ProgramEvents(_InSession):
-    """Asks for events once more, of which one was lost."""
+    """Asks for past events again, after one was lost."""
 
     kind: Literal["events"]
     since: Annotated[int, Field(ge=0)]
-    """Number of the first one wanted."""
+    """Number of the first event to send."""
 
 
 class KeepAlive(_InSession):
-    """Says that the program is still there; any other datagram does as well."""
+    """Keeps the session alive, as does any other datagram."""
 
     kind: Literal["alive"]
 
@@ -102,39 +103,39 @@ PROGRAM_REQUEST: TypeAdapter[ProgramRequest] = TypeAdapter(ProgramRequest)
 
 
 class Ack(Part):
-    """The answer to the datagram of that number."""
+    """The acknowledgement of the datagram of that number."""
 
     kind: Literal["ack"] = "ack"
     sequence: int | None
-    """Nothing where the datagram was so broken that it had none."""
+    """None where the number of the datagram could not be read."""
     of: str = ""
     """Kind of the datagram."""
     accepted: bool
     reason: str = ""
     """Why it was refused."""
     duplicate: bool = False
-    """It was answered before; nothing was done a second time."""
+    """The datagram was acknowledged before; it was not carried out again."""
     session: str | None = None
-    """Of a hello: what all further datagrams have to say."""
+    """Of a hello: the session of all further datagrams."""
     role: Role | None = None
-    """Of a hello: whom the token stands for."""
+    """Of a hello: the role of the token."""
     order: int | None = None
     """Of an order: its number on the bus, which the robots acknowledge."""
     acknowledged: list[Name] = []
-    """Of an order: robots that have acknowledged it so far; a frame tells of the others."""
+    """Of an order: robots that have acknowledged it so far; later ones are in the frames."""
     missing: list[Name] = []
-    """Of an order: robots that have not."""
+    """Of an order: robots that have not acknowledged it yet."""
 
 
 class SideOrder(Part):
-    """A side's standing order, and who has acknowledged it."""
+    """The number of a side's active order, and its acknowledgements."""
 
     order: int
     acknowledged: dict[Name, bool]
 
 
 class Frame(Part):
-    """How things stand, at the rate asked for."""
+    """The state of the match, at the rate of the hello."""
 
     kind: Literal["frame"] = "frame"
     number: int
@@ -142,27 +143,27 @@ class Frame(Part):
     host: bool
     """The host of the match is there."""
     match_mode: dict[Side, MatchMode] = {}
-    """What is played, as each side sees it, in the words of the paper's coach record."""
+    """What is played, from each side's point of view, in the words of the paper's coach record."""
     state: GameState | None = None
     events: int = 0
-    """How many events there were so far."""
+    """Number of events so far."""
     orders: dict[Side, SideOrder] = {}
-    """Of the coach's own side; of both for the referee."""
+    """The order of the coach's own side; of both sides for the referee."""
 
 
 class BeliefUpdate(Part):
-    """What a robot said last, after each frame, for every robot that said something new."""
+    """A robot's newest belief; sent after a frame for every robot with a new one."""
 
     kind: Literal["belief"] = "belief"
     number: int
-    """Of the frame it belongs to."""
+    """Number of the frame that it belongs to."""
     side: Side
     belief: Belief
     """In its team's frame."""
 
 
 class EventUpdate(Part):
-    """Something that happened, once; `events` asks for one that was lost."""
+    """Something that happened, sent once; `events` requests a lost one."""
 
     kind: Literal["event"] = "event"
     number: int

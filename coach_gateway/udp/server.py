@@ -1,27 +1,28 @@
-"""The socket that coach programs speak to: nobody waits for anybody, and what is lost is known by its number."""
+"""The socket that coach programs use. No program waits for another; lost datagrams show as gaps in the numbers."""
 
 import asyncio
 from collections.abc import Callable
 from typing import Any
 
 from coach_gateway.access.rights import sides_shown
-from coach_gateway.match.live import LiveMatch, pause
-from coach_gateway.ports import cannot_listen
+from coach_gateway.access.roles import Role
+from coach_gateway.match.live import LiveMatch
+from coach_gateway.ports import LOOPBACK, cannot_listen
+from coach_gateway.service import pause
 from coach_gateway.udp import DEFAULT_PORT
 from coach_gateway.udp.coach_programs import Address, CoachPrograms, PendingRequest
 from coach_gateway.udp.coach_record import MatchMode
 from coach_gateway.udp.protocol import Ack, BeliefUpdate, EventUpdate, Frame, SessionEnd, SideOrder
 from coach_gateway.udp.session import SILENCE_S, Session
-from coach_gateway.web.protocol import Role
 from schemas.errors import TouchlineError
 from schemas.game import TeamPhase
-from schemas.message import Part
 from schemas.side import Side
+from schemas.wire.message import Part
 
 _LOOK_S = 0.01
 """s of wall time between two looks at which program is due."""
 _EVENTS_AT_ONCE = 50
-"""Told at most with one frame, or for one datagram that asks for them: more would be lost in a full buffer."""
+"""Events sent at most with one frame, or for one request for events: more would be lost in a full buffer."""
 
 
 class UdpServer(asyncio.DatagramProtocol):
@@ -33,22 +34,22 @@ class UdpServer(asyncio.DatagramProtocol):
         role_of: Callable[[str], Role | None],
         log: Callable[[str], None],
         port: int = DEFAULT_PORT,
-        host: str = "127.0.0.1",
+        host: str = LOOPBACK,
     ) -> None:
-        """`role_of` tells whom a token stands for; `log` is given a line whenever people should know something."""
+        """`role_of` returns the role of a token; `log` is called with lines for people."""
         self._live = live
         self._log = log
         self._at = (host, port)
         self._coaches = CoachPrograms(role_of, live.now)
         self._transport: asyncio.DatagramTransport | None = None
         self._full = False
-        """The socket takes no more just now: frames are left out."""
+        """The socket's buffer is full: frames are left out."""
         self._tasks: dict[asyncio.Task[None], None] = {}
         self.port = 0
         """Where it listens, once it does."""
 
     async def serve(self, stop: asyncio.Event) -> None:
-        """Hear coach programs, and tell them how things stand, until `stop` is set.
+        """Receive datagrams of coach programs and send them frames until `stop` is set.
 
         Raises:
             TouchlineError: the port is taken.
@@ -72,7 +73,7 @@ class UdpServer(asyncio.DatagramProtocol):
             transport.close()
 
     def datagram_received(self, data: bytes, addr: Address) -> None:
-        """A datagram came."""
+        """Handle a datagram."""
         result = self._coaches.handle(data, addr, self._live.now, self._live.sides)
         if result.ack is not None:
             self._send(result.ack, addr)
@@ -89,18 +90,18 @@ class UdpServer(asyncio.DatagramProtocol):
             task.add_done_callback(lambda done: self._tasks.pop(done, None))
 
     def pause_writing(self) -> None:
-        """The socket is full."""
+        """Leave out frames: the socket's buffer is full."""
         self._full = True
 
     def resume_writing(self) -> None:
-        """The socket takes datagrams again."""
+        """Send frames again: the socket's buffer has room."""
         self._full = False
 
     def error_received(self, exc: Exception) -> None:
-        """A program's port is closed: its session ends by its silence."""
+        """Ignore that a program's port is closed: its session ends by its silence."""
 
     async def _do(self, request: PendingRequest) -> None:
-        """Ask the referee or give an order, and answer."""
+        """Ask the referee or send an order, and acknowledge the datagram."""
         ack: dict[str, Any] = {"sequence": request.sequence, "of": request.kind}
         if request.action is not None:
             reply = await self._live.act(request.action)
@@ -118,19 +119,19 @@ class UdpServer(asyncio.DatagramProtocol):
                 number = order.sequence
         except TouchlineError as error:
             return Ack(**ack, accepted=False, reason=str(error))
-        receipts = [self._live.orders.book.receipt(side, number or 0) for side in request.sides]
+        receipts = [self._live.orders.receipt(side, number or 0) for side in request.sides]
         had = [name for receipt in receipts for name in receipt.acknowledged]
         robots = [name for name, its in self._live.sides.items() if its in request.sides]
         missing = [name for name in robots if name not in had]
         return Ack(**ack, accepted=True, order=number, acknowledged=had, missing=missing)
 
     def _send_due(self) -> None:
-        """Frames to those who are due, and an end to those who have fallen silent."""
+        """Send frames to sessions that are due, and end those that have fallen silent."""
         now = self._live.now
         for address, session in tuple(self._coaches.sessions.items()):
             if session.is_over(now):
                 self._coaches.end(address)
-                self._send(SessionEnd(reason=f"nothing was heard for {SILENCE_S:g} s"), address)
+                self._send(SessionEnd(reason=f"nothing was received for {SILENCE_S:g} s"), address)
                 self._log(f"{session.role} program {session.name} has fallen silent")
             elif now >= session.due_at:
                 session.due_at = max(session.due_at + 1.0 / session.rate, now)
@@ -147,10 +148,10 @@ class UdpServer(asyncio.DatagramProtocol):
                 if session.beliefs_sent.get(robot) != belief.time:
                     session.beliefs_sent[robot] = belief.time
                     self._send(BeliefUpdate(number=session.frames, side=side, belief=belief), address)
-        told = min(session.events_sent, len(self._live.events)) if session.hosts == self._live.hosts else 0
+        sent = min(session.events_sent, len(self._live.events)) if session.hosts == self._live.hosts else 0
         session.hosts = self._live.hosts
-        session.events_sent = min(len(self._live.events), told + _EVENTS_AT_ONCE)
-        for number in range(told, session.events_sent):
+        session.events_sent = min(len(self._live.events), sent + _EVENTS_AT_ONCE)
+        for number in range(sent, session.events_sent):
             self._send_event(number, address)
 
     def _frame(self, session: Session, own: list[Side]) -> Frame:
@@ -161,7 +162,7 @@ class UdpServer(asyncio.DatagramProtocol):
             modes = {side: MatchMode.of_game(phase, running=state.running) for side, phase in phases.items()}
         orders = {}
         for side in own:
-            active = live.orders.book.active(side)
+            active = live.orders.active(side)
             if active is not None:
                 orders[side] = SideOrder(order=active.order.sequence, acknowledged=active.acknowledged)
         return Frame(

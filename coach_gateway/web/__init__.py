@@ -1,1 +1,1 @@
-"""The page's server: frames, state and events out to any number of browsers, commands in from those that may."""
+"""The page's server: sends frames, state and events to any number of browsers, and takes requests by their rights."""

@@ -1,4 +1,4 @@
-"""What the page's server needs before there is any match: its socket, its tokens, and who may come in."""
+"""What the page's server needs before there is a match: its socket, its tokens, and the allowed origins."""
 
 import socket
 from collections.abc import Iterator
@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from coach_gateway.access.origins import Origins
+from coach_gateway.access.roles import Role
 from coach_gateway.access.tokens import Tokens, page_address
 from coach_gateway.web.listener import listen, origin_of
-from coach_gateway.web.protocol import Role
 from coach_gateway.web.settings import WebSettings
 
 
 @dataclass(frozen=True, slots=True)
 class PageBinding:
-    """A page that people can be told of: who comes before it is served waits a moment."""
+    """A bound socket with its access rules. A browser that connects before the page is served waits in its backlog."""
 
     settings: WebSettings
     listener: socket.socket
@@ -24,11 +24,11 @@ class PageBinding:
 
     @property
     def origin(self) -> str:
-        """Where a browser on this machine finds the page."""
+        """The page's address for a browser on this machine."""
         return origin_of(*self.listener.getsockname()[:2])
 
     def lines(self) -> Iterator[str]:
-        """Where to find the page, and with which token: a log that others may read has none."""
+        """The page's address, and the file of the tokens; without one, the address of each role with its token."""
         yield f"page: {self.origin}/"
         if self.tokens_file is not None:
             yield f"tokens: {self.tokens_file}"
@@ -38,10 +38,10 @@ class PageBinding:
 
 
 def bind_page(settings: WebSettings, tokens: Tokens, tokens_file: Path | None = None) -> PageBinding:
-    """Listen; `tokens_file` is where the tokens stand, if they are in a file.
+    """Open the page's socket and listen on it; `tokens_file` holds the tokens, if a file does.
 
     Raises:
-        TouchlineError: the port is taken, an origin is none.
+        TouchlineError: the port is taken, or an origin is invalid.
     """
     origins = Origins(settings.allow_origin)
     return PageBinding(settings, listen(settings.listen_web, settings.port), tokens, tokens_file, origins)

@@ -1,8 +1,9 @@
-"""What happens on the page's side of the match: follows the feed, welcomes pages, and tells all of them what is new."""
+"""Follows the match for all pages: welcomes each, and sends all of them what is new."""
 
 import asyncio
 
 from coach_gateway.access import rights
+from coach_gateway.access.roles import Role
 from coach_gateway.web.frame_pace import FramePace
 from coach_gateway.web.page_feed import PageFeed
 from coach_gateway.web.pages import Page, Pages
@@ -14,7 +15,6 @@ from coach_gateway.web.protocol import (
     PageRequest,
     PageTokenCheck,
     ReplayUpdate,
-    Role,
     Welcome,
 )
 from coach_gateway.web.requests import RequestHandler
@@ -28,17 +28,17 @@ from schemas.side import Side
 _LOOK_S = 0.01
 """s of wall time between two looks at the bus."""
 _STATUS_S = 0.2
-"""Likewise, between two looks at how a replay status."""
+"""s of wall time between two queries of a replay's status."""
 _SWEEP_S = 1.0
-"""Likewise, for pages that do not read; and what the line of each is tried after."""
+"""s of wall time between two checks for pages that do not read, and between two signs of life to each page."""
 _BEGINNING_S = 1.0
-"""s of simulated time in which the first picture of a recording is looked for."""
+"""s of simulated time from a recording's start in which its first tick is looked for."""
 _AGAIN_S = 0.5
-"""Wall time after which a host that did not answer is asked again."""
+"""s of wall time after which a host that did not answer is queried again."""
 
 
 class PageBroadcaster:
-    """The match as pages see it."""
+    """Sends one match to all pages."""
 
     def __init__(self, bus: Bus, pages: Pages, requests: RequestHandler, beliefs: BeliefsFor | None) -> None:
         self._bus, self._pages, self._requests = bus, pages, requests
@@ -48,7 +48,7 @@ class PageBroadcaster:
         self.feed = PageFeed(bus)
 
     async def follow(self, stop: asyncio.Event) -> None:
-        """Tell all pages what is new until `stop` is set."""
+        """Send all pages what is new until `stop` is set."""
         works = (self._broadcast(), self._follow_hosts(), self._follow_replay(), self._sweep())
         tasks = [asyncio.create_task(work) for work in works]
         stopped = asyncio.create_task(stop.wait())
@@ -62,7 +62,7 @@ class PageBroadcaster:
             task.result()
 
     def welcome(self, page: Page) -> None:
-        """Tell a page who it is and how things stand."""
+        """Send a page its role and rights, then everything that is known of the match."""
         feed, role = self.feed, page.role
         welcome = Welcome(
             role=role,
@@ -83,33 +83,33 @@ class PageBroadcaster:
             page.queue.put_frame(frame)
 
     def robots(self) -> dict[str, Side]:
-        """All robots that take part, and their sides."""
+        """All robots of the match, and their sides."""
         if self.feed.setup is None:
             return {}
         return {name: side for side, team in self.feed.setup.teams.items() for name in team.robots}
 
     def refusal(self, request: PageRequest) -> str | None:
-        """Why nobody can do this now, whoever asks; nothing when it can be."""
+        """Why no role can do this now; None when it can be done."""
         if isinstance(request, PageTokenCheck):
             return None
         if not self.feed.there:
             return "the host is gone; wait until it is back"
         if self.feed.setup is None:
-            return "the host has not said yet what it plays; try again"
+            return "the match is not known yet; try again"
         if not self.feed.live and isinstance(request, PageOrder | PageDrive):
             return "this is a replay: what is recorded cannot be changed"
         if self.feed.live and isinstance(request, PageReplay):
-            return "this is a match, and no replay"
+            return "this is a match, not a replay"
         if isinstance(request, PageDrive) and request.robot not in self.robots():
             return f'there is no robot "{request.robot}"'
         return None
 
     def send_replay(self, reply: ReplayReply) -> None:
-        """Tell all pages how the replay status."""
+        """Send all pages the status of the replay."""
         self._pages.send(ReplayUpdate(replay=reply).model_dump_json())
 
     def _beliefs_of(self, role: Role) -> list[Side]:
-        """Whose robots' beliefs a role is shown."""
+        """The sides whose robots' beliefs a role is shown."""
         wanted = self._beliefs
         if wanted is None:
             setup = self.feed.setup
@@ -118,11 +118,11 @@ class PageBroadcaster:
         return rights.sides_shown(role, to_all=wanted is BeliefsFor.ALL)
 
     def _orders_of(self, role: Role) -> list[Side]:
-        """Whose orders a role is shown: those of a match that is over are no secret."""
+        """The sides whose orders a role is shown; in a replay all of them."""
         return rights.sides_shown(role, to_all=not self.feed.live)
 
     async def _broadcast(self) -> None:
-        """Tell what has come, look after look; the time that one takes too long went into telling."""
+        """Send what has come, look after look. What a look takes beyond its period was spent on sending the frame."""
         clock, feed, pages = self._bus.clock, self.feed, self._pages
         sent_at: float | None = None
         while True:
@@ -143,7 +143,7 @@ class PageBroadcaster:
             await asyncio.sleep(_LOOK_S)
 
     def _show(self) -> None:
-        """Show everybody the newest frame: put together once for all who see the same."""
+        """Send everybody the newest frame, put together once for all roles that see the same."""
         made: dict[tuple[Side, ...], str | None] = {}
         for role in self._pages.roles():
             sides = tuple(self._beliefs_of(role))
@@ -154,7 +154,7 @@ class PageBroadcaster:
                 self._pages.send_frame(frame, role)
 
     async def _follow_hosts(self) -> None:
-        """Ask a host that comes, and one that lets others play, how its match is set up; welcome all pages anew."""
+        """Query the setup of a new host, or of one with other robots, and welcome all pages again."""
         while True:
             if self.feed.host_changed:
                 self.feed.host_changed = False
@@ -169,10 +169,10 @@ class PageBroadcaster:
             await asyncio.sleep(_LOOK_S)
 
     async def _ask_host(self) -> None:
-        """How the match is set up, and whether it is a replay; then what happens in the recording.
+        """Query how the match is set up and whether it is a replay, and the events of a replay's recording.
 
         Raises:
-            TouchlineError: it does not answer.
+            TouchlineError: the host does not answer.
         """
         client = self._requests.client
         setup = await asyncio.to_thread(client.setup)
@@ -184,20 +184,20 @@ class PageBroadcaster:
             self.feed.begin(setup, live=False, events=recorded.events)
 
     async def _follow_replay(self) -> None:
-        """Tell all pages again and again how a replay status."""
+        """Send all pages the status of a replay, several times a second."""
         while True:
             if self.feed.there and not self.feed.live and len(self._pages):
                 try:
                     self.send_replay(await asyncio.to_thread(self._ask_replay))
                 except TouchlineError:
-                    await asyncio.sleep(_AGAIN_S)  # it is about to be seen that the host has gone
+                    await asyncio.sleep(_AGAIN_S)  # the follower is about to notice that the host has left
             await asyncio.sleep(_STATUS_S)
 
     def _ask_replay(self) -> ReplayReply:
-        """How the replay stands; one that was begun paused shows nothing, and is led to its first picture.
+        """The status of the replay; one that starts paused is stepped to its first tick, so that there is a picture.
 
         Raises:
-            TouchlineError: it does not answer.
+            TouchlineError: the replay does not answer.
         """
         status = self._requests.client.replay(ReplayRequest())
         if status.paused and not self.feed.has_picture and status.time <= status.start + _BEGINNING_S:
@@ -205,7 +205,7 @@ class PageBroadcaster:
         return status
 
     async def _sweep(self) -> None:
-        """Drop pages that do not read, and let the others know that their line holds."""
+        """Drop pages that do not read, and send a sign of life to the others."""
         alive = Alive().model_dump_json()
         while True:
             self._pages.drop_stuck(self._bus.clock.now())

@@ -1,8 +1,8 @@
-"""How often a frame is told: fifty times a second, less often where telling all pages takes long. Pure."""
+"""How often a frame is sent: 50 times a second, less often if sending to all pages takes long. Pure."""
 
 _LEAST_S = 0.02
 _SHARE = 0.25
-"""Of its time that the server spends on telling frames, at most: the host plays on the same machine."""
+"""Share of its time that the server spends on frames, at most: the host may run on the same machine."""
 _NEW = 0.2
 """Weight of the newest measurement."""
 
@@ -20,12 +20,12 @@ class FramePace:
         return max(_LEAST_S, self._takes_s / _SHARE)
 
     def due(self, now: float) -> bool:
-        """Whether a frame may be told at this wall time in s; if so the next is due a period later."""
+        """Whether a frame may be sent at this wall time in s; if so, the next is due a period later."""
         if now < self._next_at:
             return False
         self._next_at = max(self._next_at + self.period, now + self.period / 2)
         return True
 
     def took(self, seconds: float) -> None:
-        """How long telling the last one took."""
+        """Note how long the last frame took to send."""
         self._takes_s += _NEW * (seconds - self._takes_s)

@@ -1,4 +1,4 @@
-"""The socket that the page is served on, and the address of it that a browser is given."""
+"""The socket that the page is served on, and its address for a browser."""
 
 import socket
 
@@ -7,16 +7,16 @@ from schemas.bus.endpoint import reserve_port
 from schemas.errors import TouchlineError
 
 _ROOM_BYTES = 65_536
-"""What the kernel keeps for a page that has not read it yet: some ten frames; of itself it would keep hundreds."""
+"""Bytes that the kernel buffers for a page that has not read them yet: about ten frames. Its default holds hundreds."""
 _HERE = {"0.0.0.0": "127.0.0.1", "::": "::1"}
-"""Every address → the one of this machine that a browser on it can use."""
+"""Wildcard address → the loopback address that a browser on this machine can use."""
 
 
 def listen(address: str, port: int) -> socket.socket:
-    """A socket that listens; what it accepts is cut when the other side has not read for long.
+    """A listening socket; a connection is cut when its other side has not read for 10 s.
 
     Raises:
-        TouchlineError: it cannot be had.
+        TouchlineError: the port cannot be listened on.
     """
     family = socket.AF_INET6 if ":" in address else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM)
@@ -26,7 +26,7 @@ def listen(address: str, port: int) -> socket.socket:
         listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT, round(2 * STUCK_S * 1000))
     try:
         listener.bind((address, port))
-        listener.listen()  # who comes before the server serves is not turned away
+        listener.listen()  # a browser that connects before the server serves is not turned away
     except (OSError, OverflowError) as error:
         listener.close()
         why = error.strerror if isinstance(error, OSError) else "a port is 0 to 65535"
@@ -37,16 +37,16 @@ def listen(address: str, port: int) -> socket.socket:
 
 
 def free_port(address: str, port: int) -> int:
-    """The port itself once it is sure that it can be listened on; a free one, given to nobody else, in place of 0.
+    """The port itself after a check that it can be listened on; for 0, a free port that is reserved.
 
     Raises:
-        TouchlineError: it cannot.
+        TouchlineError: the port cannot be listened on.
     """
     listen(address, port).close()
     return port or reserve_port(address)
 
 
 def origin_of(address: str, port: int) -> str:
-    """Where a browser on this machine finds what is served there."""
+    """The origin of what is served there, for a browser on this machine."""
     near = _HERE.get(address, address)
     return f"http://[{near}]:{port}" if ":" in near else f"http://{near}:{port}"

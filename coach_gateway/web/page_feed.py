@@ -1,91 +1,78 @@
-"""What the page is told of a match, as the bus brings it: the newest of what stands, and every event.
+"""What is new of a match as messages of the page: the newest state, health and frame, and every event.
 
-Payloads are validated here and handed on as they came, so that a frame is put together once for all pages.
+Payloads are validated by the follower and handed on as they came, and a frame is put together once for all pages.
 """
 
 from collections.abc import Iterable
-from typing import Any
 
-from coach_gateway.match.host_change import HostChangeDetector
-from coach_gateway.match.orders import OrderFollower
+from coach_gateway.match.follower import MatchFollower, MatchNews
 from coach_gateway.web.protocol import EventUpdate, OrdersUpdate, RefBoxUpdate, SideOrders
-from schemas.bus.contract import Bus, PresenceKind, ReceivedMessage, Subscription
-from schemas.bus.host_watch import HostWatch
-from schemas.game import GameEvent
-from schemas.message import BadMessageError
-from schemas.messages.host import Setup
+from schemas.bus.contract import Bus
+from schemas.messages.game import GameEvent
+from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
-from schemas.topics import BELIEF, EVENT, HEALTH, STATE, WORLD
+from schemas.topics import BELIEF, HEALTH, STATE, WORLD
 
 _EVENTS_KEPT = 2000
-"""Events of a match that a page is told of, the newest."""
+"""Events of a match that are sent to a new page, the newest."""
 
 
 class PageFeed:
-    """Follows one match, and knows how it stands."""
+    """One match as messages to pages."""
 
     def __init__(self, bus: Bus) -> None:
-        self._events = bus.subscribe(EVENT, history=True)
-        self._latched: tuple[tuple[str, Subscription], ...] = (
-            ("state", bus.subscribe(STATE, newest=True)),
-            ("health", bus.subscribe(HEALTH, newest=True)),
-        )
-        self._worlds = bus.subscribe(WORLD, newest=True)
-        self._belief_subscription = bus.subscribe(BELIEF, newest=True)
-        self._orders = OrderFollower(bus)
-        self._presence = HostWatch(bus)
-        self._others = bus.watch_alive()
-        self._refboxes: dict[str, bool] = {}
-        self._host_change = HostChangeDetector()
+        self._match = MatchFollower(bus, details=True)
         self._newest: dict[str, str] = {}
         self._events_sent: dict[str, None] = {}
-        self._world: tuple[str, str] | None = None
+        self._world: World | None = None
         self._roster: tuple[int | str, ...] | None = None
         self._beliefs: dict[Side, dict[str, str]] = {side: {} for side in Side}
         self.setup: Setup | None = None
-        """How the match is set up, as whoever owns this has asked."""
+        """How the match is set up; set by `begin`."""
         self.live = True
-        """A match; otherwise a replay, as whoever owns this has found."""
-        self.there = False
-        """The host is there."""
+        """A match; False for a replay. Set by `begin`."""
         self.host_changed = False
-        """A host has come, or others take part: whoever owns this asks it anew, and then says that it is no news."""
+        """A host has come, or other robots take part: the owner queries the host again, and resets this."""
         self.frame_changed = False
-        """There is another frame than when this was last set back."""
+        """There is another frame than when the owner last reset this."""
         self.orders_changed = False
-        """There is news of orders, likewise."""
-        self.unreadable = 0
-        """Messages that could not be read; each was left out."""
+        """There is news of orders since the owner last reset this."""
+
+    @property
+    def there(self) -> bool:
+        """The host is there."""
+        return self._match.there
 
     def update(self) -> list[str]:
-        """Take in what has come, without waiting; returns what all pages are to be told, in order."""
-        news: list[str] = []
-        there = not self._presence.has_left() and self._presence.seen
-        if there != self.there:
-            self.there = there
-            self.host_changed = self.host_changed or there
-            news.append(self._host())
-        if self._look_for_refboxes():
-            news.append(self._refbox())
-        for received in _all(self._events):
-            news.extend(self._event(received))
-        for kind, subscription in self._latched:
-            for payload in self._payloads(subscription):
-                self._newest[kind] = f'{{"kind":"{kind}","{kind}":{payload}}}'
-                news.append(self._newest[kind])
-        self._update_frame()
-        self.orders_changed = bool(self._orders.update()) or self.orders_changed
-        return news
+        """Take in what has come, without waiting; returns the messages for all pages, in order."""
+        news = self._match.update()
+        if news.new_host:
+            self._reset()
+        messages: list[str] = []
+        if news.presence_changed:
+            self.host_changed = self.host_changed or self.there
+            messages.append(self._host())
+        if news.refboxes_changed:
+            messages.append(self._refbox())
+        for event in news.events:
+            messages.extend(self._event(event))
+        for kind, topic, changed in (("state", STATE, news.states), ("health", HEALTH, news.healths)):
+            if changed:
+                self._newest[kind] = f'{{"kind":"{kind}","{kind}":{self._match.payloads[topic.key].decode()}}}'
+                messages.append(self._newest[kind])
+        self._update_frame(news)
+        self.orders_changed = self.orders_changed or bool(news.orders) or news.rewound
+        return messages
 
     def begin(self, setup: Setup | None, *, live: bool, events: Iterable[GameEvent] = ()) -> None:
-        """A host was asked how its match is set up; of a replay, `events` are all of the recording."""
+        """Take in the host's answer to how its match is set up; of a replay, `events` are all of the recording."""
         self.setup, self.live = setup, live
         if not live:
             self._events_sent = {_event_text(event): None for event in events}
 
     def snapshot(self) -> list[str]:
-        """What every page is told after its welcome, but for orders and the frame."""
+        """What is sent to every page after its welcome, but for orders and the frame."""
         return [self._host(), self._refbox(), *self._newest.values(), *self._events_sent]
 
     @property
@@ -94,18 +81,18 @@ class PageFeed:
         return self._world is not None
 
     def frame(self, beliefs: Iterable[Side]) -> str | None:
-        """The newest tick with what robots of these sides believe; nothing before it is known what is played."""
+        """The newest tick with the beliefs of the robots of these sides; None before the setup is known."""
         if self._world is None or self.setup is None:
             return None
-        head, world = self._world
-        words = ",".join(text for side in beliefs for text in self._beliefs[side].values())
-        return f'{{"kind":"frame",{head},"world":{world},"beliefs":{{{words}}}}}'
+        tick, time, world = self._world.tick, self._world.time, self._match.payloads[WORLD.key].decode()
+        shown = ",".join(text for side in beliefs for text in self._beliefs[side].values())
+        return f'{{"kind":"frame","tick":{tick},"time":{time!r},"world":{world},"beliefs":{{{shown}}}}}'
 
     def orders(self, sides: Iterable[Side]) -> str:
         """The orders of these sides."""
         shown: dict[str, SideOrders] = {}
         for side in sides:
-            active = self._orders.book.active(side)
+            active = self._match.orders.active(side)
             known = SideOrders(order=active.order, acknowledged=active.acknowledged) if active else SideOrders()
             shown[side.value] = known
         return OrdersUpdate.model_validate(shown).model_dump_json()
@@ -113,78 +100,50 @@ class PageFeed:
     def _host(self) -> str:
         return f'{{"kind":"host","there":{"true" if self.there else "false"}}}'
 
-    def _look_for_refboxes(self) -> bool:
-        """Whether a base station has come to a league's referee box, or gone."""
-        before = dict(self._refboxes)
-        while (presence := self._others.receive()) is not None:
-            if presence.kind is PresenceKind.REFBOX:
-                self._refboxes[presence.name] = presence.alive
-        return self._refboxes != before
-
     def _refbox(self) -> str:
-        there = [name for name, alive in self._refboxes.items() if alive]
-        team = Side(there[0]) if len(there) == 1 and there[0] in list(Side) else None
-        return RefBoxUpdate(connected=bool(there), team=team).model_dump_json()
+        connected = self._match.refboxes
+        team = Side(connected[0]) if len(connected) == 1 and connected[0] in list(Side) else None
+        return RefBoxUpdate(connected=bool(connected), team=team).model_dump_json()
 
-    def _event(self, received: ReceivedMessage) -> list[str]:
-        """What to say of an event; nothing of one that was told: a replay says again what has happened."""
-        event = self._read(received)
-        if event is None or (text := _event_text(event)) in self._events_sent:
+    def _event(self, event: GameEvent) -> list[str]:
+        """The message of an event; none for an event that was sent before: a replay repeats what has happened."""
+        text = _event_text(event)
+        if text in self._events_sent:
             return []
         self._events_sent[text] = None
         if len(self._events_sent) > _EVENTS_KEPT:
             del self._events_sent[next(iter(self._events_sent))]
         return [text]
 
-    def _update_frame(self) -> None:
-        for received in _all(self._worlds):
-            world = self._read(received)
-            if world is not None:
-                self._watch_roster(world)
-                self._world = f'"tick":{world.tick},"time":{world.time!r}', received.payload.decode()
-                self.frame_changed = True
-        for received in _all(self._belief_subscription):
-            belief = self._read(received)
-            side = received.chunks["side"]
-            if belief is not None and side in self._beliefs:
-                robot = received.chunks["robot"]
-                self._beliefs[Side(side)][robot] = f'"{robot}":{received.payload.decode()}'
+    def _update_frame(self, news: MatchNews) -> None:
+        """Take in the newest tick and beliefs; one that cannot be read leaves those before."""
+        world = self._match.world if news.world else None
+        if world is not None and world is not self._world:
+            self._watch_roster(world)
+            self._world = world
+            self.frame_changed = True
+        for key in news.beliefs:
+            payload, chunks = self._match.payloads.get(key), BELIEF.match(key) or {}
+            if payload is not None and chunks["side"] in self._beliefs:
+                robot = chunks["robot"]
+                self._beliefs[Side(chunks["side"])][robot] = f'"{robot}":{payload.decode()}'
 
     def _watch_roster(self, world: World) -> None:
-        """In a match, a scene or an operator may let others take part: then the host is asked again who does."""
+        """Have the host queried again where a scene or an operator has let other robots take part in a match."""
         roster: tuple[int | str, ...] = (world.episode, *world.robots)
         if self.live and self._roster is not None and roster != self._roster:
             self.host_changed = True
         self._roster = roster
 
-    def _payloads(self, subscription: Subscription) -> list[str]:
-        return [received.payload.decode() for received in _all(subscription) if self._read(received) is not None]
-
-    def _read(self, received: ReceivedMessage) -> Any:
-        """The valid message; nothing when it is none. Of another host's, it is the first that counts."""
-        try:
-            message = received.message()
-        except BadMessageError:
-            self.unreadable += 1
-            return None
-        if self._host_change.is_new_host(received):
-            self._reset()
-        return message
-
     def _reset(self) -> None:
-        """Another host plays: nothing of the one before counts."""
+        """Forget the host before: another one plays."""
         self._newest.clear()
         self._events_sent.clear()
         self._world = self._roster = self.setup = None
-        for words in self._beliefs.values():
-            words.clear()
-        self._orders.book.clear()
+        for texts in self._beliefs.values():
+            texts.clear()
         self.host_changed = True
 
 
 def _event_text(event: GameEvent) -> str:
     return EventUpdate(event=event).model_dump_json()
-
-
-def _all(subscription: Subscription) -> Iterable[ReceivedMessage]:
-    return iter(subscription.receive, None)

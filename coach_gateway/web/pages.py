@@ -1,94 +1,98 @@
-"""The pages that are open: what each is told, and what is held against it."""
+"""The open pages: what is sent to each, and what each has done wrong."""
 
 import asyncio
 from collections import Counter
 from collections.abc import Iterator
 
 from coach_gateway.access.rate_limit import TokenBucket
-from coach_gateway.web.protocol import Role
+from coach_gateway.access.roles import Role
 from coach_gateway.web.send_queue import SendQueue
 
 MESSAGES_PER_S = 100.0
-"""What a page may say; one that drives a robot says 20."""
+"""Messages that a page may send per second of wall time; a page that drives a robot sends 20."""
 MESSAGES_AT_ONCE = 200.0
 STUCK_S = 5.0
 """Wall time in s after which a page that does not read is dropped."""
 _MOST_BAD = 500
-"""Messages that could not be read or were too many, after which a page is sent away."""
+"""Unreadable or excess messages after which a page is disconnected."""
 _WRONG_TOKENS = 20
-
+"""Unknown tokens after which a page is disconnected."""
 
 _FAULTS = {
-    "foreign": "pages from elsewhere",
-    "full": "pages without room",
-    "bad": "messages that could not be read",
-    "too much": "messages too many",
-    "wrong token": "uses of a token that is nobody's",
-    "stuck": "pages that did not read",
+    "foreign": ("page refused for its origin", "pages refused for their origin"),
+    "full": ("page refused for lack of room", "pages refused for lack of room"),
+    "bad": ("unreadable message", "unreadable messages"),
+    "too much": ("message beyond the rate limit", "messages beyond the rate limit"),
+    "wrong token": ("unknown token", "unknown tokens"),
+    "stuck": ("page dropped that did not read", "pages dropped that did not read"),
 }
-"""What may go wrong with pages, by kind, in words."""
+"""Kind of fault → its description for one, and for several."""
 
 
 class Page:
     """One open page."""
 
     def __init__(self, origin: str | None, host: str | None, now: float, network: str | None = None) -> None:
-        """`network` is whom its room is counted for, as `coach_gateway.access.client_network.client_network` has it."""
+        """`network` is counted for the page, as returned by `coach_gateway.access.client_network.client_network`."""
         self.origin, self.host, self.network = origin, host, network
         self.role = Role.SPECTATOR
         self.queue = SendQueue()
         self.rate_limit = TokenBucket(MESSAGES_PER_S, MESSAGES_AT_ONCE, now)
         self.rate_limit_notice = TokenBucket(1.0, 5.0, now)
-        """How often it is told that it says too much."""
+        """How often it is notified of the rate limit."""
         self.welcomes = TokenBucket(1.0, 5.0, now)
-        """How often it is welcomed anew because it pending: a welcome brings the whole past with it."""
+        """How often it is welcomed again on request: a welcome brings all past events with it."""
         self.pending: set[asyncio.Task[None]] = set()
-        """What it has asked and not yet been answered."""
+        """Requests that have no reply yet."""
         self.sending_since: float | None = None
-        """Wall time in s since which it has been sent one message."""
+        """Wall time in s since which one message is being sent to it; None while none is."""
         self.leave = asyncio.Event()
-        """It is sent away, or does not read."""
+        """Set when it is to be disconnected."""
         self.close_reason = ""
-        """Why it is sent away."""
+        """Why it is disconnected; empty where it does not read."""
         self._bad = 0
         self._wrong_tokens = 0
 
-    def send_away(self, why: str) -> None:
-        """Close it, telling it why."""
+    def disconnect(self, why: str) -> None:
+        """Close it with a reason."""
         self.close_reason = self.close_reason or why
         self.leave.set()
 
     def note_bad(self) -> None:
-        """It said what could not be read, or too much."""
+        """Count an unreadable message, or one beyond the rate limit."""
         self._bad += 1
         if self._bad > _MOST_BAD:
-            self.send_away("this page says too much that cannot be understood")
+            self.disconnect("this page has sent too many messages that could not be read or were beyond the rate limit")
 
     def note_wrong_token(self) -> None:
-        """It used a token that is nobody's."""
+        """Count the use of an unknown token."""
         self._wrong_tokens += 1
         if self._wrong_tokens > _WRONG_TOKENS:
-            self.send_away("this page has tried too many tokens")
+            self.disconnect("this page has tried too many tokens")
 
     def is_stuck(self, now: float) -> bool:
-        """It does not read what it is sent."""
+        """Whether it does not read what it is sent."""
         since = self.sending_since
         return self.queue.overflows or (since is not None and now - since > STUCK_S)
 
 
 class Pages:
-    """All of them."""
+    """All open pages."""
 
     def __init__(self, most: int, each: int) -> None:
-        """So many at once, and so many of them from one home."""
+        """At most `most` pages at once, of these at most `each` from one network."""
         self._most, self._each = most, each
         self._open: dict[Page, None] = {}
         self.counts: Counter[str] = Counter()
-        """What went wrong, by kind."""
+        """Faults by kind."""
 
     def fault_summary(self) -> str:
-        """What went wrong, in words; empty where nothing did."""
-        return ", ".join(f"{self.counts[kind]} {words}" for kind, words in _FAULTS.items() if self.counts[kind])
+        """All faults with their numbers, as text; empty where there are none."""
+        return ", ".join(
+            f"{count} {one if count == 1 else many}"
+            for kind, (one, many) in _FAULTS.items()
+            if (count := self.counts[kind])
+        )
 
     def __len__(self) -> int:
         return len(self._open)
@@ -97,40 +101,40 @@ class Pages:
         return iter(tuple(self._open))
 
     def why_no_room(self, network: str | None) -> str:
-        """Why no further page of this network is let in, or nothing."""
+        """Why no further page of this network is admitted; empty when it is."""
         if len(self) >= self._most:
-            return f"{len(self)} pages are open, and no more are let in; try again later"
+            return f"{len(self)} pages are open, which is the limit; try again later"
         if network is not None and sum(page.network == network for page in self._open) >= self._each:
-            return f"{self._each} pages of your address are open; close one, or have more let in: --pages-per-address"
+            return f"{self._each} pages of your address are open; close one, or raise --pages-per-address"
         return ""
 
     def enter(self, page: Page) -> None:
-        """It is told everything from now on."""
+        """Send a page everything from now on."""
         self._open[page] = None
 
     def forget(self, page: Page) -> None:
-        """It has been closed."""
+        """Drop a page that has been closed."""
         self._open.pop(page, None)
 
     def roles(self) -> list[Role]:
-        """The roles that anybody watches in."""
+        """The roles of all open pages."""
         there = {page.role: None for page in self._open}
         return list(there)
 
     def send(self, text: str, role: Role | None = None) -> None:
-        """Tell all pages, or those of one role."""
+        """Send to all pages, or to those of one role."""
         for page in self._open:
             if role is None or page.role is role:
                 page.queue.put(text)
 
     def send_frame(self, frame: str, role: Role) -> None:
-        """Show the pages of a role a frame, in place of one that they have not read yet."""
+        """Send the pages of a role a frame, in place of one that still waits."""
         for page in self._open:
             if page.role is role:
                 page.queue.put_frame(frame)
 
     def drop_stuck(self, now: float) -> None:
-        """Drop those that do not read."""
+        """Drop pages that do not read."""
         for page in self:
             if page.is_stuck(now):
                 self.counts["stuck"] += 1

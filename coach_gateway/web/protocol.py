@@ -1,66 +1,55 @@
-"""What the page and its server say to each other: JSON over the WebSocket `/ws`, one message a frame.
+"""Messages between the page and its server: JSON over the WebSocket `/ws`, one message a frame.
 
-The server begins with `Welcome`, then says how things stand: whether the host is there, the newest state, health and
-orders, every event so far in order, the newest frame, and how a replay stands. A page forgets all that it knew whenever
-a welcome comes: one comes again when the page asks what its token is worth, and when a host comes back. Each message of
-the page is answered by one `Reply` with its `id`; a `drive` only where it is refused.
+The server begins with `Welcome`, then sends all that is known: whether the host is there, the newest state, health and
+orders, every event so far in order, the newest frame, and the status of a replay. A page forgets everything whenever a
+welcome comes. Another welcome comes when the page checks its token, and when a host comes back. Each message of the
+page gets one `Reply` with its `id`; a `drive` only if it is refused.
 
-What the host says is handed on whole, below the word that names it: an event has a `kind` of its own.
+Messages of the host are passed on whole, below a field that names them: an event has a `kind` of its own.
 """
 
-from enum import StrEnum
 from typing import Annotated, Any, Literal
 
-from msgspec import Meta
 from pydantic import Field, StringConstraints, TypeAdapter
 
-from schemas.config.scene import SceneRequest
-from schemas.game import GameEvent, GameState, RefereeAction
-from schemas.message import Name, Part
+from coach_gateway.access.roles import Role
+from coach_gateway.match.orders import OrderContent
 from schemas.messages.coach import CoachOrder
-from schemas.messages.host import Belief, Health, Setup
+from schemas.messages.game import GameEvent, GameState, RefereeAction
+from schemas.messages.health import Health
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParametersRequest
+from schemas.messages.radio import Belief
 from schemas.messages.replay import ReplayReply, ReplayRequest
+from schemas.messages.scene import SceneRequest
+from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
+from schemas.wire.message import Name, Part
 
 MAX_BYTES = 65_536
 """A message of the page that is longer is refused unread."""
 
 
-class Role(StrEnum):
-    """Whom a token stands for."""
-
-    SPECTATOR = "spectator"
-    """Nobody: the page without a token. Watches."""
-    CYAN = "cyan"
-    """The coach of cyan."""
-    MAGENTA = "magenta"
-    """The coach of magenta."""
-    REFEREE = "referee"
-    """The referee, who runs the match and may do everything."""
-
-
 class Welcome(Part):
-    """Who one is and what is played; whatever was known before is void."""
+    """The page's role, and what is played; everything sent before is void."""
 
     kind: Literal["welcome"] = "welcome"
     role: Role
     match: Name
     setup: Setup | None
-    """Nothing while no host has said it; then another welcome brings it."""
+    """None until the host has replied; then another welcome has it."""
     live: bool
-    """A match; otherwise a recording that is replayed."""
+    """True for a match, False for the replay of a recording."""
     deeds: list[str]
-    """What this role may do: names of the referee's actions, and `order`, `scene`, `parameters`, `read_parameters`,
+    """Deeds of this role: names of the referee's actions, and `order`, `scene`, `parameters`, `read_parameters`,
     `drive`, `replay`. A coach may do them for its own side alone."""
     beliefs: list[Side]
-    """Whose robots' beliefs this role is shown."""
+    """Sides whose robots' beliefs this role is shown."""
     orders: list[Side]
-    """Whose orders this role is shown."""
+    """Sides whose orders this role is shown."""
     scenes: dict[str, str] = {}
-    """Scenes that can be loaded by name, and what each is for."""
+    """Scenes that can be loaded by name, with their descriptions."""
 
 
 class HostUpdate(Part):
@@ -71,47 +60,47 @@ class HostUpdate(Part):
 
 
 class Frame(Part):
-    """The newest tick, up to 50 times in a second of wall time; those between are left out."""
+    """The newest tick, at most 50 times per second of wall time; ticks in between are left out."""
 
     kind: Literal["frame"] = "frame"
     tick: int
     time: float
     world: World
     beliefs: dict[Name, Belief]
-    """What robots of the sides in `Welcome.beliefs` said last, in their team's frame."""
+    """Newest beliefs of robots of the sides in `Welcome.beliefs`, in their team's frame."""
 
 
 class StateUpdate(Part):
-    """The game as the referee sees it."""
+    """The state of the game."""
 
     kind: Literal["state"] = "state"
     state: GameState
 
 
 class EventUpdate(Part):
-    """Something that happened. Of a replay all events of the recording come at the beginning, and none again."""
+    """Something that happened. In a replay all events of the recording come after the welcome, and none again."""
 
     kind: Literal["event"] = "event"
     event: GameEvent
 
 
 class HealthUpdate(Part):
-    """How the host is doing, and each robot's agent."""
+    """The health of the host and of each robot's agent."""
 
     kind: Literal["health"] = "health"
     health: Health
 
 
 class SideOrders(Part):
-    """The standing order of a side, and who has taken it in."""
+    """The active order of a side, and its acknowledgements."""
 
     order: CoachOrder | None = None
     acknowledged: dict[Name, bool] = {}
-    """Robot of the side → it has acknowledged this order."""
+    """Robot of the side → whether it has acknowledged this order."""
 
 
 class OrdersUpdate(Part):
-    """The orders of the sides in `Welcome.orders`; nothing for the others."""
+    """The orders of the sides in `Welcome.orders`; None for the others."""
 
     kind: Literal["orders"] = "orders"
     cyan: SideOrders | None = None
@@ -119,38 +108,38 @@ class OrdersUpdate(Part):
 
 
 class ReplayUpdate(Part):
-    """How a replay stands, several times a second."""
+    """The status of a replay, several times a second."""
 
     kind: Literal["replay"] = "replay"
     replay: ReplayReply
 
 
 class RefBoxUpdate(Part):
-    """Whether a league's referee box officiates: while it does, all of the referee's actions but stop are locked."""
+    """Whether a league's referee box is connected: while it is, all actions of the referee except stop are locked."""
 
     kind: Literal["refbox"] = "refbox"
     connected: bool
     team: Side | None = None
-    """As whose base station we are connected; nothing where that is both, or not known."""
+    """Side whose base station is connected; None where both are, or where it is not known."""
 
 
 class Alive(Part):
-    """ServerMessage every second: who hears nothing for several has lost the line, though nobody closed it."""
+    """Sent every second. A page that receives nothing for several seconds has lost the connection."""
 
     kind: Literal["alive"] = "alive"
 
 
 class Reply(Part):
-    """The answer to the page's message of this number."""
+    """The reply to the page's message of this number."""
 
     kind: Literal["reply"] = "reply"
     id: int | None
-    """Nothing where the message was so broken that it had none."""
+    """None where the number of the message could not be read."""
     accepted: bool
     reason: str = ""
     """Why it was refused."""
     answer: dict[str, Any] | None = None
-    """What the host said beside: the `ParametersReply`, `SceneReply`, `ReplayReply`; of an order the order as given."""
+    """Content of the host's `ParametersReply`, `SceneReply` or `ReplayReply`; of an order, the order as sent."""
 
 
 class Refusal(Part):
@@ -174,18 +163,18 @@ ServerMessage = (
     | Reply
     | Refusal
 )
-"""What the server says."""
+"""Any message of the server."""
 
 Token = Annotated[str, StringConstraints(max_length=200)]
 
 
 class _PageRequest(Part):
-    """What every message of the page has."""
+    """Fields of every message of the page."""
 
     id: Annotated[int, Field(ge=0)]
-    """Counted by the page; its reply has the same."""
+    """Counted by the page; the reply has the same."""
     token: Token = ""
-    """None for a spectator."""
+    """Empty for a spectator."""
 
 
 class PageAction(_PageRequest):
@@ -195,19 +184,8 @@ class PageAction(_PageRequest):
     action: RefereeAction
 
 
-class OrderContent(CoachOrder, frozen=True, kw_only=True):
-    """An order that the server numbers."""
-
-    sequence: Annotated[int, Meta(ge=1)] = 1
-    """Filled in by the server."""
-
-    def content(self) -> dict[str, Any]:
-        """The fields that say what the robots shall do."""
-        return {name: getattr(self, name) for name in self.__struct_fields__ if name not in ("version", "sequence")}
-
-
 class PageOrder(_PageRequest):
-    """Gives a side its new standing order; points in that team's frame."""
+    """Sends a side its new order; points in that team's frame."""
 
     deed: Literal["order"]
     side: Side
@@ -215,7 +193,7 @@ class PageOrder(_PageRequest):
 
 
 class PageScene(_PageRequest):
-    """Sets bodies down, adds or removes some, loads a scene, begins anew."""
+    """Places, adds or removes bodies, loads a scene, or starts over."""
 
     deed: Literal["scene"]
     request: SceneRequest
@@ -229,7 +207,7 @@ class PageParameters(_PageRequest):
 
 
 class PageDrive(_PageRequest):
-    """Drives a robot in place of its brain, 20 times a second; answered only where it is refused."""
+    """Drives a robot in place of its brain, 20 times a second; gets a reply only if it is refused."""
 
     deed: Literal["drive"]
     robot: Name
@@ -237,14 +215,14 @@ class PageDrive(_PageRequest):
 
 
 class PageReplay(_PageRequest):
-    """Asks a replay to play, pause, step, seek."""
+    """Controls a replay: play, pause, step, seek."""
 
     deed: Literal["replay"]
     request: ReplayRequest
 
 
 class PageTokenCheck(_PageRequest):
-    """Asks what the token is worth: a new welcome comes, with this role; a token that is nobody's is refused."""
+    """Checks the token: a new welcome comes with its role; an unknown token is refused."""
 
     deed: Literal["token"]
 
@@ -253,7 +231,7 @@ PageRequest = Annotated[
     PageAction | PageOrder | PageScene | PageParameters | PageDrive | PageReplay | PageTokenCheck,
     Field(discriminator="deed"),
 ]
-"""What the page says."""
+"""Any message of the page."""
 
 PAGE_REQUEST: TypeAdapter[PageRequest] = TypeAdapter(PageRequest)
 """Reads a message of the page."""

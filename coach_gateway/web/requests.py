@@ -1,10 +1,12 @@
-"""Carries out what a page asks for and its role allows: asks host or replay, gives orders, drives robots."""
+"""Carries out the requests of pages that their roles allow: queries to the host or a replay, orders, manual control."""
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
+from coach_gateway.access import rights
+from coach_gateway.access.roles import Role
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.web.protocol import (
     PageAction,
@@ -14,27 +16,28 @@ from coach_gateway.web.protocol import (
     PageReplay,
     PageRequest,
     PageScene,
+    PageTokenCheck,
     Reply,
-    Role,
 )
 from schemas.bus.contract import Bus, Publisher
 from schemas.errors import TouchlineError
 from schemas.game import ActionName
-from schemas.message import WireMessage
 from schemas.messages.coach import CoachOrder
+from schemas.messages.parameters import ParameterOperation
 from schemas.side import Side
 from schemas.topics import MANUAL
+from schemas.wire.message import WireMessage
 
 SOURCES = {Role.REFEREE: "referee's page", Role.CYAN: "cyan's page", Role.MAGENTA: "magenta's page"}
-"""How the match names who asked."""
+"""Role → the source that the match records for a request."""
 
 _THREADS = 4
-"""Questions of one role, or stops, that are on their way at once; further ones wait."""
+"""Requests of one role, or stops, that are in progress at once; further ones wait."""
 _IN_EVERY_REPLY = frozenset({"version", "accepted", "reason"})
 
 
 class RequestHandler:
-    """Takes what pages ask to the match."""
+    """Takes requests of pages to the match."""
 
     def __init__(self, bus: Bus) -> None:
         self.client = HostClient(bus)
@@ -46,8 +49,11 @@ class RequestHandler:
         self._stops = ThreadPoolExecutor(_THREADS, thread_name_prefix="stop")
 
     async def answer(self, role: Role, request: PageRequest) -> Reply:
-        """Ask the match, and say what came of it; questions of one role wait for no other's, orders of one side
-        for none of the other's, and a stop for nothing at all."""
+        """Send a request to the match and return its reply.
+
+        Requests of one role do not wait for those of another, orders of one side not for those of the other, and a stop
+        waits for nothing.
+        """
         try:
             match request:
                 case PageOrder():
@@ -62,13 +68,13 @@ class RequestHandler:
         return Reply(id=request.id, accepted=reply.accepted, reason=reply.reason, answer=_content(reply))
 
     def drive(self, request: PageDrive) -> None:
-        """Have a person drive a robot; sent, and not waited for."""
+        """Send a drive to a robot, without waiting."""
         if request.robot not in self._manual:
             self._manual[request.robot] = self._bus.publisher(MANUAL, robot=request.robot)
         self._manual[request.robot].put(request.manual)
 
     def _query(self, role: Role, request: PageRequest) -> Callable[[], Any]:
-        """What to ask the match; takes as long as the answer."""
+        """The query of a request; it blocks until the reply."""
         source = {"source": SOURCES.get(role, role.value)}
         match request:
             case PageAction():
@@ -83,14 +89,32 @@ class RequestHandler:
             case PageReplay():
                 replay = request.request
                 return lambda: self.client.replay(replay)
-        raise TypeError(f"{request.deed} is no question to the match")
+        raise TypeError(f"{request.deed} is not a query to the match")
 
     def _order(self, request: PageOrder) -> CoachOrder:
         return self._order_clients[request.side].order(request.side, **request.order.content())
 
 
+def refusal(role: Role, request: PageRequest, robots: Mapping[str, Side]) -> str | None:
+    """Why a role may not ask for this; None when it may. `robots` are all robots of the match with their sides."""
+    match request:
+        case PageTokenCheck():
+            return None
+        case PageAction():
+            action = request.action
+            return rights.refusal(role, action.action.value, robots, robot=action.robot)
+        case PageOrder():
+            return rights.refusal(role, "order", robots, side=request.side)
+        case PageDrive():
+            return rights.refusal(role, "drive", robots, robot=request.robot)
+        case PageParameters():
+            changes = request.request.operation in (ParameterOperation.SET, ParameterOperation.RESET)
+            return rights.refusal(role, "parameters" if changes else "read_parameters", robots)
+    return rights.refusal(role, request.deed, robots)
+
+
 def is_stop(request: PageRequest) -> bool:
-    """Whether the game is to be stopped."""
+    """Whether a request stops the game."""
     return isinstance(request, PageAction) and request.action.action is ActionName.STOP
 
 
@@ -103,5 +127,5 @@ def _accepted(request: PageRequest, order: CoachOrder) -> Reply:
 
 
 def _content(reply: WireMessage) -> dict[str, Any] | None:
-    """What was said beside yes or no."""
+    """The fields of a reply beside `accepted` and `reason`."""
     return {name: value for name, value in reply.plain().items() if name not in _IN_EVERY_REPLY} or None

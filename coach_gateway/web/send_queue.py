@@ -1,14 +1,14 @@
-"""What waits to be sent to one page: all that was said, and of the frames the newest alone."""
+"""What waits to be sent to one page: all messages, and of the frames the newest alone."""
 
 import asyncio
 from collections import deque
 
 MOST = 5000
-"""Messages that may wait for a page; one that lets more pile up does not read."""
+"""Messages that may wait for a page; a page with more does not read."""
 
 
 class SendQueue:
-    """Filled at once, emptied as fast as the page reads."""
+    """Filled without waiting, emptied as fast as the page reads."""
 
     def __init__(self) -> None:
         self._messages: deque[str] = deque()
@@ -19,27 +19,27 @@ class SendQueue:
 
     @property
     def overflows(self) -> bool:
-        """More waits than a page that reads would let pile up."""
+        """Whether more messages wait than for a page that reads."""
         return len(self._messages) > MOST
 
     def put(self, text: str) -> None:
-        """One message, kept until it is sent."""
+        """Add a message, which is kept until it is sent."""
         self._messages.append(text)
         self._filled.set()
 
     def put_frame(self, frame: str) -> None:
-        """A frame, in place of one that still waits."""
+        """Add a frame, in place of one that still waits."""
         self.skipped += self._frame is not None
         self._frame = frame
         self._filled.set()
 
     def restart(self, welcome: str) -> None:
-        """Something new begins: the frame that waits is void. Answers that wait are not."""
+        """Add a welcome: a waiting frame is void from here on, waiting replies are not."""
         self._frame = None
         self.put(welcome)
 
     async def next(self) -> str:
-        """What to send next: what was said first, then the frame."""
+        """What to send next: messages in order, then the frame."""
         while not self._messages and self._frame is None:
             self._filled.clear()
             await self._filled.wait()

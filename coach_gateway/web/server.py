@@ -1,4 +1,4 @@
-"""The page's server, one of the gateway's services: a web server, and what follows the match for it."""
+"""The page's server, one of the gateway's services: a web server, and the broadcaster that follows the match."""
 
 import asyncio
 from collections.abc import Callable
@@ -27,7 +27,7 @@ class WebServer:
         )
 
     async def serve(self, stop: asyncio.Event) -> None:
-        """Serve until `stop` is set, then say what was refused; pages are told to come again later."""
+        """Serve until `stop` is set, then log what was refused; pages reconnect by themselves later."""
         server = web_server(site(self._endpoint.enter), self._binding.settings.pages)
         self._bus.declare_alive(PresenceKind.COACH, "page")
         serving = asyncio.create_task(server.serve([self._binding.listener]))
@@ -39,6 +39,6 @@ class WebServer:
             server.should_exit = True
             await asyncio.gather(serving, following, return_exceptions=True)
         if faults := self.pages.fault_summary():
-            self._log(f"refused: {faults}")
+            self._log(f"refused or dropped: {faults}")
         following.result()
         serving.result()

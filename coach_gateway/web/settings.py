@@ -1,4 +1,4 @@
-"""How the page is served: where, and to whom."""
+"""How the page is served: address, access, tokens, limits."""
 
 import importlib.util
 from enum import StrEnum
@@ -6,18 +6,18 @@ from typing import Annotated
 
 from pydantic import Field
 
+from coach_gateway.ports import LOOPBACK
 from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 
 DEFAULT_PORT = 8080
-LOOPBACK = "127.0.0.1"
 DEFAULT_PAGES = 300
 DEFAULT_PAGES_EACH = 100
-"""Three classrooms behind one address; a third of the room."""
+"""Enough for three classrooms behind one address, and a third of all pages."""
 
 
 class BeliefsFor(StrEnum):
-    """Who is shown what robots believe; the referee always is, and a coach is shown its own side's."""
+    """Which pages are shown what robots believe. The referee always is, and a coach for its own side."""
 
     ALL = "all"
     TEAMS = "teams"
@@ -44,7 +44,7 @@ def need_web() -> None:
     """Make sure that a page can be served by this installation.
 
     Raises:
-        TouchlineError: with the line that brings what is missing.
+        TouchlineError: a package is missing; the message has the line that installs it.
     """
     if any(importlib.util.find_spec(name) is None for name in ("starlette", "uvicorn", "websockets")):
         raise TouchlineError("the page needs starlette, uvicorn and websockets; pip install 'touchline[coach]'")

@@ -1,4 +1,4 @@
-"""The web site: the page's files and the WebSocket, under headers that let a browser load nothing from elsewhere."""
+"""The web site: the page's files and the WebSocket, with headers that forbid to load anything from elsewhere."""
 
 import mimetypes
 from collections.abc import Awaitable, Callable
@@ -12,8 +12,12 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket
 
+import schemas
+
 PAGE = Path(__file__).parent / "page"
-"""What runs in the browser."""
+"""The page's files, which run in the browser."""
+SHARED = Path(schemas.__file__).parent / "page"
+"""Modules that the page of a match's statistics uses too; served below `/shared`."""
 
 HEADERS = {
     "Content-Security-Policy": (
@@ -23,30 +27,34 @@ HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
-    # Asked for again each time, and sent again only when it has changed: a server of another version is another page.
+    # Revalidated each time, and sent again only when changed: a server of another version has another page.
     "Cache-Control": "no-cache",
 }
-"""What every answer says."""
+"""Headers of every response."""
 
 _TYPES = {".js": "text/javascript", ".css": "text/css", ".html": "text/html", ".svg": "image/svg+xml"}
-"""File types that some machines know by other names."""
+"""Media types that some machines map differently."""
 
 
 def site(enter: Callable[[WebSocket], Awaitable[None]], folder: Path = PAGE) -> Starlette:
-    """The whole site; `enter` attends to a page that comes."""
+    """The whole site; `enter` handles the WebSocket of a page."""
     for ending, kind in _TYPES.items():
         mimetypes.add_type(kind, ending)
     return Starlette(
-        routes=[WebSocketRoute("/ws", enter), Mount("/", _Files(directory=folder, html=True))],
+        routes=[
+            WebSocketRoute("/ws", enter),
+            Mount("/shared", _Files(directory=SHARED)),
+            Mount("/", _Files(directory=folder, html=True)),
+        ],
         middleware=[Middleware(_Strict)],
     )
 
 
 class _Files(StaticFiles):
-    """The page's files; a WebSocket elsewhere than at its door is refused."""
+    """The page's files; a WebSocket to any other path is refused."""
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """One request."""
+        """Handle one request."""
         if scope["type"] == "websocket":
             await send({"type": "websocket.close", "code": 1000})
             return
@@ -54,13 +62,13 @@ class _Files(StaticFiles):
 
 
 class _Strict:
-    """Lays the headers over every answer."""
+    """Adds the headers to every response."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """One request."""
+        """Handle one request."""
 
         async def with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":

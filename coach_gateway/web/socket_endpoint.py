@@ -1,4 +1,4 @@
-"""The WebSocket's door: who comes in, what is read of them, and who is sent away. One page never harms another."""
+"""The WebSocket endpoint: admits pages, reads their messages, disconnects them. One page never harms another."""
 
 import asyncio
 import contextlib
@@ -7,9 +7,9 @@ from pydantic import ValidationError
 from pydantic_core import from_json
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from coach_gateway.access import rights
 from coach_gateway.access.client_network import client_network
 from coach_gateway.access.origins import Origins
+from coach_gateway.access.roles import Role
 from coach_gateway.access.tokens import Tokens
 from coach_gateway.web.broadcaster import PageBroadcaster
 from coach_gateway.web.manual_control import ManualControl
@@ -22,22 +22,22 @@ from coach_gateway.web.protocol import (
     PageTokenCheck,
     Refusal,
     Reply,
-    Role,
 )
-from coach_gateway.web.requests import RequestHandler, is_stop
-from schemas.faults import fault_of
+from coach_gateway.web.requests import RequestHandler, is_stop, refusal
 from schemas.process.clock import Clock
+from schemas.wire.faults import fault_of
 
 _MOST_PENDING = 8
-"""Questions of one page that may wait for their answers."""
+"""Requests of one page that may wait for their replies."""
 _POLICY, _TRY_AGAIN = 1008, 1013
-"""WebSocket close codes: breach of the rules, and no room now."""
+"""WebSocket close codes: policy violation, and try again later."""
 _CLOSING_S = 1.0
-_UNKNOWN_TOKEN = "nobody has this token; open the page with the address that was given out"
+"""s of wall time that closing a connection may take."""
+_UNKNOWN_TOKEN = "unknown token; open the page with the address that was given out"
 
 
 class SocketEndpoint:
-    """Lets pages in."""
+    """Serves the WebSockets of all pages."""
 
     def __init__(
         self,
@@ -53,7 +53,7 @@ class SocketEndpoint:
         self._manual_control = ManualControl()
 
     async def enter(self, socket: WebSocket) -> None:
-        """One page, from its coming to its going."""
+        """Serve one page from its connection to its end."""
         origin, host = socket.headers.get("origin"), socket.headers.get("host")
         if not self._origins.allows(origin, host):
             self._pages.counts["foreign"] += 1
@@ -74,7 +74,7 @@ class SocketEndpoint:
             self._pages.forget(page)
 
     async def _run(self, socket: WebSocket, page: Page) -> None:
-        """Until either side leaves."""
+        """Serve a page until either side leaves."""
         works = (self._send(socket, page), self._read(socket, page), _leaves(page))
         tasks = [asyncio.create_task(work) for work in works]
         try:
@@ -85,7 +85,7 @@ class SocketEndpoint:
             ends = await asyncio.gather(*tasks, return_exceptions=True)
         for end in ends:
             if isinstance(end, Exception) and not isinstance(end, WebSocketDisconnect):
-                raise end  # a fault of ours ends its own page, and stands in the log
+                raise end  # an error of the server ends this page alone, and is logged
         if page.close_reason:
             await _close(socket, page.close_reason, _POLICY)
 
@@ -98,7 +98,7 @@ class SocketEndpoint:
             page.sending_since = None
 
     async def _read(self, socket: WebSocket, page: Page) -> None:
-        """Take what the page says, until it goes."""
+        """Read the page's messages until it leaves."""
         while True:
             message = await socket.receive()
             if message["type"] == "websocket.disconnect":
@@ -114,13 +114,13 @@ class SocketEndpoint:
         self._pages.counts["too much"] += 1
         page.note_bad()
         if page.rate_limit_notice.allow(self._clock.now()):
-            _reply(page, Reply(id=None, accepted=False, reason="this page says too much at once; say it more slowly"))
+            _reply(page, Reply(id=None, accepted=False, reason="too many messages; send them more slowly"))
 
     def _parsed(self, page: Page, text: str | None) -> PageRequest | None:
-        """What a message asks for; one that cannot be read is counted and answered."""
+        """The request of a message; None for one that cannot be read, which is counted and replied to."""
         number: int | None = None
         if text is None:
-            why = "only text is understood here"
+            why = "only text messages are read"
         elif len(text) > MAX_BYTES:
             why = f"a message of {len(text)} characters is too long; at most {MAX_BYTES} are read"
         else:
@@ -134,7 +134,7 @@ class SocketEndpoint:
         return None
 
     def _handle(self, page: Page, request: PageRequest) -> None:
-        """Do what is asked, or say why not; origin, token and right are looked at each time."""
+        """Carry out a request, or reply why not; origin, token and right are checked each time."""
         role = self._tokens.role_of(request.token) if self._origins.allows(page.origin, page.host) else None
         if role is None:
             self._pages.counts["wrong token"] += 1
@@ -142,7 +142,7 @@ class SocketEndpoint:
             _reply(page, Reply(id=request.id, accepted=False, reason=_UNKNOWN_TOKEN))
             return
         why = (
-            rights.refusal(role, request, self._broadcaster.robots())
+            refusal(role, request, self._broadcaster.robots())
             or self._broadcaster.refusal(request)
             or self._why_busy(page, request)
         )
@@ -160,17 +160,17 @@ class SocketEndpoint:
             task.add_done_callback(page.pending.discard)
 
     def _why_busy(self, page: Page, request: PageRequest) -> str | None:
-        """Why a page has to wait before it asks this, or for another page; a stop never has to."""
+        """Why a page has to wait before it asks for this; None when it has not to. A stop never has to wait."""
         if isinstance(request, PageDrive):
             return self._manual_control.refusal(page, request, self._clock.now())
         if isinstance(request, PageTokenCheck) and not page.welcomes.allow(self._clock.now()):
-            return "this page has asked too often what its token is worth; wait a second"
+            return "this page has checked its token too often; wait a second"
         if len(page.pending) >= _MOST_PENDING and not (isinstance(request, PageTokenCheck) or is_stop(request)):
-            return f"{_MOST_PENDING} questions of this page still wait for their answers"
+            return f"{_MOST_PENDING} requests of this page still wait for their replies"
         return None
 
     async def _answer(self, page: Page, role: Role, request: PageRequest) -> None:
-        """Put a question to the match, and tell the page what came of it."""
+        """Send a request to the match, and the reply to the page."""
         reply = await self._requests.answer(role, request)
         _reply(page, reply)
 
@@ -184,7 +184,7 @@ def _reply(page: Page, reply: Reply) -> None:
 
 
 async def _close(socket: WebSocket, why: str, code: int) -> None:
-    """Tell a page why it is closed, and close it; one that does not read is not waited for."""
+    """Send a page why it is closed, and close it, without waiting for a page that does not read."""
     refusal = Refusal(reason=why).model_dump_json()
     with contextlib.suppress(WebSocketDisconnect, RuntimeError, TimeoutError):
         async with asyncio.timeout(_CLOSING_S):
@@ -193,7 +193,7 @@ async def _close(socket: WebSocket, why: str, code: int) -> None:
 
 
 def _number(text: str) -> int | None:
-    """The number of a message that could not be read otherwise."""
+    """The number of a message that is otherwise invalid; None where it has none."""
     try:
         content = from_json(text)
     except ValueError:

@@ -1,4 +1,4 @@
-"""How the web server is run: for the page, and for those who wait for a match."""
+"""How the web server is run: for the page, and for the page that waits for a match."""
 
 import contextlib
 import logging
@@ -10,13 +10,13 @@ from starlette.types import ASGIApp
 from coach_gateway.web.protocol import MAX_BYTES
 
 _SPARE = 100
-"""Connections beside those of open pages: who fetches files, and who is refused."""
+"""Connections beyond those of open pages: requests for files, and pages that are refused."""
 _PING_S = 10.0
-"""Wall time between two signs of life that a page is asked for, and that it has to give one."""
+"""s of wall time between two pings to a page, and until a ping must be answered."""
 
 
 def web_server(app: ASGIApp, pages: int) -> uvicorn.Server:
-    """A server for so many pages, that leaves signals and log to the process."""
+    """A server for this number of pages, which leaves signals and log to the process."""
     logging.getLogger("uvicorn").setLevel(logging.WARNING)
     return _Server(
         uvicorn.Config(
@@ -40,7 +40,7 @@ def web_server(app: ASGIApp, pages: int) -> uvicorn.Server:
 
 
 class _Server(uvicorn.Server):
-    """Leaves signals to the process, which has more to end than a web server."""
+    """Leaves signals to the process, which ends more than a web server."""
 
     @contextlib.contextmanager
     def capture_signals(self) -> Iterator[None]:

@@ -1,12 +1,13 @@
-"""Where pages wait while there is no host: they are served, and told that nobody plays yet."""
+"""Serves the page while there is no host yet: pages wait, and show that no match is played."""
 
 import asyncio
 import contextlib
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from coach_gateway.access.roles import Role
 from coach_gateway.web.binding import PageBinding
-from coach_gateway.web.protocol import Alive, HostUpdate, Role, Welcome
+from coach_gateway.web.protocol import Alive, HostUpdate, Welcome
 from coach_gateway.web.site import site
 from coach_gateway.web.uvicorn_server import web_server
 
@@ -15,15 +16,15 @@ _ALIVE_S = 1.0
 
 
 class WaitingPage:
-    """Serves the page before there is a match. What a page asks for is not answered: it asks again when one begins."""
+    """Serves the page before there is a match. Requests of a page get no reply: it repeats them when a match begins."""
 
     def __init__(self, binding: PageBinding, match: str) -> None:
         self._binding, self._match = binding, match
 
     async def serve(self, stop: asyncio.Event) -> None:
-        """Serve until `stop` is set; then pages come again by themselves, and whoever serves next lets them in."""
+        """Serve until `stop` is set; then pages reconnect by themselves, to the server that serves next."""
         server = web_server(site(self._enter), self._binding.settings.pages)
-        serving = asyncio.create_task(server.serve([self._binding.listener.dup()]))  # it closes what it is given
+        serving = asyncio.create_task(server.serve([self._binding.listener.dup()]))  # it closes its socket
         stopped = asyncio.create_task(stop.wait())
         try:
             await asyncio.wait([serving, stopped], return_when=asyncio.FIRST_COMPLETED)
@@ -33,7 +34,7 @@ class WaitingPage:
             await serving
 
     async def _enter(self, socket: WebSocket) -> None:
-        """One page, from its coming to its going."""
+        """Serve one page from its connection to its end."""
         if not self._binding.origins.allows(socket.headers.get("origin"), socket.headers.get("host")):
             await socket.close(1008)
             return
@@ -42,7 +43,7 @@ class WaitingPage:
             role=Role.SPECTATOR, match=self._match, setup=None, live=True, deeds=[], beliefs=[], orders=[]
         )
         reading = asyncio.create_task(_read_until_closed(socket))
-        with contextlib.suppress(WebSocketDisconnect, RuntimeError):  # it goes while it is told something
+        with contextlib.suppress(WebSocketDisconnect, RuntimeError):  # the page leaves while something is sent to it
             for news in (welcome, HostUpdate(there=False)):
                 await socket.send_text(news.model_dump_json())
             while not reading.done():
@@ -52,6 +53,6 @@ class WaitingPage:
 
 
 async def _read_until_closed(socket: WebSocket) -> None:
-    """Until the page goes."""
+    """Read and discard messages until the page leaves."""
     while (await socket.receive())["type"] != "websocket.disconnect":
         pass

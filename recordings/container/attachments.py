@@ -6,9 +6,9 @@ from recordings.container.json_schema import whole_schema
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import profile_tables
 from schemas.config.rule_book import rule_book_text
-from schemas.message import WireMessage
 from schemas.topic import Delivery
 from schemas.topics import TOPICS
+from schemas.wire.message import WireMessage
 
 MEDIA_TYPES = {".json": "application/json", ".toml": "application/toml"}
 """Suffix of an attachment → its media type."""

@@ -6,7 +6,7 @@ import platform
 import struct
 from importlib.metadata import PackageNotFoundError, version
 
-from schemas.message import VERSION
+from schemas.wire.message import VERSION
 
 _PACKAGES = ("touchline", "mcap", "numpy", "pydantic", "eclipse-zenoh", "pybullet")
 _ARGUMENTS = tuple(0.1 + 0.37 * step for step in range(200))

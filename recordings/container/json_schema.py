@@ -8,7 +8,7 @@ channel keeps to this subset. The full schema, with limits and defaults, is atta
 from functools import cache
 from typing import Any
 
-from schemas.message import WireMessage
+from schemas.wire.message import WireMessage
 
 _KEPT = ("title", "description", "enum", "contentEncoding")
 """Keywords that a viewer may show for a field, besides its type."""

@@ -12,8 +12,8 @@ from pydantic import ValidationError
 from pydantic_core import from_json, to_json, to_jsonable_python
 
 from schemas.errors import TouchlineError
-from schemas.faults import fault_of
-from schemas.message import Part
+from schemas.wire.faults import fault_of
+from schemas.wire.message import Part
 
 _DIGEST = "digest"
 

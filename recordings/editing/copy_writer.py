@@ -18,8 +18,8 @@ from recordings.recorder.sequence_tracker import SequenceTracker
 from recordings.viz.viz_channels import VizChannels
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
-from schemas.older_versions import converted
 from schemas.topics import TOPICS
+from schemas.wire.older_versions import converted
 
 
 class CopyWriter:

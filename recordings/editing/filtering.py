@@ -55,11 +55,6 @@ def _from(entries: Iterable[MessageCopy], start_ns: int) -> Iterator[MessageCopy
     return (entry for entry in entries if entry.log_ns >= start_ns)
 
 
-def _as_recorded(recorded: RecordedMessage) -> ReceivedMessage:
-    """The message with its recorded payload, of whatever version."""
-    return ReceivedMessage(recorded.topic, recorded.key, recorded.payload, recorded.stamp)
-
-
 def _latched_at(recording: Recording, selection: KeySelection, start_ns: int) -> list[MessageCopy]:
     """The latched messages at a time, as copies."""
     latched = LatchedMessages()
@@ -75,3 +70,8 @@ def _latched_at(recording: Recording, selection: KeySelection, start_ns: int) ->
 
 def _ns(seconds: float | None) -> int | None:
     return round(seconds * 1e9) if seconds is not None else None
+
+
+def _as_recorded(recorded: RecordedMessage) -> ReceivedMessage:
+    """The message with its recorded bytes, whatever version of the protocol they are of."""
+    return ReceivedMessage(recorded.topic, recorded.key, recorded.payload, recorded.stamp)

@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 from pydantic_core import from_json
 
 from recordings.reading.recording import RecordedMessage
-from schemas.message import BadMessageError
+from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.command import Command
-from schemas.messages.host import Applied, AppliedInput
+from schemas.wire.message import BadMessageError
 
 _KEPT = 1000
 """Ticks whose commands are kept for each robot: longer than any command stays in force."""

@@ -11,10 +11,10 @@ from recordings.container.mcap_file import ChannelRecord, McapFile, is_derived, 
 from recordings.container.sealed_metadata import digest, from_metadata, is_sealed
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.errors import TouchlineError
-from schemas.message import VERSION, BadMessageError
-from schemas.older_versions import READABLE, converted, is_readable
 from schemas.topic import Topic
 from schemas.topics import TOPICS
+from schemas.wire.message import VERSION, BadMessageError
+from schemas.wire.older_versions import READABLE, converted, is_readable
 
 
 class ChannelFacts(NamedTuple):
@@ -47,11 +47,11 @@ class RecordedMessage(NamedTuple):
     sequence: int
     """Sequence number of the sender on this key, modulo 2³²."""
     version: str = VERSION
-    """Version of the protocol that its channel was recorded with."""
+    """Version of the protocol in which its channel was recorded."""
 
     @property
     def stamp(self) -> Stamp:
-        """What the bus sent along with the message."""
+        """Sequence number and times of the message."""
         return Stamp(self.sequence, self.sent_ns, self.log_ns)
 
     @property
@@ -64,7 +64,7 @@ class RecordedMessage(NamedTuple):
         return converted(self.payload, self.version)
 
     def received(self) -> ReceivedMessage:
-        """The message as it comes over the bus from a sender of this version."""
+        """The message as a sender of the current version publishes it on the bus."""
         return ReceivedMessage(self.topic, self.key, self.current_payload(), self.stamp)
 
     def message(self) -> Any:

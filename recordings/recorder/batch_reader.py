@@ -5,10 +5,10 @@ from collections.abc import Iterator
 
 from recordings.recorder.batch_sequence import BatchSequence
 from schemas.bus.contract import Bus, NoReplyError, PendingReply
-from schemas.message import BadMessageError
 from schemas.messages.record_batch import Batch, RecordBatchesRequest, read_batch, read_reply
 from schemas.process.active_clock import ActiveClock
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
+from schemas.wire.message import BadMessageError
 
 ANSWER_S = 1.0
 """Wall time after which a question that was not answered is asked again."""

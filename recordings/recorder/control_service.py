@@ -6,9 +6,9 @@ from collections.abc import Callable
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.sink import Sink
 from schemas.bus.contract import Bus, Query
-from schemas.message import BadMessageError
 from schemas.messages.recorder import RecorderOperation, RecorderReply, RecorderRequest
 from schemas.topics import RECORDER_CONTROL
+from schemas.wire.message import BadMessageError
 
 
 class ControlService:

@@ -6,9 +6,9 @@ from pathlib import Path
 from recordings.container.key_selection import KeySelection
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.recorder import Recorder, RecordingSummary
+from recordings.recorder.settings import RecorderSettings
 from recordings.recorder.sink import ONE_FILE, FileLimits, FileSink, Sink
 from recordings.recorder.snapshot_sink import SnapshotSink
-from recordings.settings import RecorderSettings
 from schemas.bus.zenoh.bus import open_client
 from schemas.process.clock import Clock, WallClock
 

@@ -26,10 +26,10 @@ from recordings.viz.drawing import READS
 from recordings.viz.viz_channels import VizChannels
 from schemas.bus.contract import ReceivedMessage
 from schemas.errors import TouchlineError
-from schemas.message import VERSION
 from schemas.process.clock import Clock
 from schemas.process.idle_time import run_in_idle_time, start_thread
 from schemas.topics import TOPICS, key_prefix
+from schemas.wire.message import VERSION
 
 FLUSH_S = 0.5
 """Wall time in s after which messages are in the file."""

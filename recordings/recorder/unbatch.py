@@ -4,10 +4,10 @@ from functools import lru_cache
 
 from recordings.recorder.latched_messages import LoggedMessage
 from schemas.bus.contract import ReceivedMessage, Stamp
-from schemas.message import BadMessageError
 from schemas.messages.record_batch import Batch, Entry
 from schemas.topic import Party, Topic
 from schemas.topics import SIGHT, TOPICS
+from schemas.wire.message import BadMessageError
 
 _RECORDED = tuple(topic for topic in TOPICS.values() if topic.recorded or topic is SIGHT)
 

@@ -9,15 +9,15 @@ from recordings.replay.listeners import Listeners
 from recordings.replay.player import Player
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, PresenceKind, Publisher, ReceivedMessage, Server, Stamp
-from schemas.config.scene import SceneReply
-from schemas.game import ActionReply
-from schemas.message import VERSION, BadMessageError, Message
-from schemas.messages.host import Setup
+from schemas.messages.game import ActionReply
 from schemas.messages.parameters import ParametersReply
 from schemas.messages.replay import ReplayReply, ReplayRequest
+from schemas.messages.scene import SceneReply
+from schemas.messages.setup import Setup
 from schemas.recovery_window import PARTING_S
 from schemas.topic import Party, Topic
 from schemas.topics import ACTION, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
+from schemas.wire.message import VERSION, BadMessageError, Message
 
 _REPEAT_S = 1.0
 """Wall time in s after which a paused replay publishes the latched messages again, for new listeners."""

@@ -2,9 +2,9 @@
 
 from recordings.reading.recording import RecordedMessage
 from schemas.bus.contract import Bus, PresenceKind
-from schemas.message import BadMessageError
 from schemas.recovery_window import RUN_AHEAD_TICKS
 from schemas.topics import APPLIED, RECORDER_PROGRESS
+from schemas.wire.message import BadMessageError
 
 _HOSTS = (PresenceKind.HOST, PresenceKind.REPLAY)
 _PATIENCE_S = 1.0

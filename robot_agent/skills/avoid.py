@@ -1,4 +1,4 @@
-"""Go around what is in the way: the free direction nearest to the wanted one."""
+"""Avoid obstacles: take the free direction nearest to the wanted one."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -11,11 +11,11 @@ from schemas.frames import wrap
 from schemas.messages.command import Drive
 
 LOOK_AHEAD = 2.0
-"""m; what is farther away than this beyond its own circle is not in the way yet."""
+"""m; a circle whose edge is farther away is not in the way yet."""
 _MARGIN = 0.02
 """rad; how far beside a blocked arc a direction counts as free."""
 _MOMENTUM = 0.3
-"""Weight of turning away from the way one already goes, against turning away from the goal."""
+"""Cost of turning away from the present direction of motion, against turning away from the wanted one."""
 _BEND = 0.6
 """Part of the acceleration that following a circle's edge may take."""
 
@@ -35,7 +35,7 @@ def circles(points: Iterable[tuple[float, float]], radius: float) -> list[Circle
 
 def circles_near(me: Moving, points: Iterable[tuple[float, float]], radius: float) -> list[Circle]:
     """The same circle around each point, without those that are too far away to be in the way yet."""
-    near = LOOK_AHEAD + 3.0 * radius  # beyond 2 radii nothing is entered, whatever is rounded
+    near = LOOK_AHEAD + 3.0 * radius  # no circle beyond 2 radii is entered, with any rounding
     x0, y0 = me.x, me.y
     return [Circle(x, y, radius) for x, y in points if -near < x - x0 < near and -near < y - y0 < near]
 
@@ -48,9 +48,9 @@ def go_around(me: Moving, x: float, y: float, heading: float, blocked: Sequence[
 
 
 def bend_speed(away: float, radius: float, limits: DriveLimits) -> float:
-    """How fast a robot may be, m/s, that is `away` m from a circle's centre and is to follow its edge.
+    """The highest speed, m/s, of a robot `away` m from a circle's centre that is to follow its edge.
 
-    At the edge as fast as part of its acceleration bends its way; before it, as it can brake down to that.
+    At the edge, part of the acceleration has to bend its path; farther away the robot can still brake to that speed.
     """
     room = max(0.0, away - radius)
     return math.sqrt(limits.acceleration * (_BEND * radius + room))
@@ -87,7 +87,7 @@ def free_direction(me: Moving, wanted: float, distance: float, blocked: Sequence
 
 
 def _enters(me: Moving, direction: float, distance: float, blocked: Iterable[Circle]) -> bool:
-    """Whether the next piece of a straight way leads into one of the circles, or deeper into it."""
+    """Whether the next part of a straight path leads into one of the circles, or deeper into it."""
     c, s = math.cos(direction), math.sin(direction)
     for x, y, radius in blocked:
         dx, dy = x - me.x, y - me.y
@@ -100,7 +100,7 @@ def _enters(me: Moving, direction: float, distance: float, blocked: Iterable[Cir
 
 
 def _arcs(me: Moving, distance: float, blocked: Sequence[Circle]) -> list[tuple[float, float]]:
-    """Middle and half width in rad of each direction range that leads into a circle on the way."""
+    """Middle and half width in rad of each range of directions that leads into a circle."""
     arcs = []
     for x, y, radius in blocked:
         dx, dy = x - me.x, y - me.y
@@ -113,5 +113,5 @@ def _arcs(me: Moving, distance: float, blocked: Sequence[Circle]) -> list[tuple[
 
 
 def is_in_the_way(me: Moving, x: float, y: float, circle: Circle) -> bool:
-    """Whether the straight way to (x, y) leads into a circle."""
+    """Whether the straight path to (x, y) leads into a circle."""
     return _enters(me, math.atan2(y - me.y, x - me.x), math.hypot(x - me.x, y - me.y), (circle,))

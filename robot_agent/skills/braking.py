@@ -1,10 +1,10 @@
-"""How fast one may go and still stop in time, and how long a way takes."""
+"""The highest speed that still allows to stop in time, and the time that a distance takes."""
 
 import math
 
 
 def braking_speed(distance: float, deceleration: float, lag: float) -> float:
-    """The speed from which one stops within `distance`, when braking begins `lag` s late.
+    """The speed from which a robot stops within `distance`, when braking begins `lag` s late.
 
     Solves v·lag + v²/(2·deceleration) = distance: far away the square root of a trapezoid's last edge, close by
     distance/lag, which does not magnify the noise of the distance as the square root does.

@@ -1,4 +1,4 @@
-"""Carry the ball to a point around whoever is in the way, gently enough to keep it."""
+"""Carry the ball to a point around obstacles, gently enough to keep it."""
 
 from collections.abc import Sequence
 

@@ -8,7 +8,7 @@ from robot_agent.bodies import Ball, DriveLimits, Moving
 from robot_agent.skills.braking import travel_time
 
 TIMES = (0.0, 0.25, 0.5, 0.8, 1.2, 1.7, 2.4, 3.5)
-"""s from now at which the ball's way is looked at; between them the meeting is interpolated."""
+"""s from now at which the ball's path is sampled; the meeting is interpolated between them."""
 _SURELY = 1e-6
 """m; more than rounding can change."""
 
@@ -22,14 +22,14 @@ class Meeting(NamedTuple):
 
 
 def way_of(ball: Ball, deceleration: float) -> list[Ball]:
-    """The ball at each of the moments."""
+    """The ball at each of `TIMES`."""
     if ball.vx == 0.0 == ball.vy:
         return [ball] * len(TIMES)
     return [ball.after(time, deceleration) for time in TIMES]
 
 
 def meet(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits) -> Meeting:
-    """The first point of the ball's way that the robot reaches no later than the ball.
+    """The first point of the ball's path that the robot reaches no later than the ball.
 
     `reach` is how close to the ball the robot's centre has to come, in m.
     """
@@ -37,13 +37,13 @@ def meet(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits) -> 
 
 
 def meeting_time(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits, by: float) -> float:
-    """When the robot meets the ball, s from now; of a meeting later than `by`, only some time after `by`."""
+    """When the robot meets the ball, s from now; for a meeting later than `by`, any time after `by`."""
     begin = _last_too_early(me, way, reach, limits, by)
     return TIMES[begin] if TIMES[begin] > by else _meet(me, way, reach, limits, begin).time
 
 
 def _meet(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits, begin: int) -> Meeting:
-    """The meeting, looked for from one of the moments at which it is still too early for it."""
+    """The meeting, searched for from the index `begin` of `TIMES`, which is still too early for it."""
     early = spare = 0.0
     before = way[begin]
     for time, ball in zip(TIMES[begin:], way[begin:], strict=True):
@@ -60,9 +60,9 @@ def _meet(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits, be
 
 
 def _last_too_early(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits, by: float) -> int:
-    """The last moment before the first at which the robot, at top speed all the way, could be at the ball.
+    """Index of the last of `TIMES` before the first at which the robot, always at top speed, could be at the ball.
 
-    What is too early for certain needs no exact time. Beyond `by` s, the first moment that is too early.
+    Times that are certainly too early need no exact calculation. Beyond `by` s, the first time that is too early.
     """
     at_x, at_y, speed = me.x, me.y, limits.speed
     last = 0

@@ -1,4 +1,4 @@
-"""Keep the own goal: stand where a shot must pass, go where one will."""
+"""Keep the own goal: stand where a shot has to pass, and move to where one will pass."""
 
 import math
 
@@ -11,7 +11,7 @@ from schemas.messages.command import Drive
 _OUT = 0.15
 """m between the goal line and the robot's hull."""
 _SHOT_SPEED = 1.0
-"""m/s toward the goal line; a slower ball is no shot."""
+"""m/s toward the goal line; a slower ball is not a shot."""
 _SHOT_TIME = 2.0
 """s to the goal line; a shot that takes longer can wait."""
 
@@ -39,7 +39,7 @@ def guard_place(ball: Ball, pitch: Pitch, radius: float) -> tuple[float, float]:
 
 
 def shot_place(ball: Ball, x: float, pitch: Pitch, radius: float) -> float | None:
-    """Where a ball on its way into the goal crosses the keeper's line; nothing when there is no shot."""
+    """Where a ball on its way into the goal crosses the keeper's line; nothing when there is not a shot."""
     if ball.vx > -_SHOT_SPEED:
         return None
     time = (x - ball.x) / ball.vx

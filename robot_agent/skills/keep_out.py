@@ -1,4 +1,4 @@
-"""Keep out of an area before a goal: the part of a velocity that would lead into it is taken away."""
+"""Keep out of an area before a goal: the part of a velocity that would lead into it is removed."""
 
 import math
 from typing import NamedTuple
@@ -34,7 +34,7 @@ class Area(NamedTuple):
         return cls(pitch.goal_line, pitch.penalty_area_depth, pitch.penalty_area_width)
 
     def has(self, end: float, x: float, y: float) -> bool:
-        """Whether a place, m, lies in the one at that end, by the sign of its x."""
+        """Whether a place, m, is in the area at the end −1 or 1, the sign of its x."""
         return x * end > self.goal_line - self.depth and abs(y) < 0.5 * self.width
 
 
@@ -60,6 +60,6 @@ def keep_out(me: Moving, wanted: Drive, area: Area, limits: DriveLimits) -> Driv
 
 
 def _enters(front: float, side: float, inward: float, across: float) -> bool:
-    """Whether a way from beyond both lines, `front` and `side` m away, leads through the corner into the area."""
+    """Whether a path from beyond both lines, `front` and `side` m away, leads through the corner into the area."""
     reached = max(front / inward, side / across)
     return reached < 1.0

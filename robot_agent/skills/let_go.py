@@ -1,4 +1,4 @@
-"""Let the ball go for a moment: a soft kick ahead, to run after, so that a dribble may go on."""
+"""Release the ball for a moment: a soft kick ahead, which the robot follows, so that it may dribble on."""
 
 import math
 from collections.abc import Sequence
@@ -7,7 +7,7 @@ from robot_agent.bodies import Moving
 from robot_agent.skills.keep_off import inside
 from robot_agent.skills.shoot import lane_width
 from schemas.messages.command import Kick, KickMode
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 Point = tuple[float, float]
 
@@ -16,11 +16,11 @@ FASTER = 1.2
 AHEAD = 1.8
 """m of ground that must be free for it."""
 ROOM = 0.45
-"""m between the way of the ball and the nearest opponent's centre."""
+"""m between the path of the ball and the nearest opponent's centre."""
 
 
 def let_go(me: Moving, opponents: Sequence[Point], setup: Setup) -> Kick | None:
-    """The kick along the kick axis, or nothing when there is no free ground on the pitch ahead."""
+    """The kick along the kick axis; None when there is no free ground on the pitch ahead."""
     c, s = math.cos(me.heading), math.sin(me.heading)
     gap = setup.dribble.gap
     ball = (me.x + gap * c, me.y + gap * s)

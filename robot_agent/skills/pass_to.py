@@ -1,4 +1,4 @@
-"""Pass along the ground: to whom, how fast, and the kick itself."""
+"""Pass along the ground: the receiver, the speed, and the kick itself."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -8,7 +8,7 @@ from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.shoot import lane_width
 from schemas.frames import wrap
 from schemas.messages.command import Drive, Kick
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 Point = tuple[float, float]
 
@@ -19,13 +19,13 @@ ARRIVING = 3.5
 LEAST, LONGEST = 2.0, 9.0
 """m."""
 STAYS = 1.0
-"""m by which somebody must be farther ahead than the receiver who is chosen already, to be chosen instead."""
+"""m by which another teammate must be farther ahead than the chosen receiver, to replace it."""
 EASE = 0.8
-"""Share of what is asked of a way to somebody else that is enough for the receiver who is chosen already."""
+"""Factor on the requirements of a pass to the receiver that is chosen already."""
 _TURN_COSTS = 2.0
 """m a radian."""
 ERROR = 0.3
-"""m beside the receiver."""
+"""m beside the receiver, at most."""
 
 
 def best_receiver(
@@ -35,11 +35,10 @@ def best_receiver(
     heading: float | None = None,
     chosen: str | None = None,
 ) -> str | None:
-    """The teammate whom a pass reaches and who is farthest ahead, the middle before the wings.
+    """The teammate farthest ahead that a pass reaches, the middle before the wings; None when every lane is closed.
 
-    With a `heading`, turning away from it counts as much as metres do. Who is `chosen` already stays so unless another
-    is clearly better: two who are as good would change places with the noise of what is seen. Nobody when each lane is
-    closed.
+    With a `heading`, turning away from it costs as metres do. The `chosen` receiver stays unless another is clearly
+    better: two equally good ones would alternate with the noise of the sensors.
     """
     best, farthest = None, -math.inf
     for name, (x, y) in mates.items():
@@ -52,7 +51,7 @@ def best_receiver(
 
 
 def is_open(ball: Point, receiver: Point, opponents: Sequence[Point], ease: float = 1.0) -> bool:
-    """Whether a pass is neither too short nor too long, and its lane is free; with `ease` below 1, less is asked."""
+    """Whether a pass is neither too short nor too long, and its lane is free; an `ease` below 1 relaxes all limits."""
     is_in_range = LEAST * ease < math.dist(ball, receiver) < LONGEST / ease
     return is_in_range and lane_width(ball, receiver, opponents) > OPEN * ease
 

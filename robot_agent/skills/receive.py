@@ -1,4 +1,4 @@
-"""Receive a ball that comes: step into its way, face it, and let it run into the dribbler."""
+"""Receive a coming ball: move into its path, face it, and let it run into the dribbler."""
 
 import math
 
@@ -8,7 +8,7 @@ from robot_agent.skills.turn_to import turn_rate
 from schemas.messages.command import Drive
 
 COMES = 0.5
-"""m/s; a slower ball does not come."""
+"""m/s; a slower ball does not count as coming."""
 
 
 def comes(me: Moving, ball: Ball) -> bool:
@@ -18,7 +18,7 @@ def comes(me: Moving, ball: Ball) -> bool:
 
 
 def receive(me: Moving, ball: Ball, limits: DriveLimits) -> Drive:
-    """Go to the nearest point of the ball's way, and face where it comes from; for a ball that comes."""
+    """Go to the nearest point of a coming ball's path, and face the ball."""
     speed = math.hypot(ball.vx, ball.vy)
     ux, uy = ball.vx / speed, ball.vy / speed
     along = (me.x - ball.x) * ux + (me.y - ball.y) * uy

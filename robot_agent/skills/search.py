@@ -1,4 +1,4 @@
-"""Look for a lost ball: the quarters of the pitch, one robot in each, every few seconds the next one."""
+"""Search for a lost ball: each robot in one quarter of the pitch, every few seconds in the next."""
 
 from schemas.config.sections import Pitch
 
@@ -8,7 +8,7 @@ _AROUND = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 
 
 def search_place(number: int, time: float, pitch: Pitch) -> tuple[float, float]:
-    """Where the robot with this number looks at a time, s: the middle of a quarter, m.
+    """Where the robot with this number searches at a time, s: the middle of a quarter, m.
 
     From there a camera that reaches half a quarter's diagonal, 6.5 m on 22 × 14 m, sees all of it.
     """

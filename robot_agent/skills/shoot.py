@@ -9,9 +9,9 @@ PLACES = (-0.8, -0.4, 0.0, 0.4, 0.8)
 """Where in the goal to aim, as shares of half its width."""
 
 _SHOT_CLOSES = 0.075
-"""m that a keeper makes while a shot rolls a metre: 0.45 m in the 0.6 s of 6 m, at 2.5 m/s²."""
+"""m that a keeper moves while a shot rolls a metre: 0.45 m in the 0.6 s of 6 m, at 2.5 m/s²."""
 _PASS_CLOSES = 0.05
-"""Likewise of a pass; it is slower, but few opponents go for it at once."""
+"""m that an opponent moves while a pass rolls a metre; a pass is slower, but few opponents react at once."""
 
 
 def best_place(
@@ -35,9 +35,9 @@ def lane_width(
     opponents: Sequence[tuple[float, float]],
     closes: float = _PASS_CLOSES,
 ) -> float:
-    """How far the nearest opponent's centre is from the straight way, in m; infinite when none is beside it.
+    """Distance of the nearest opponent's centre from the straight path, in m; infinite when none is beside it.
 
-    An opponent farther along the way has more time to step into it, and counts as nearer: by `closes` m a metre.
+    An opponent farther along the path has more time to move into it, and counts as nearer, by `closes` m a metre.
     """
     dx, dy = end[0] - start[0], end[1] - start[1]
     length = math.hypot(dx, dy)

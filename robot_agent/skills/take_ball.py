@@ -1,4 +1,4 @@
-"""Take the ball: meet it, face it, and close in until the dribbler has it; from the front when an opponent has it."""
+"""Take the ball: meet it, face it, and close in until the dribbler holds it; from the front if an opponent has it."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -12,11 +12,11 @@ from robot_agent.skills.turn_to import turn_rate
 from schemas.messages.command import Drive
 
 CLOSE = 0.9
-"""m; within this the robot follows the ball itself rather than the point where they meet."""
+"""m; within this distance the robot follows the ball itself rather than the meeting point."""
 HAS_IT = 0.5
 """m; an opponent this close to the ball has it."""
 _CLOSING = 0.4
-"""m/s; with what speed more than the ball's the robot touches it: slower than this it never arrives."""
+"""m/s; speed relative to the ball at the touch: with less the robot never arrives."""
 
 
 def take_ball(
@@ -31,8 +31,8 @@ def take_ball(
 ) -> Drive:
     """Drive to the ball and face it.
 
-    `gap`: distance of the centres while it is held; `clearance`: how far the robot's centre keeps from opponents and
-    teammates on its way; m.
+    `gap`: distance of the centres while it is held; `clearance`: distance of the robot's centre from opponents
+    and teammates on its path; m.
     """
     dx, dy = ball.x - me.x, ball.y - me.y
     distance = math.hypot(dx, dy)
@@ -55,7 +55,7 @@ def take_ball(
 def front_of_holder(
     me: Moving, ball: Ball, opponents: Sequence[tuple[float, float]], gap: float
 ) -> tuple[float, float] | None:
-    """The place that faces the opponent who has the ball, for a robot that is not yet on that side of the ball."""
+    """The place in front of an opponent that has the ball; None for a robot on that side of the ball already."""
     for x, y in opponents:
         away_x, away_y = ball.x - x, ball.y - y
         away = math.hypot(away_x, away_y)

@@ -1,1 +1,1 @@
-"""The teams that ship."""
+"""The shipped teams."""

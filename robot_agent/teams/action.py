@@ -6,7 +6,7 @@ from schemas.messages.command import Drive, Kick
 
 
 class Action(NamedTuple):
-    """What a robot does in one tick, and what it calls that."""
+    """What a robot does in one tick, with the role and intention that it sends on the radio."""
 
     role: str
     intention: str

@@ -1,7 +1,7 @@
-"""Test mode: what a robot does when the coach has it show one thing; every shipped team does it alike.
+"""The coach's tests: what a robot does when an order has it show one skill; the same in every shipped team.
 
-Pure: (moment, progress) → (action, progress). A robot that the order does not name stands still. As in play, the rules
-of the match bind whoever acts: where they do not let a robot carry the ball as far, it lets go of it on the way.
+Pure: (situation, progress) → (action, progress). A robot that the order does not name stands still. The rules of the
+match apply as in play: where a robot may not carry the ball that far, it releases it on the way.
 """
 
 import math
@@ -25,27 +25,27 @@ from schemas.frames import wrap
 from schemas.game import Point
 from schemas.messages.coach import CoachOrder, CoachTest
 from schemas.messages.command import Drive, KickMode
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 ROLE = "test"
 ARRIVED = 0.1
-"""m; closer than this to a point is at it."""
+"""m; a robot closer than this to a point has arrived."""
 FACING = 0.1
-"""rad; likewise of an angle."""
+"""rad; a robot closer than this to an angle faces it."""
 RESTS = 1.0
-"""s at each end of a way that is driven over and over."""
+"""s at each end of a path that is driven again and again."""
 TURNS = 1.0
-"""m before a point where a robot with the ball begins to turn to the angle there; before, it faces ahead."""
+"""m before a point, where a robot with the ball begins to turn to the final angle; before, it faces ahead."""
 ARRIVING = 2.0
-"""m/s of a pass when it arrives: slower than in play, where somebody is in the way."""
+"""m/s of a pass when it arrives: slower than in play, where opponents are in the way."""
 PASS_ERROR, SHOT_ERROR = 0.1, 0.15
-"""m beside the target."""
+"""m beside the target, at most."""
 LEAVES = 0.5
 """s after a kick; a ball that is still held then was not kicked: the kick was refused, and is tried again."""
 HAS_LEFT = 1.0
-"""m; a ball farther than this from who had it has left: word of where that is comes late, and the ball may swing."""
+"""m; a ball farther than this from its passer has left. The passer's message comes late, and the ball may swing."""
 _RADIUS = 1.0
-"""m; of a circle that no radius was said for."""
+"""m; radius of the circle, if the order has none."""
 _AIR = 0.1
 """m between two bodies that pass each other."""
 
@@ -54,13 +54,13 @@ Place = tuple[float, float]
 
 
 class Situation(NamedTuple):
-    """All that a robot knows when it shows something."""
+    """All that a robot knows in a test."""
 
     briefing: Briefing
     belief: WorldBelief
     order: CoachOrder
     limits: DriveLimits
-    """Those of the robot, and of the order."""
+    """The limits of the robot and of the order."""
 
     @property
     def setup(self) -> Setup:
@@ -74,20 +74,20 @@ class Situation(NamedTuple):
 
 
 class Progress(NamedTuple):
-    """How far a robot is with an order."""
+    """How far a robot has come with an order."""
 
     order: int = 0
-    """Its number."""
+    """Number of the order."""
     leg: int = 0
-    """Which end of a way is driven to; for whom a pass is meant, whether the other robot has had the ball."""
+    """In `location`, the end that is driven to; for the receiver of a pass, 1 once the passer has had the ball."""
     rested: float = 0.0
     """s at that end."""
     place: Place = (0.0, 0.0)
     """m; where the robot was when the order came."""
     kicked: float | None = None
-    """s since the kick; nothing before it."""
+    """s since the kick; None before it."""
     passed: bool = False
-    """The ball that is waited for has come, and is this robot's to get."""
+    """The awaited ball has come, and this robot may get it."""
 
 
 NOTHING_DONE = Progress()
@@ -97,7 +97,7 @@ TestStep = Callable[[Situation, Progress], StepResult]
 
 
 def step(now: Situation, progress: Progress) -> StepResult:
-    """What the order's test asks of this robot; a new order begins anew."""
+    """What this robot does in the order's test; a new order starts over."""
     if progress.order != now.order.sequence:
         progress = Progress(now.order.sequence, place=now.belief.me[:2])
     if progress.kicked is not None:
@@ -120,7 +120,7 @@ def _move(now: Situation, progress: Progress) -> StepResult:
 
 
 def _location(now: Situation, progress: Progress) -> StepResult:
-    """To one end, a rest there, to the other end."""
+    """Drive to one end, rest there, drive to the other end."""
     order, me = now.order, now.belief.me
     ends = ((_at(order.point_a, progress), order.angle_a), (_at(order.point_b, progress), order.angle_b))
     point, angle = ends[progress.leg]
@@ -143,7 +143,7 @@ def _circle(now: Situation, progress: Progress) -> StepResult:
 
 
 def _pass(now: Situation, progress: Progress) -> StepResult:
-    """Get the ball, bring it to its point, and pass; once."""
+    """Get the ball, bring it to its point, and pass once."""
     order, receiver = now.order, now.order.robot_b or ""
     mate = now.belief.mates.get(receiver)
     target = _point(order.point_b) or (mate.body[:2] if mate is not None else None)
@@ -158,7 +158,7 @@ def _pass(now: Situation, progress: Progress) -> StepResult:
 
 
 def _shoot(now: Situation, progress: Progress) -> StepResult:
-    """Get the ball, bring it to its point, and shoot; once."""
+    """Get the ball, bring it to its point, and shoot once."""
     ready = _ready_to_kick(now, progress)
     if ready is not None:
         return ready, progress
@@ -173,7 +173,7 @@ def _catch(now: Situation, progress: Progress) -> StepResult:
 
 
 def _receive(now: Situation, progress: Progress) -> StepResult:
-    """Wait for the pass; while the other robot has the ball, there is none to go for."""
+    """Wait for the pass; while the other robot has the ball, do not move to it."""
     passer, ball = now.belief.mates.get(now.order.robot_a or ""), now.belief.ball
     away = math.dist(passer.body[:2], ball.now[:2]) if passer is not None and ball is not None else None
     if away is not None and away < HAS_IT:
@@ -200,7 +200,7 @@ def _await_ball(
 
 
 def _ready_to_kick(now: Situation, progress: Progress) -> Action | None:
-    """What is to be done before the kick, or after it; nothing where the ball is in hand and at its point."""
+    """The action before the kick, or after it; None when the ball is held at its point."""
     belief, point = now.belief, _point(now.order.point_a)
     if progress.kicked is not None and (progress.kicked < LEAVES or not belief.holding):
         return Action(ROLE, "kicked", Drive())
@@ -218,7 +218,7 @@ def _kick(now: Situation, progress: Progress, target: Place, speed: float, error
 
 
 def _bring(now: Situation, intention: str, point: Place, angle: float | None, *, with_ball: bool) -> Action:
-    """Drive to a point, with the ball if that is asked for."""
+    """Drive to a point, with the ball if `with_ball`."""
     if with_ball and not now.belief.holding:
         return _fetch(now)
     me = now.belief.me
@@ -229,7 +229,7 @@ def _bring(now: Situation, intention: str, point: Place, angle: float | None, *,
 
 
 def _fetch(now: Situation) -> Action:
-    """Get the ball, or look for it."""
+    """Get the ball, or search for it."""
     belief = now.belief
     if belief.ball is None:
         place = search_place(now.briefing.number, belief.game.clock, now.setup.pitch)
@@ -246,7 +246,7 @@ def _take(now: Situation, ball: Ball) -> Drive:
 
 
 def _drive_to(now: Situation, point: Place, angle: float | None, limits: DriveLimits) -> Drive:
-    """Straight on or around what is in the way; with no angle the heading is kept."""
+    """Drive straight or around obstacles; without an angle the heading is kept."""
     me = now.belief.me
     heading = me.heading if angle is None else angle
     return go_around(me, *point, heading, _in_the_way(now) if now.order.avoid else (), limits)
@@ -262,7 +262,7 @@ def _at(point: Point | None, progress: Progress) -> Place:
 
 
 def _in_the_way(now: Situation) -> list[Circle]:
-    """Everybody else, and the ball while this robot has not got it."""
+    """All other robots, and the ball while this robot does not hold it."""
     reach, ball = now.setup.robot.reach, now.belief.ball
     bodies = circles(now.belief.others, 2.0 * reach + _AIR)
     if ball is None or now.belief.holding:
@@ -278,4 +278,4 @@ STEPS: dict[CoachTest, TestStep] = {
     CoachTest.CATCH: _catch,
     CoachTest.SHOOT: _shoot,
 }
-"""Test → what the robot does that acts in it; in a test that is not here nobody moves."""
+"""Test → what robot A does in it; in other tests all robots stand still."""

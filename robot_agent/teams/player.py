@@ -1,4 +1,4 @@
-"""What a robot of every shipped team does alike: takes in the sight, obeys coach and referee, speaks on the radio."""
+"""What robots of all shipped teams have in common: world model, obedience to coach and referee, rules, radio."""
 
 import math
 from abc import ABC, abstractmethod
@@ -16,45 +16,47 @@ from robot_agent.teams import coach_tests, shoot_out
 from robot_agent.teams.action import Action
 from robot_agent.teams.set_piece import PENALTIES
 from robot_agent.world_model import WorldBelief, WorldModel
-from schemas.config.goalkeeper import goalkeeper_of
-from schemas.game import GameStage, GameView, TeamPhase
+from schemas.config.roster import goalkeeper_of
+from schemas.game import GameStage, TeamPhase
 from schemas.messages.coach import CoachMode, CoachOrder
-from schemas.messages.command import BallBelief, Command, Drive, Motion, Radio
+from schemas.messages.command import Command, Drive
+from schemas.messages.game import GameView
+from schemas.messages.radio import BallBelief, Motion, Radio
 from schemas.messages.sight import Sight
 
 RADIO_EVERY = 5
-"""Ticks between two words on the radio: 10 Hz at a tick of 20 ms."""
+"""Ticks between two radio messages: 10 Hz at a tick of 20 ms."""
 FAR = 2.0
-"""m along x and y together; a robot farther from the ball than it can come in `NOTICE` decides only when it speaks."""
+"""m along x and y together; farther from the ball, plus its way in `NOTICE`, a robot decides only when it sends."""
 NOTICE = 0.5
-"""s."""
+"""s of the ball's motion."""
 LETS_GO = 0.4
-"""s without the dribbler after a kick: a soft one would be caught again before it has left."""
+"""s without the dribbler after a kick: the ball of a soft kick would be caught again at once."""
 STILL = frozenset({TeamPhase.PRE_GAME, TeamPhase.STOPPED, TeamPhase.HALF_TIME, TeamPhase.FULL_TIME})
-"""Phases in which nobody has anything to do."""
+"""Phases in which robots stand still."""
 PASS_BEFORE = 1.5
-"""m before the end of the dribbling circle where a robot begins to look for somebody to pass to."""
+"""m before the end of the dribbling circle, where a robot begins to look for a receiver."""
 LET_GO_BEFORE = 1.0
-"""m before its end where the ball is let go, if there is room ahead."""
+"""m before its end, where the ball is released if there is room ahead."""
 STOP_BEFORE = 0.6
-"""m before its end where a robot with no room ahead brakes: it comes to rest in 0.4 m from 2 m/s."""
+"""m before its end, where a robot without room ahead brakes: it stops within 0.4 m from 2 m/s."""
 TURN_BEFORE = 0.3
-"""m before the longest way backward that may be repeated where a robot turns instead."""
+"""m before the longest repeatable distance backward, where a robot turns instead."""
 TURN_RATE = 2.5
-"""rad/s; of that turn."""
+"""rad/s of that turn."""
 _PARKING_SPEED = 1.5
 """m/s."""
 _AT_THE_CENTRE = Ball(0.0, 0.0)
-"""Where a ball is that may be anywhere."""
+"""Stands in for a ball whose place is unknown."""
 _AIR = 0.1
 """m between two robots that pass each other."""
 
 
 class Player(ABC):
-    """One robot of a team; a team says what it does while the ball is in play or about to be."""
+    """One robot of a team; each team defines what it does in play and in restarts."""
 
     plays_alone: ClassVar[bool] = False
-    """A robot without teammates plays in the field; otherwise it keeps the goal."""
+    """Whether a robot without teammates plays in the field rather than keeps the goal."""
 
     def __init__(self, briefing: Briefing) -> None:
         self.briefing = briefing
@@ -63,11 +65,11 @@ class Player(ABC):
         team = self.setup.teams[briefing.side]
         plays_field = not team.goalkeeper or (self.plays_alone and not briefing.teammates)
         self._keepers = [] if plays_field else team.robots
-        """Who keeps the goal: the first of them that is on the field."""
+        """Candidates for the goalkeeper: the first of them on the field."""
         self.keeper = self._first_keeper = goalkeeper_of(self._keepers, ())
-        """Who keeps it now, or nothing."""
+        """The goalkeeper at present; None where there is none."""
         self.is_keeper = self.keeper == briefing.robot
-        """Whether this robot does."""
+        """Whether this robot is the goalkeeper."""
         self._full_limits = self.limits
         self._world = WorldModel(briefing)
         self._rule_limits = RuleLimits.of(briefing.setup)
@@ -76,13 +78,13 @@ class Player(ABC):
         self._penalty_area = Area.penalty(self.setup.pitch)
         self._carry: Carry | None = None
         self.possession = Possession()
-        """Which side has the ball, and whether a goal would count; followed where the rules ask for a pass."""
+        """Which side has the ball, and whether a goal would count; updated only where the rules require a pass."""
         self._lets_go = 0.0
         """s for which the dribbler stays off after a kick."""
         self._penalty_kicked = False
-        """This robot has kicked its penalty of the shoot-out; there is one kick."""
+        """Whether this robot has kicked its penalty of the shoot-out, for which it has one kick."""
         self._progress = coach_tests.NOTHING_DONE
-        """How far this robot is with the coach's test."""
+        """How far this robot has come with the coach's test."""
         self._last: Command | None = None
         self._game: GameView | None = None
 
@@ -98,14 +100,14 @@ class Player(ABC):
         return self._last
 
     def restart(self) -> None:
-        """Another episode begins: what was believed of the world is void."""
+        """Forget what was believed of the world: another episode begins."""
         self._world = WorldModel(self.briefing)
         self._lets_go = 0.0
         self._progress = coach_tests.NOTHING_DONE
         self._last = None
 
     def _may_go_on(self, sight: Sight, last: Command) -> bool:
-        """Whether nothing asks for a decision: far from the ball, nothing to say, the same game, the same order."""
+        """Whether the last command may be repeated: far from the ball, no radio message due, same game, same order."""
         ball, me, game, before = sight.ball, sight.self, sight.game, self._game
         return (
             (sight.tick + self.briefing.number) % RADIO_EVERY != 0
@@ -121,7 +123,7 @@ class Player(ABC):
         )
 
     def _decide(self, sight: Sight) -> Command:
-        """A new decision."""
+        """Make a new decision."""
         belief = self._world.update(sight)
         self.keeper = goalkeeper_of(self._keepers, _away(belief.game)) if belief.game.robots else self._first_keeper
         self.is_keeper = self.keeper == self.briefing.robot
@@ -134,20 +136,20 @@ class Player(ABC):
             self.possession = possession_after(self.possession, belief, self.briefing.robot, self._rule_limits.roll)
         action = self._obey(belief, order) or self._by_the_rules(belief, self._act(belief, order))
         if not belief.kicker_ready:
-            action = action._replace(kick=None, pass_to=None)  # it would be refused: keep the ball, and aim
+            action = action._replace(kick=None, pass_to=None)  # the kick would be refused: keep the ball, and aim
         self._lets_go = LETS_GO if action.kick is not None else max(0.0, self._lets_go - belief.dt)
-        speaks = (sight.tick + self.briefing.number) % RADIO_EVERY == 0
+        sends = (sight.tick + self.briefing.number) % RADIO_EVERY == 0
         return Command(
             answers_tick=sight.tick,
             drive=action.drive,
             dribble=action.dribble and (action.kick is not None or self._lets_go == 0.0),
             kick=action.kick,
-            radio=self._radio(belief, action) if speaks or action.pass_to is not None else None,
+            radio=self._radio(belief, action) if sends or action.pass_to is not None else None,
             acknowledges_order=order.sequence if order else None,
         )
 
     def _act(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
-        """What the coach's test asks for, or the game; what every shipped team does alike stands before its play."""
+        """The action in the coach's test or in the game; what all teams have in common comes before the team's play."""
         game = belief.game
         if order is not None and order.mode is CoachMode.TEST:
             return self.show_test(belief, order)
@@ -159,25 +161,25 @@ class Player(ABC):
 
     @abstractmethod
     def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
-        """What to do in a restart or in play."""
+        """The action in a restart or in play."""
 
     @property
     def may_score(self) -> bool:
-        """Whether the rules let a goal count that this robot kicks from where it is."""
+        """Whether a goal that this robot kicks from its place would count."""
         return not self._rule_limits.passes_first or self.possession.may_score
 
     @property
     def is_bound_forward(self) -> bool:
-        """Whether the rules count ways driven backward with the ball."""
+        """Whether the rules limit driving backward with the ball."""
         return math.isfinite(self._rule_limits.backward)
 
     @property
     def must_pass_on(self) -> bool:
-        """Whether the ball has to leave this robot's hold soon."""
+        """Whether this robot has to give up the ball soon."""
         return self._carry is not None and self._carry.way > self._rule_limits.circle - PASS_BEFORE
 
     def _by_the_rules(self, belief: WorldBelief, action: Action) -> Action:
-        """The same action as far as the rules in play let this robot do it."""
+        """The same action within the rules in play."""
         if action.kick is None and self._carry is not None:
             action = self._carry_on(belief, action, self._carry)
         if self.is_keeper:
@@ -194,7 +196,7 @@ class Player(ABC):
     def _is_second_in_area(self, belief: WorldBelief) -> bool:
         """Whether a teammate in the field is nearer to the ball than this robot, and in the nearer penalty area.
 
-        Where a second one there is a foul at once, wherever it is: it may be about to enter.
+        Where a second robot there is a foul at once, the teammate may be anywhere, since it may be about to enter.
         """
         end = math.copysign(1.0, belief.me.x)
         ball = belief.ball.now[:2] if belief.ball is not None else (end * self.setup.pitch.goal_line, 0.0)
@@ -207,7 +209,7 @@ class Player(ABC):
         )
 
     def _carry_on(self, belief: WorldBelief, action: Action, carry: Carry) -> Action:
-        """Before the circle ends the ball is let go, or the robot stops; it turns before it has gone back for long."""
+        """Release the ball or stop before the dribbling circle ends; turn before the way backward is too long."""
         if carry.way > self._rule_limits.circle - LET_GO_BEFORE:
             kick = let_go(belief.me, belief.opponents, self.setup) if belief.kicker_ready else None
             if kick is not None:
@@ -220,7 +222,7 @@ class Player(ABC):
         return action
 
     def _obey(self, belief: WorldBelief, order: CoachOrder | None) -> Action | None:
-        """What the referee or the coach leaves no choice about."""
+        """The action that the referee or the coach prescribes; None where the robot is free."""
         phase, mine = belief.game.phase, belief.game.robots.get(self.briefing.robot)
         if mine is not None and mine.off_field is not None:
             return Action("", "off the field", Drive())
@@ -233,13 +235,13 @@ class Player(ABC):
         return None
 
     def show_test(self, belief: WorldBelief, order: CoachOrder) -> Action:
-        """What the coach's test asks of this robot."""
+        """The action in the coach's test."""
         situation = coach_tests.Situation(self.briefing, belief, order, self.limits)
         action, self._progress = coach_tests.step(situation, self._progress)
         return action
 
     def _shoot_out(self, belief: WorldBelief) -> Action:
-        """In a penalty of the shoot-out: take it, keep the goal, or wait."""
+        """The action in a penalty of the shoot-out: take it, keep the goal, or wait."""
         game, limits = belief.game, self.limits
         kicker = shoot_out.kicker_of(self.setup.teams[self.briefing.side].robots, self.keeper, game)
         if game.phase is TeamPhase.OUR_PENALTY and kicker == self.briefing.robot:
@@ -256,7 +258,7 @@ class Player(ABC):
         return Action("", "wait", shoot_out.wait(belief, self.briefing.number, self.setup, limits))
 
     def _search(self, belief: WorldBelief) -> Action:
-        """In play, when nobody has seen the ball for long: the keeper guards the goal, the others drive around."""
+        """Search for a lost ball in play: the keeper guards the goal, the others drive around."""
         pitch, reach, me = self.setup.pitch, self.setup.robot.reach, belief.me
         if self.is_keeper:
             return Action("", "look for the ball", keep_goal(me, _AT_THE_CENTRE, pitch, reach, self.limits))
@@ -265,7 +267,7 @@ class Player(ABC):
         return Action("", "look for the ball", go_around(me, x, y, me.heading, blocked, self.limits))
 
     def _park(self, belief: WorldBelief) -> Drive:
-        """To the right touch line of the own half, beside each other (simatch: 1.5 m apart)."""
+        """Park at the right touch line of the own half, in a row (simatch: 1.5 m apart)."""
         pitch, radius = self.setup.pitch, self.setup.robot.reach
         x = -pitch.goal_line + 1.5 * self.briefing.number
         y = -pitch.touch_line + radius + 0.1
@@ -273,7 +275,7 @@ class Player(ABC):
         return go_around(belief.me, x, y, 0.0, blocked, self.limits.capped(_PARKING_SPEED))
 
     def _radio(self, belief: WorldBelief, action: Action) -> Radio:
-        """What the teammates are told."""
+        """The radio message to the teammates."""
         me, ball = belief.me, belief.ball
         return Radio(
             self=Motion(x=me.x, y=me.y, heading=me.heading, vx=me.vx, vy=me.vy, omega=me.omega),
@@ -285,12 +287,12 @@ class Player(ABC):
 
 
 def _away(game: GameView) -> list[str]:
-    """Who of us is off the field."""
-    return [name for name, standing in game.robots.items() if standing.off_field is not None]
+    """Own robots that are off the field."""
+    return [name for name, record in game.robots.items() if record.off_field is not None]
 
 
 def _repeated(last: Command, tick: int) -> Command:
-    """The last command as the answer to one more sight, with nothing kicked and nothing said."""
+    """The last command as the answer to one more sight, without kick and radio message."""
     return Command(
         answers_tick=tick, drive=last.drive, dribble=last.dribble, acknowledges_order=last.acknowledges_order
     )

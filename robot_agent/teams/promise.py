@@ -1,15 +1,15 @@
-"""A pass that was promised: to whom, as heard on the radio or given by the robot itself, for a while."""
+"""A promised pass: its receiver, from the radio or from the robot itself, for a limited time."""
 
 from typing import NamedTuple
 
 from robot_agent.world_model import WorldBelief
 
 LASTS = 2.0
-"""s for which a receiver counts on the pass it was promised."""
+"""s for which a receiver expects the promised pass."""
 
 
 class Promise(NamedTuple):
-    """Who is to get the ball, and for how many s more."""
+    """The receiver of the ball, and for how many s more."""
 
     receiver: str
     left: float = LASTS

@@ -1,4 +1,4 @@
-"""Set pieces as both shipped teams play them: how far to stay away, where to stand, how to take one."""
+"""Set pieces of both shipped teams: how far to stay away, where to stand, how to take one."""
 
 import math
 from collections.abc import Sequence
@@ -10,12 +10,13 @@ from robot_agent.skills.keep_off import inside, keep_off
 from robot_agent.skills.line_up import line_up
 from robot_agent.skills.turn_to import turn_rate
 from schemas.config.rule_book import Restarts
-from schemas.game import GameView, TeamPhase
+from schemas.game import TeamPhase
 from schemas.messages.command import Drive
-from schemas.messages.host import Setup
+from schemas.messages.game import GameView
+from schemas.messages.setup import Setup
 
 MARGIN = 0.2
-"""m beyond what the rules ask for: noise of the positions, and a little politeness."""
+"""m beyond the required distance, for the noise of positions."""
 ASIDE = 0.4
 """m of air, in play, between the ball and the hull of a robot that does not play it."""
 LINE_UP = 0.25
@@ -25,7 +26,7 @@ PENALTIES = frozenset({TeamPhase.OUR_PENALTY, TeamPhase.THEIR_PENALTY})
 
 
 def required_distance(phase: TeamPhase, restarts: Restarts) -> float:
-    """How far the rules keep a robot that does not take the restart from the ball, hull to ball, in m; 0 in play."""
+    """The required distance of a robot that does not take the restart from the ball, hull to ball, in m; 0 in play."""
     if phase is TeamPhase.PLAY:
         return 0.0
     if phase is TeamPhase.DROP_BALL:
@@ -36,7 +37,7 @@ def required_distance(phase: TeamPhase, restarts: Restarts) -> float:
 
 
 def legal_place(x: float, y: float, game: GameView, spot: tuple[float, float], setup: Setup) -> tuple[float, float]:
-    """The place nearest to the wanted one where a robot that does not take the restart may stand."""
+    """The nearest place to the wanted one where a robot that does not take the restart may stand."""
     pitch, radius, phase = setup.pitch, setup.robot.reach, game.phase
     if phase in KICK_OFFS:
         x = min(x, -radius - MARGIN)
@@ -57,10 +58,10 @@ def stand(
     setup: Setup,
     limits: DriveLimits,
 ) -> Drive:
-    """Go to a place and face the spot, around everybody and around the circle that the rules draw.
+    """Go to a place and face the spot, around all other robots and around the circle that the rules require.
 
-    In play the spot is where the ball is: who does not play it runs into neither it nor the way of who does. Before a
-    kick-off, START waits for who is in the other half: he comes home past the ball, through the circle.
+    In play the spot is the ball: a robot that does not play it keeps away from it and from the path of the one that
+    does. Before a kick-off, START waits for robots in the other half: they return past the ball, through the circle.
     """
     radius = setup.robot.reach
     x, y = legal_place(*place, game, spot, setup)
@@ -90,7 +91,7 @@ def wait_behind(
     setup: Setup,
     limits: DriveLimits,
 ) -> Drive:
-    """Before START: behind the ball for the target, without touching it."""
+    """Before START: wait behind the ball, in line with the target, without touching the ball."""
     distance = setup.robot.radius + setup.ball.radius + LINE_UP
     return line_up(me, spot, target, distance, circles_near(me, others, 2.0 * setup.robot.reach + 0.1), limits)
 
@@ -98,7 +99,7 @@ def wait_behind(
 def step_in(
     me: Body, ball: tuple[float, float], target: tuple[float, float], setup: Setup, limits: DriveLimits
 ) -> Drive:
-    """After START: straight at the ball along the line to the target, until the dribbler has it."""
+    """After START: drive straight at the ball along the line to the target, until the dribbler holds it."""
     distance = math.hypot(ball[0] - me.x, ball[1] - me.y)
     heading = math.atan2(target[1] - ball[1], target[0] - ball[0])
     beside = abs((me.y - ball[1]) * math.cos(heading) - (me.x - ball[0]) * math.sin(heading))

@@ -1,7 +1,7 @@
-"""The penalty shoot-out as both shipped teams play it: who takes it, where the others wait, one kick at a corner.
+"""The penalty shoot-out of both shipped teams: the kicker, where the others wait, and one kick at a corner.
 
-The kicker waits in the centre circle until START, steps up to the ball, and kicks from the mark; everybody else but the
-goalkeepers stands beyond the halfway line, outside the centre circle.
+The kicker waits in the centre circle until START, drives up to the ball, and kicks from the mark. All other robots but
+the goalkeepers stand beyond the halfway line, outside the centre circle.
 """
 
 import math
@@ -13,50 +13,51 @@ from robot_agent.skills.kick_at import kick_at
 from robot_agent.teams.set_piece import step_in
 from robot_agent.world_model import WorldBelief
 from schemas.config.sections import Pitch
-from schemas.game import GameView, TeamPhase
+from schemas.game import TeamPhase
 from schemas.messages.command import Drive, Kick
-from schemas.messages.host import Setup
+from schemas.messages.game import GameView
+from schemas.messages.setup import Setup
 
 WAITS = 0.7
 """m before the halfway line where the kicker waits, in the centre circle."""
 CLEAR = 0.5
-"""m of air to the halfway line of those who do not take it."""
+"""m of air between the halfway line and the other robots."""
 SPACING = 0.9
 """m between two of them."""
 CORNER = 0.35
-"""Share of the goal's width from its middle that the kick aims at."""
+"""Distance from the goal's middle that the kick aims at, as a share of the goal's width."""
 OFF_THE_MIDDLE = 0.2
-"""m of a goalkeeper beside the middle of its goal that leave the other corner open: more than the noise of a camera."""
+"""m of a goalkeeper beside the middle of its goal after which the other corner counts as open; above camera noise."""
 SPEED = 0.6
-"""Share of the fastest kick: hard enough for a corner, not for any."""
+"""Share of the fastest kick."""
 ERROR = 0.15
-"""m beside the target."""
+"""m beside the target, at most."""
 
 
 def kicker_of(robots: Sequence[str], keeper: str | None, game: GameView) -> str:
-    """The first robot of the team that is on the field, the goalkeeper last."""
+    """The first robot of the team on the field; the goalkeeper comes last."""
     there = [name for name in robots if name not in game.robots or game.robots[name].off_field is None]
     field = [name for name in there if name != keeper]
     return (field or there or list(robots))[0]
 
 
 def wait(belief: WorldBelief, number: int, setup: Setup, limits: DriveLimits) -> Drive:
-    """Beyond the halfway line, beside each other; `number` is the robot's place in its team."""
+    """Wait beyond the halfway line, in a row; `number` is the robot's place in its team."""
     beyond = -1.0 if belief.game.phase is TeamPhase.OUR_PENALTY else 1.0
     x = beyond * (setup.robot.reach + CLEAR)
-    y = setup.pitch.centre_circle_radius + number * SPACING  # on the left of both teams: each has a side of its own
+    y = setup.pitch.centre_circle_radius + number * SPACING  # left of its own attack: each team has a side of its own
     blocked = circles(belief.others, 2.0 * setup.robot.reach + 0.1)
     return go_around(belief.me, x, y, math.atan2(-y, -x), blocked, limits)
 
 
 def wait_for_start(belief: WorldBelief, setup: Setup, limits: DriveLimits) -> Drive:
-    """In the centre circle, facing the goal."""
+    """Wait in the centre circle, facing the goal."""
     blocked = circles(belief.others, 2.0 * setup.robot.reach + 0.1)
     return go_around(belief.me, -WAITS, 0.0, 0.0, blocked, limits)
 
 
 def take_penalty(belief: WorldBelief, setup: Setup, limits: DriveLimits) -> tuple[Drive, Kick | None]:
-    """After START: to the ball, and a flat kick at a corner."""
+    """After START: drive to the ball, and kick it along the ground at a corner."""
     pitch, ball = setup.pitch, belief.ball
     if ball is None:
         return Drive(), None
@@ -67,7 +68,7 @@ def take_penalty(belief: WorldBelief, setup: Setup, limits: DriveLimits) -> tupl
 
 
 def _side(belief: WorldBelief, pitch: Pitch) -> float:
-    """The sign of the corner's y: where the kick axis points already, unless the goalkeeper stands clearly there."""
+    """The sign of the corner's y: where the kick axis points, unless the goalkeeper clearly stands there."""
     me = belief.me
     _, keeper = min(belief.opponents, key=lambda place: math.dist(place, (pitch.goal_line, 0.0)), default=(0.0, 0.0))
     points = math.copysign(1.0, me.y + (pitch.goal_line - me.x) * math.tan(me.heading))

@@ -10,7 +10,6 @@ from itertools import islice
 from typing import NamedTuple
 
 from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Stamp
-from schemas.message import BadMessageError
 from schemas.messages.record_batch import (
     Entry,
     RecordBatchesRequest,
@@ -21,6 +20,7 @@ from schemas.messages.record_batch import (
 from schemas.recovery_window import BATCH_S, BATCH_TICKS, KEPT_BATCHES, KEPT_BYTES
 from schemas.topic import Topic
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
+from schemas.wire.message import BadMessageError
 
 _MOST = 1000
 """Most payloads of other processes that are recorded in one tick, as protection from a flood. Those beyond it show as a

@@ -12,10 +12,10 @@ from types import TracebackType
 from typing import Any, NamedTuple, Self
 
 from schemas.errors import TouchlineError
-from schemas.message import VERSION, BadMessageError, WireMessage
 from schemas.process.clock import Clock
-from schemas.struct import encode
 from schemas.topic import Delivery, Topic
+from schemas.wire.message import VERSION, BadMessageError, WireMessage
+from schemas.wire.struct import encode
 
 LEASE_S = 2.0
 """Wall time without any data after which a link counts as broken."""

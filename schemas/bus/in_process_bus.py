@@ -23,9 +23,9 @@ from schemas.bus.contract import (
     full_key,
 )
 from schemas.bus.mailbox import EveryMailbox, Mailbox, NewestMailbox
-from schemas.message import WireMessage
 from schemas.process.clock import Clock
 from schemas.topic import Delivery, Topic
+from schemas.wire.message import WireMessage
 
 
 @dataclass(eq=False)

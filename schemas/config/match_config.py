@@ -20,8 +20,8 @@ from schemas.config.settings import DEFAULT_MATCH, RecordOptions
 from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import OfficiatingMode
-from schemas.message import Name, Part
 from schemas.side import Side
+from schemas.wire.message import Name, Part
 
 LOCKSTEP = "lockstep"
 """The pace at which the host waits for the answers of all robots."""

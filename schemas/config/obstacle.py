@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from schemas.message import Name, Part
+from schemas.wire.message import Name, Part
 
 Length = Annotated[float, Field(ge=0.02, le=5)]
 """m; a fast ball would pass through a thinner body in one physics step."""

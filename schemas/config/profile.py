@@ -29,8 +29,8 @@ from schemas.config.sections import (
     TimeSteps,
     Wheels,
 )
-from schemas.described import Described
 from schemas.errors import TouchlineError, did_you_mean
+from schemas.wire.field_docstrings import Described
 
 SHIPPED = ("msl", "omni", "omni3", "paper")
 """The profiles that the package ships."""

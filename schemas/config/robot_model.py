@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.sections import Dribble, DriveLimits, Kicker, RobotBody, Wheels
-from schemas.described import Described
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.side import Side
+from schemas.wire.field_docstrings import Described
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,8 @@ from typing import Annotated, Any
 
 from schemas.config.foul_book import Areas, Contact, Fouls, Handling, Scoring, Scrum
 from schemas.config.quantity import Quantity, merge_tables, read_section
-from schemas.described import Described
 from schemas.errors import TouchlineError, did_you_mean
+from schemas.wire.field_docstrings import Described
 
 SHIPPED = ("china-sim-2020", "friendly", "msl", "paper")
 """The rule books that the package ships."""

@@ -10,7 +10,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from schemas.message import Part
+from schemas.wire.message import Part
 
 DEFAULT_MATCH = "friendly"
 """The default name of a match, for hosts and for processes that join one."""

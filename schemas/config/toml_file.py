@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from schemas.errors import TouchlineError
-from schemas.faults import fault_of
+from schemas.wire.faults import fault_of
 
 M = TypeVar("M", bound=BaseModel)
 

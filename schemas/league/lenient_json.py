@@ -21,7 +21,7 @@ KEYS = (
     ),
     *("id", "pose", "targetPose", "velocity", "batteryLevel", "ballEngaged", "position", "confidence", "radius"),
 )
-"""Keys as the league's schema MSLWMD spells them."""
+"""Keys as the league's schema spells them."""
 REQUIRED = ("type", "teamName", "intention", "robots", "balls", "obstacles", "ageMs")
 """Keys that the schema requires of a world state."""
 _OTHER_NAMES = {

@@ -1,4 +1,4 @@
-"""A team's world state in the schema MSLWMD of the league's RefBox, made from values of the field frame.
+"""A team's world state in the format of the league's referee box, made from values of the field frame.
 
 `world_state` returns the object of the league's JSON: m, m/s and rad, in the team's axes.
 """

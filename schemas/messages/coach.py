@@ -6,11 +6,11 @@ from typing import Annotated
 
 from msgspec import Meta
 
-from schemas.faults import Fault, FaultError, FaultKind
 from schemas.game import Point
-from schemas.message import Message, Name
-from schemas.messages.command import KickMode, KickSpeed, ShortText
-from schemas.struct import StructMessage, check
+from schemas.messages.command import KickMode, KickSpeed
+from schemas.wire.faults import Fault, FaultError, FaultKind
+from schemas.wire.message import Message, Name, ShortText
+from schemas.wire.struct import StructMessage, check
 
 MAX_SEQUENCE = 2**53 - 1
 """The largest whole number that every language reads exactly from JSON."""

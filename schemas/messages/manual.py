@@ -1,7 +1,7 @@
 """Manual control: a person drives a robot in place of its brain."""
 
-from schemas.message import Message
 from schemas.messages.command import Drive, Kick
+from schemas.wire.message import Message
 
 TIMEOUT_S = 0.5
 """Wall time without a message after which a robot is given back to its brain."""

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from pydantic import Field, StrictFloat, StrictInt, StringConstraints
 
-from schemas.message import Message, Part, Source
+from schemas.wire.message import Message, Part, Source
 
 ParameterName = Annotated[str, StringConstraints(pattern=r"^[a-z_0-9]+(\.[a-z_0-9]+)*$", max_length=120)]
 """Name in the profile, `ball.rolling_deceleration`; the name of a section stands for all of its parameters."""

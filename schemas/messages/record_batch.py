@@ -11,7 +11,7 @@ from typing import Annotated, Any, ClassVar
 import msgspec
 from pydantic import Field
 
-from schemas.message import VERSION, BadMessageError, Message, Part
+from schemas.wire.message import VERSION, BadMessageError, Message, Part
 
 MAX_KEY = 200
 """Most characters of a key."""

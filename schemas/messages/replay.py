@@ -5,8 +5,8 @@ from typing import Annotated, ClassVar
 
 from pydantic import Field
 
-from schemas.game import GameEvent
-from schemas.message import Message
+from schemas.messages.game import GameEvent
+from schemas.wire.message import Message
 
 
 class ReplayOperation(StrEnum):

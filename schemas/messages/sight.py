@@ -2,13 +2,13 @@
 
 from msgspec import field
 
-from schemas.game import GameView
-from schemas.message import Name
 from schemas.messages.coach import CoachOrder
-from schemas.messages.command import BallBelief, Motion, RadioContent
+from schemas.messages.game import GameView
+from schemas.messages.radio import BallBelief, Motion, RadioContent
 from schemas.side import Side
-from schemas.struct import Struct, StructMessage
-from schemas.units import Metres, MetresPerSecond, Seconds
+from schemas.wire.message import Name
+from schemas.wire.struct import Struct, StructMessage
+from schemas.wire.units import Metres, MetresPerSecond, Seconds
 
 
 class BallSight(Struct, frozen=True, kw_only=True):

@@ -4,8 +4,8 @@ from pydantic import Field
 
 from schemas.config.obstacle import Shape
 from schemas.game import OffField
-from schemas.message import Message, Name, Part
 from schemas.side import Side
+from schemas.wire.message import Message, Name, Part
 
 
 class RobotTruth(Part):

@@ -15,9 +15,9 @@ from pydantic import BaseModel, StringConstraints
 from pydantic.fields import FieldInfo
 
 from schemas.config.quantity import Choice, Quantity
-from schemas.described import field_docstrings
-from schemas.message import Name
-from schemas.struct import encode
+from schemas.wire.field_docstrings import field_docstrings
+from schemas.wire.message import Name
+from schemas.wire.struct import encode
 
 Link = Callable[[type], str]
 """Gives the name of a part or an enumeration in the text."""

@@ -11,12 +11,12 @@ from typing import Any
 
 from pydantic_core import from_json
 
-from schemas.message import VERSION, Message, WireMessage
-from schemas.older_versions import RENAMINGS
 from schemas.protocol.examples import examples
 from schemas.protocol.fields import is_part, parts_of, rows
 from schemas.topic import Topic
 from schemas.topics import TOPICS
+from schemas.wire.message import VERSION, Message, WireMessage
+from schemas.wire.older_versions import RENAMINGS
 
 _NOTE = "<!-- Made by `python -m schemas.protocol > docs/protocol.md`; to change this page, change schemas/. -->"
 _WIDE = 110

@@ -10,10 +10,10 @@ from msgspec.structs import asdict, replace
 from numpy.typing import NDArray
 
 from schemas.config.sections import RadioChannel
-from schemas.messages.command import Radio
+from schemas.messages.radio import Radio
 from schemas.messages.sight import ReceivedRadio
 from schemas.side import Side
-from schemas.struct import encode
+from schemas.wire.struct import encode
 from sim_host.sensing.digits import DIGITS
 from sim_host.sensing.random_streams import BatchedDraws, RandomStreams, StreamId
 from sim_host.snapshot import Roster

@@ -6,9 +6,9 @@ from itertools import chain, repeat
 
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, ReceivedMessage
-from schemas.message import BadMessageError
 from schemas.messages.command import Command
 from schemas.topics import COMMAND
+from schemas.wire.message import BadMessageError
 from sim_host.server.agent_stats import LATENCY_SAMPLES, AgentStats
 from sim_host.server.invalid_log import InvalidLog
 from sim_host.snapshot import Roster

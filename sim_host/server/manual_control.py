@@ -4,10 +4,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from schemas.bus.contract import Bus
-from schemas.message import BadMessageError
 from schemas.messages.command import Command, Kick
 from schemas.messages.manual import TIMEOUT_S, ManualDrive
 from schemas.topics import MANUAL
+from schemas.wire.message import BadMessageError
 from sim_host.server.invalid_log import InvalidLog
 
 

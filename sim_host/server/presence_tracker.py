@@ -1,8 +1,8 @@
 """Who is there: agents, recorders and referee boxes by their liveliness tokens; recorders tell how far they are."""
 
 from schemas.bus.contract import Bus, Presence, PresenceKind
-from schemas.message import BadMessageError
 from schemas.topics import RECORDER_PROGRESS
+from schemas.wire.message import BadMessageError
 from sim_host.server.agent_stats import AgentStats
 
 _REMEMBERED = (PresenceKind.AGENT, PresenceKind.REFBOX, PresenceKind.COACH)

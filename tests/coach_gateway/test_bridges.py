@@ -21,16 +21,14 @@ from coach_gateway.refbox.server import ServerAddress
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_host
-from schemas.config.match_config import load_match
-from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
+from schemas.config.settings_file import write_settings
 from schemas.errors import TouchlineError
-from schemas.game import GameState, Phase
-from schemas.messages.host import Setup
+from schemas.game import Phase
+from schemas.messages.game import GameState
 from schemas.process.clock import WallClock
-from schemas.process.settings_file import write_settings
 from schemas.side import Side
 from schemas.topics import SETUP, STATE
+from support.messages import make_setup
 
 LIMIT_S = 60.0
 """To start, a process takes a second of a core: many, where others want it, too."""
@@ -80,12 +78,12 @@ def test_words_are_addresses_and_doors() -> None:
         ({"refbox": "::1", "team": [Side.CYAN]}, '--refbox is "::1"'),
     ],
 )
-def test_words_that_cannot_be_meant_are_told(words: dict[str, Any], says: str) -> None:
+def test_invalid_options_are_errors_with_the_reason(words: dict[str, Any], says: str) -> None:
     with pytest.raises(TouchlineError, match=says.replace("(", r"\(")):
         asked(**words)
 
 
-def test_a_port_that_is_taken_is_told_before_there_is_a_host() -> None:
+def test_a_taken_port_is_reported_before_there_is_a_host() -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         taken.bind(("127.0.0.1", 0))
         port = taken.getsockname()[1]
@@ -95,7 +93,7 @@ def test_a_port_that_is_taken_is_told_before_there_is_a_host() -> None:
             run(GatewaySettings(connect="tcp/127.0.0.1:1", bridges=BridgeOptions(udp=port)))
 
 
-def test_a_port_that_is_asked_for_twice_is_told_too() -> None:
+def test_a_port_that_is_given_twice_is_reported() -> None:
     port = with_free_port("tcp/127.0.0.1:0").rpartition(":")[2]
     with pytest.raises(TouchlineError, match=rf"--refbox-server {port} cannot be listened on"):
         asked(refbox_server=[port, f"cyan:{port}"]).try_ports()
@@ -104,12 +102,12 @@ def test_a_port_that_is_asked_for_twice_is_told_too() -> None:
 
 
 @pytest.mark.parametrize("address", ["192.0.2.1", "a..b"])
-def test_an_address_that_is_not_this_machines_is_told_as_such(address: str) -> None:
-    with pytest.raises(TouchlineError, match=f"--listen-bridges {address} is no address of this machine"):
+def test_an_address_of_another_machine_is_reported(address: str) -> None:
+    with pytest.raises(TouchlineError, match=f"--listen-bridges {address} is not an address of this machine"):
         asked(udp=0, listen_bridges=address).try_ports()
 
 
-def test_what_strangers_say_does_not_speak_to_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
+def test_texts_from_the_network_cannot_control_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
     log("base station 1: \x1b[2J, \ud800\n, Zoë")
     assert capsys.readouterr().out == "base station 1: \ufffd[2J, \ufffd\ufffd, Zoë\n"
 
@@ -124,9 +122,9 @@ def test_bridges_need_no_web_server() -> None:
 
 
 @pytest.mark.processes
-def test_one_process_has_all_bridges_and_ends_when_it_is_told(tmp_path: Path) -> None:
+def test_one_process_has_all_bridges_and_ends_on_a_signal(tmp_path: Path) -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
-    setup = Setup.of(load_match(None, {}), load_profile("msl"), load_rule_book("friendly"))
+    setup = make_setup()
     tokens = tmp_path / "tokens.json"
     bridges = BridgeOptions(udp=0, refbox_server=["0"], audience=["127.0.0.1:9"])
     write_settings(GatewaySettings(connect=endpoint, tokens=tokens, bridges=bridges), tmp_path / "bridges.json")
@@ -154,7 +152,7 @@ def test_one_process_has_all_bridges_and_ends_when_it_is_told(tmp_path: Path) ->
 
 
 async def _meet(ports: dict[str, int], token: str, states: Any) -> None:
-    """A base station hears a corner, and a coach program is welcomed."""
+    """A base station receives a corner, and a coach program is welcomed."""
     reader, writer = await asyncio.open_connection("127.0.0.1", ports["referee box for base stations"])
     writer.write(json.dumps({"type": "hello", "team": "magenta"}).encode() + b"\x00")
     assert json.loads((await reader.readuntil(b"\x00"))[:-1])["command"] == "WELCOME"

@@ -8,12 +8,13 @@ import pytest
 import typer
 
 from coach_gateway.access.rights import RIGHTS
+from coach_gateway.access.roles import Role
 from coach_gateway.refbox.forwarding import FORWARD
 from coach_gateway.udp import protocol
 from coach_gateway.udp.coach_record import TEST_MODES, MatchMode
-from coach_gateway.web.protocol import PAGE_REQUEST, Role
-from schemas.message import Part
+from coach_gateway.web.protocol import PAGE_REQUEST
 from schemas.messages.coach import REQUIRED_FIELDS
+from schemas.wire.message import Part
 from touchline.__main__ import app
 
 

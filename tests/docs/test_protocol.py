@@ -12,12 +12,12 @@ from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.zenoh import sample, session
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
-from schemas.message import BadMessageError, Message
 from schemas.messages.command import Command
 from schemas.protocol.examples import examples
 from schemas.protocol.fields import is_part, parts_of, rows, type_text
 from schemas.protocol.page import page
 from schemas.topics import TOPICS
+from schemas.wire.message import BadMessageError, Message
 from sim_host.server import agent_stats, pace
 from touchline.launch.processes import MatchPlan, ProcessKind, processes_of
 from touchline.launch.supervisor import AFTER_THE_MATCH

@@ -11,9 +11,9 @@ from recordings.container.sealed_metadata import to_metadata
 from recordings.recorder.recording_writer import RecordingWriter
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.config.match_config import load_match
-from schemas.message import VERSION
 from schemas.process.clock import SteppedClock
 from schemas.topics import WORLD
+from schemas.wire.message import VERSION
 from sim_host.match.simulation import Simulation, TickResult
 from touchline.play import play_match
 

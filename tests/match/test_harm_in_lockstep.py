@@ -8,9 +8,9 @@ import pytest
 
 from recordings.container.manifest import EndReason
 from recordings.reading.recording import open_recording
-from schemas.message import BadMessageError
 from schemas.messages.command import Command, Drive
 from schemas.topics import key_prefix
+from schemas.wire.message import BadMessageError
 from sim_host.server.agent_stats import SILENT_TICKS
 from support.process_story import MessageLog
 
@@ -173,7 +173,7 @@ def test_ctrl_c_ends_everything_soon_with_status_130_and_leaves_nobody(story, is
 def test_ctrl_c_leaves_a_finished_recording_and_says_where(recording, story, folder):
     assert recording.complete
     assert recording.result.ended in (EndReason.HOST_GONE, EndReason.STOPPED)
-    assert "touchline: match ended by hand; m.mcap is what it left" in story.program.err
+    assert "touchline: match interrupted; see m.mcap" in story.program.err
     assert not (folder / "m.mcap.part").exists()
 
 

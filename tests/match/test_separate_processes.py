@@ -7,10 +7,10 @@ import pytest
 
 from recordings.container.manifest import EndReason
 from recordings.reading.recording import open_recording
-from recordings.settings import RecorderSettings
+from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
 from schemas.config.match_config import MatchConfig
-from sim_host.settings import HostSettings
+from sim_host.server.settings import HostSettings
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
@@ -33,7 +33,8 @@ class Marked:
         return Command(answers_tick=sight.tick, drive=Drive(vx=1.0, omega=1.0))
 """
 WITHOUT = """
-import touchline.__main__, coach_gateway.process, recordings.process, robot_agent.process, sim_host.process
+import touchline.__main__, coach_gateway.process, robot_agent.process
+import recordings.recorder.process, sim_host.server.process
 try:
     import pybullet
 except ModuleNotFoundError:

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from rich.text import Text
 
-from coach_gateway.match.detailed_follower import DetailedFollower
+from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
 from robot_agent.contract import Briefing, load_brain
@@ -23,9 +23,11 @@ from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
 from schemas.bus.contract import Bus, PendingReply
 from schemas.bus.in_process_bus import Medium
 from schemas.config.match_config import load_match
-from schemas.config.scene import Scene, SceneOperation, SceneRequest, load_scene
-from schemas.game import ActionName, Phase, RefereeAction, TeamPhase
+from schemas.config.scene import Scene, load_scene
+from schemas.game import ActionName, Phase, TeamPhase
 from schemas.messages.coach import CoachMode, CoachTest
+from schemas.messages.game import RefereeAction
+from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.sight import Sight
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
@@ -47,7 +49,7 @@ class Experiment:
         self.scene: Scene = load_scene(scene)
         medium = Medium()
         coach = self._attended(medium.open_bus(config.name, SteppedClock()))
-        self.client, self.seen = HostClient(coach), DetailedFollower(coach)
+        self.client, self.seen = HostClient(coach), MatchFollower(coach, details=True)
         self.client.orders.update()
         self.host = Host(config, medium.open_bus(config.name, SteppedClock()))
         setup = self.host.simulation.setup()
@@ -214,7 +216,7 @@ def test_one_every_robot_receives_the_coachs_command(static: Experiment, action:
     assert reply.accepted, reply.reason
     assert static.play(lambda: {static.sights[name].game.phase for name in CYAN} == {told}, 20.0)
     static.seen.update()
-    assert static.seen.match.state is not None and static.seen.match.state.phase is phase
+    assert static.seen.state is not None and static.seen.state.phase is phase
     if phase is Phase.STOPPED:
         return
     assert static.play(static.ball_lies_on_its_spot, 20.0)  # as soon as nobody stands there

@@ -8,7 +8,7 @@ from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.side import Side
 
 STUDENT = """
@@ -50,7 +50,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_a_briefing_tells_number_side_and_teammates(setup):
+def test_a_briefing_has_number_side_and_teammates(setup):
     keeper = Briefing.of("magenta1", setup)
     assert (keeper.side, keeper.number) == (Side.MAGENTA, 1)
     assert Briefing.of("cyan3", setup).teammates == ("cyan1", "cyan2", "cyan4", "cyan5")
@@ -87,7 +87,7 @@ def test_a_plain_function_is_a_brain(here, briefing, sight_of):
         ("angry_team:Team", "importing angry_team raised ValueError: not today (angry_team.py, line 2)"),
     ],
 )
-def test_what_is_wrong_with_a_brain_is_said_in_one_line(here, briefing, spec, said):
+def test_an_invalid_brain_is_reported_in_one_line(here, briefing, spec, said):
     with pytest.raises(TouchlineError) as caught:
         load_brain(spec, briefing)
     assert said in str(caught.value)

@@ -12,8 +12,9 @@ from robot_agent.world_model import SeenBall, Teammate, WorldBelief
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
-from schemas.game import GameView, TeamPhase
-from schemas.messages.host import Setup
+from schemas.game import TeamPhase
+from schemas.messages.game import GameView
+from schemas.messages.setup import Setup
 from schemas.messages.sight import Motion, ReceivedRadio
 
 AT, NOBODYS = Body(-3.0, 0.0, 0.0), Possession()
@@ -78,7 +79,7 @@ def test_an_opponent_at_the_ball_alone_has_it():
     assert after(scene((2.0, 0.0), holding=True), scene((2.0, 0.0), opponents=[(2.3, 0.0)])).ours is False
 
 
-def test_in_a_duel_the_ball_stays_with_whom_it_was():
+def test_in_a_duel_the_possession_does_not_change():
     duel = scene((2.0, 0.0), mates=[(3, 2.3, 0.0)], opponents=[(1.7, 0.0)])
     assert after(duel, before=Possession(False)).ours is False
     assert after(scene((2.0, 0.0), holding=True), duel).ours is True
@@ -113,14 +114,14 @@ def test_a_robot_with_no_room_ahead_stops_inside_the_circle(league, sight_of):
     assert command.kick is None and (command.drive.vx, command.drive.vy) == (0.0, 0.0)
 
 
-def test_in_a_friendly_nobody_lets_go(setup, sight_of):
+def test_in_a_friendly_no_robot_releases_the_ball(setup, sight_of):
     robot = Simple(Briefing.of("cyan2", setup))
     command = play(robot, sight_of, 2.5)
     assert command.kick is None and command.drive.vx > 0.5
 
 
 def test_the_second_of_two_stays_out_of_the_penalty_area_while_the_nearer_one_is_in_it(league, sight_of):
-    """The first plays the ball there; the second, who wants to hold its place near it, comes no nearer."""
+    """The first plays the ball there; the second, which wants to hold its place near it, comes no nearer."""
     front = league.pitch.goal_line - league.pitch.penalty_area_depth
     robot = Simple(Briefing.of("cyan2", league))
     word = ReceivedRadio(age=0.0, self=Motion(x=-10.0, y=2.0, heading=0.0), role="striker")

@@ -94,7 +94,7 @@ def test_a_payload_that_is_no_sight_is_counted_and_skipped(played, sight_of, cap
 
 
 @pytest.mark.parametrize("brain", [Raising(), type("Silent", (), {"act": lambda self, sight: None})()])
-def test_a_brain_that_raises_or_says_nothing_is_a_brain_error(seats, sight_of, brain):
+def test_a_brain_that_raises_or_returns_none_is_a_brain_error(seats, sight_of, brain):
     host, robot = seats
     sights = host.publisher(SIGHT, robot="cyan2")
     runner = Runner(robot, brain, "cyan2")
@@ -116,13 +116,13 @@ def test_after_forgetting_an_equal_tick_is_a_new_sight(played, sight_of):
 
 def test_without_a_host_the_setup_is_asked_for_until_patience_ends(seats):
     _, robot = seats
-    with pytest.raises(TouchlineError, match=r"no host told the setup for 3 s .*--match"):
+    with pytest.raises(TouchlineError, match=r"no host replied with the setup within 3 s .*--match"):
         ask_setup(robot, 3.0)
     assert robot.clock.now() >= 3.0
 
 
 class Impatient(SteppedClock):
-    """Half a second passes whenever somebody looks."""
+    """Half a second passes with each look."""
 
     def now(self):
         self.sleep_until(super().now() + 0.5)
@@ -158,7 +158,7 @@ def test_a_brain_that_raises_ends_the_process_with_status_1_and_its_traceback(st
     assert "in _think" not in said  # the last lines of a log belong to the brain's own code
 
 
-def test_a_brain_that_says_nothing_is_reported_in_one_line(seats, sight_of):
+def test_a_brain_that_returns_none_is_reported_in_one_line(seats, sight_of):
     _, robot = seats
     runner = Runner(robot, type("Silent", (), {"act": lambda self, sight: None})(), "cyan2")
     with pytest.raises(BrainError) as raised:

@@ -8,7 +8,7 @@ from robot_agent.bodies import Ball
 from robot_agent.opponents import REMEMBERED
 from robot_agent.world_model import LOST, STALE, WorldModel
 from schemas.game import Point, TeamPhase
-from schemas.messages.command import BallBelief
+from schemas.messages.radio import BallBelief
 from schemas.messages.sight import BallSight, Motion, ReceivedRadio
 
 
@@ -58,7 +58,7 @@ def test_a_held_ball_is_before_the_robot(world, sight_of, setup):
     assert ball.age == 0.0
 
 
-def test_a_ball_out_of_sight_is_where_the_teammate_who_saw_it_last_believes_it_rolled_on_since_he_spoke(
+def test_an_unseen_ball_is_where_the_teammate_that_saw_it_last_believes_it_extrapolated_since_its_message(
     world, sight_of
 ):
     own = BallSight(x=5.0, y=5.0, vx=0.0, vy=0.0, age=3.0, visible=False)
@@ -76,7 +76,7 @@ def test_an_own_ball_in_sight_is_believed_before_any_teammates(world, sight_of):
     assert world.update(sight_of(ball=(3.0, 0.0), radio=radio)).ball.now.x == 3.0
 
 
-def test_a_picture_is_moved_on_by_its_age_and_said_twice_it_says_nothing_new(world, sight_of):
+def test_a_picture_is_extrapolated_by_its_age_and_a_repeated_one_adds_nothing(world, sight_of):
     seen = BallSight(x=2.0, y=0.0, vx=3.0, vy=0.0, age=0.02)
     first = world.update(sight_of(5, ball=seen)).ball.now
     assert first.x == pytest.approx(2.0 + 3.0 * 0.02, abs=1e-3)
@@ -115,7 +115,7 @@ def test_a_moving_opponent_is_moved_on_by_the_age_of_the_picture(world, sight_of
     assert y == 1.0
 
 
-def test_a_ball_nobody_has_seen_is_nowhere(world, sight_of):
+def test_a_ball_that_no_robot_has_seen_is_none(world, sight_of):
     assert world.update(sight_of(ball=None)).ball is None
 
 

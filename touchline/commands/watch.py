@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from schemas.bus.contract import Bus
 
 _EVERY = 0.1
-"""s of wall time between two pictures."""
+"""Wall time between two pictures, s."""
 
 
 @with_option_groups
 def watch(connection: ClientSettings) -> None:
-    """Watch a match in the terminal until its host goes, or until Ctrl-C: pitch, score, robots, events.
+    """Watch a match in the terminal until its host ends, or until Ctrl-C: pitch, score, robots, events.
 
-    Where the output is no terminal, the match is told in plain lines. A replay is watched in the same way.
+    If the output is not a terminal, the match is printed as plain lines. Replays can be watched, too.
 
     Example: touchline watch --match friendly
     """
@@ -41,7 +41,7 @@ def watch(connection: ClientSettings) -> None:
 
 
 def watch_on(bus: "Bus", console: "Console") -> None:
-    """Draw until the host goes; the last picture stays, where the terminal was.
+    """Draw until the host ends; the last picture stays on the terminal.
 
     Raises:
         TouchlineError: no host plays this match.
@@ -49,24 +49,22 @@ def watch_on(bus: "Bus", console: "Console") -> None:
     from rich.console import Group
     from rich.live import Live
 
-    from coach_gateway.match.detailed_follower import DetailedFollower
+    from coach_gateway.match.follower import MatchFollower
     from coach_gateway.match.host_client import HostClient
     from schemas.bus.contract import PresenceKind
-    from schemas.bus.host_watch import HostWatch
     from touchline.watch.drawing import draw_match
 
-    client, host = HostClient(bus, PATIENCE), HostWatch(bus)
-    setup = client.setup()
-    host.wait(PATIENCE)
+    client, seen = HostClient(bus, PATIENCE), MatchFollower(bus, details=True)
+    setup, episode = client.setup(), 0
+    seen.host.wait(PATIENCE)
     bus.declare_alive(PresenceKind.COACH, "watch")
-    seen, episode = DetailedFollower(bus), 0
     last = Group()
     try:
         with Live(console=console, auto_refresh=False, screen=True) as live:
             going = True
             while going:
-                going = not host.has_left()  # looked at first, so that the last messages are still seen
                 seen.update()
+                going = not seen.gone
                 if going and seen.world is not None and seen.world.episode != episode:
                     setup, episode = client.setup(), seen.world.episode  # others may take part
                 last = Group(*draw_match(seen, setup, console.width, console.height - 1))

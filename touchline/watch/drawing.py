@@ -2,26 +2,25 @@
 
 from rich.text import Text
 
-from coach_gateway.match.detailed_follower import DetailedFollower
-from schemas.messages.host import Setup
+from coach_gateway.match.follower import MatchFollower
+from schemas.messages.setup import Setup
 from touchline.watch import panel
 from touchline.watch.pitch import field, rows_for
 
 LEAST_PITCH = 40
-"""Cells; a narrower pitch has the robots below it, not beside it."""
+"""Cells; below this width of the pitch the robots are listed below it, not beside it."""
 LEAST_EVENTS = 3
-"""Rows that are kept for what happened."""
+"""Rows reserved for events."""
 
 
-def draw_match(seen: DetailedFollower, setup: Setup, width: int, height: int) -> list[Text]:
-    """At most `height` rows of at most `width` cells."""
-    follower = seen.match
+def draw_match(follower: MatchFollower, setup: Setup, width: int, height: int) -> list[Text]:
+    """The picture, at most `height` rows of at most `width` cells."""
     is_beside = width >= LEAST_PITCH + 2 + panel.WIDTH
     pitch_width = width - panel.WIDTH - 2 if is_beside else width
     room = max(1, height - 2 - LEAST_EVENTS)
-    robots = panel.robots(setup, seen.world, seen.radios, follower.state, follower.health)
-    robots += panel.orders(seen.orders.book)
-    rows = field(setup, seen.world, follower.state, pitch_width, min(room, rows_for(setup.pitch, pitch_width)))
+    robots = panel.robots(setup, follower.world, follower.radios, follower.state, follower.health)
+    robots += panel.orders(follower.orders)
+    rows = field(setup, follower.world, follower.state, pitch_width, min(room, rows_for(setup.pitch, pitch_width)))
     if is_beside:
         rows = _beside(rows, pitch_width, robots)[:room]
     elif len(rows) + len(robots) <= room:

@@ -1,16 +1,16 @@
-// What robots believe, beside what is true: their own place and the ball, as they said it on the radio, and passes.
+// What robots believe beside the truth: their own pose and the ball, as sent on the radio, and passes.
 
-import { SIDES, circle, arrowHead, line, write } from "./shapes.js";
-import { bodyPath, drawnRadius } from "./bodies.js";
+import { bodyPath, drawnRadius } from "./shared/bodies.js";
+import { SIDES, circle, line, write } from "./shared/shapes.js";
 import { numberOf } from "./text.js";
 
-/** Turns what is said in the frame of a side into the field's. */
+/** Turns a body from the frame of a side into that of the field. */
 export function onField(match, side, { x, y, heading = 0, ...rest }) {
   const sign = match.attack(side);
   return { ...rest, x: sign * x, y: sign * y, heading: sign > 0 ? heading : heading + Math.PI };
 }
 
-/** Beliefs of the robots that are looked through: `whose` is a robot's name, a side, or `all`. */
+/** Draws beliefs; `whose` is a robot's name, a side, or `all`. */
 export function drawBeliefs(context, projection, match, world, whose) {
   for (const name of Object.keys(world.robots)) {
     const side = match.sideOf(name);
@@ -20,7 +20,7 @@ export function drawBeliefs(context, projection, match, world, whose) {
   }
 }
 
-/** Who means to pass to whom. */
+/** Draws an arrow from each robot that means to pass to its receiver. */
 export function drawPasses(context, projection, match, world) {
   for (const [name, robot] of Object.entries(world.robots)) {
     const mate = world.robots[match.radioOf(name)?.pass_to];
@@ -54,7 +54,7 @@ function drawBelief(context, projection, match, name, side, word, world) {
   context.setLineDash([]);
 }
 
-/** A believed ball: hollow, with the number of who believes it, the fainter the older. */
+/** A believed ball: hollow, with the number of its robot; the older, the fainter. */
 function drawBall(context, projection, ball, own, colours, name, match, side) {
   context.globalAlpha = Math.max(0.3, 1 - 0.25 * ball.age);
   context.setLineDash([2, 4]);
@@ -65,4 +65,19 @@ function drawBall(context, projection, ball, own, colours, name, match, side) {
   const number = numberOf(name, match.setup.teams[side].robots);
   write(context, number, projection.x(ball.x) + 12, projection.y(ball.y) - 9, 10, { colour: colours.line });
   context.globalAlpha = 1;
+}
+
+/** An arrow's head at `to`, in the colour of the lines. */
+function arrowHead(context, projection, from, to, size) {
+  const angle = Math.atan2(projection.y(to.y) - projection.y(from.y), projection.x(to.x) - projection.x(from.x));
+  context.save();
+  context.translate(projection.x(to.x), projection.y(to.y));
+  context.rotate(angle);
+  context.fillStyle = context.strokeStyle;
+  context.beginPath();
+  context.moveTo(0, 0);
+  context.lineTo(-size, 0.5 * size);
+  context.lineTo(-size, -0.5 * size);
+  context.fill();
+  context.restore();
 }

@@ -1,4 +1,4 @@
-// The referee's buttons: a table of groups of rows, each button with the action that it asks for.
+// The referee's buttons: a table of groups of rows, each button with the action that it requests.
 
 import { byId, element, mark, offer, setText, show } from "./elements.js";
 
@@ -14,7 +14,7 @@ const RESTARTS = [
 const FOR_SIDES = [...RESTARTS, ["goal", "Goal +"], ["cancel_goal", "Goal −"]];
 const sided = ([action, text]) => ["cyan", "magenta"].map((side) => ({ text, action, side }));
 
-/** Title → rows of buttons: `text`, the referee's `action` or another `deed`, its `side`, `robot` if it is for one. */
+/** Title → rows of buttons: `text`, the referee's `action` or an `order`, its `side`, `robot` if it is about one. */
 const GROUPS = [
   [
     "Play",
@@ -78,7 +78,7 @@ export class Buttons {
     match.on("welcome host state refbox health", () => this.update());
   }
 
-  /** Stops what may be stopped: the match, or one's own side. */
+  /** Stops the match, or as a coach the own side. */
   stop(source = byId("stop")) {
     const { match } = this;
     if (match.may("stop")) return this.#ask(source, { text: "Stop", action: "stop" });
@@ -86,7 +86,7 @@ export class Buttons {
     return null;
   }
 
-  /** Why a button cannot be pressed, or nothing. */
+  /** Why a button cannot be pressed; null when it can. */
   why({ action, order, side, robot }) {
     const { match, selection } = this;
     if (!match.live) return "this is a recording";
@@ -95,12 +95,12 @@ export class Buttons {
     if (!match.may(deed, of)) {
       return match.role === "spectator" ? "spectators watch; a token lets you command" : `not for the coach of ${match.role}`;
     }
-    if (!match.hostThere) return "the host is not there";
+    if (!match.hostThere) return "the host is away";
     if (action && action !== "stop" && match.refbox.connected) return "the referee box commands the match";
     return robot && !selection.robot ? "choose a robot first" : null;
   }
 
-  /** Lets buttons be pressed that may be, and says of the others why not. */
+  /** Enables the buttons that may be pressed, and gives the others their reason as a title. */
   update() {
     const { match, selection } = this;
     for (const { button, row } of this.#buttons) {
@@ -120,7 +120,7 @@ export class Buttons {
     setText(byId("proposed"), proposal ?? "");
     for (const id of ["confirm", "overrule"]) byId(id).disabled = this.why({ action: id }) !== null;
     show(byId("stop"), match.live && (match.may("stop") || match.may("order", match.role)));
-    byId("stop").disabled = !match.hostThere; // also while a referee box commands the match: a stop is always heard
+    byId("stop").disabled = !match.hostThere; // enabled while a referee box commands the match, too: a stop is always accepted
   }
 
   #group(title, rows) {
@@ -158,7 +158,7 @@ export class Buttons {
     return button;
   }
 
-  /** What cannot be taken back has to be pressed twice. */
+  /** Has a button that cannot be undone pressed twice. */
   #press(button, row) {
     if (row.sure && !button.classList.contains("sure")) {
       mark(button, "sure", true);

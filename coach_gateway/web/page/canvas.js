@@ -1,24 +1,28 @@
-// The picture of the match: the ground when it changes, all that moves thirty times a second or more.
+// The picture of the match: the ground is drawn when it changes, everything that moves with each frame of the browser.
 
-import { drawBall, drawGhost, drawObstacle, drawRobot, drawVelocity } from "./bodies.js";
 import { drawBeliefs, drawPasses } from "./beliefs.js";
-import { SIDES } from "./shapes.js";
 import { drawDistances } from "./distances.js";
-import { drawPitch } from "./pitch.js";
+import { fillGoals, writeTeams } from "./goals.js";
+import { drawGhost, drawMarkedRobot, drawObstacle, drawVelocity } from "./marked_bodies.js";
+import { signOf } from "./seen_from.js";
+import { drawBall } from "./shared/bodies.js";
+import { drawGrass, drawLines } from "./shared/pitch.js";
+import { Projection } from "./shared/projection.js";
+import { SIDES } from "./shared/shapes.js";
 import { Trails } from "./trails.js";
-import { Projection } from "./projection.js";
 
-const ROOM_PX = 520; // a narrower field has room for the chosen robot's role alone
+const BALL_VELOCITY = "#ffd978";
+const ROOM_PX = 520; // a narrower field shows the role of the chosen robot alone
 
 export class PitchCanvas {
   projection = new Projection();
-  /** What is drawn now, or nothing. */
+  /** The world that is drawn, or null. */
   world = null;
-  /** Pictures drawn since the page was opened. */
+  /** Frames drawn since the page was opened. */
   drawn = 0;
-  /** Pictures in the last whole second. */
+  /** Frames in the last whole second. */
   rate = 0;
-  /** What others draw over it all: functions of (context, projection). */
+  /** Functions of (context, projection) that draw over everything. */
   over = [];
   #trails = new Trails();
   #second = 0;
@@ -53,19 +57,19 @@ export class PitchCanvas {
 
   #fit() {
     const { match, projection } = this;
-    const changed = projection.fit(match.setup.pitch, this.#moving.parentElement.clientWidth, this.layers.seenFrom, match);
+    const { pitch, teams } = match.setup, sign = signOf(this.layers.seenFrom, match);
+    const changed = projection.fit(pitch, this.#moving.parentElement.clientWidth, undefined, sign);
     const defends = match.attack("cyan") > 0 ? ["cyan", "magenta"] : ["magenta", "cyan"];
-    const ends = `${defends} ${match.setup.teams.cyan.name} ${match.setup.teams.magenta.name}`;
+    const ends = `${defends} ${teams.cyan.name} ${teams.magenta.name}`;
     if (!changed && ends === this.#ends) return;
     this.#ends = ends;
-    for (const canvas of [this.#ground, this.#moving]) {
-      canvas.width = Math.round(projection.width * projection.density);
-      canvas.height = Math.round(projection.height * projection.density);
-    }
+    projection.resize(this.#moving);
     this.#moving.parentElement.style.height = `${projection.height}px`;
-    const context = this.#ground.getContext("2d");
-    context.setTransform(projection.density, 0, 0, projection.density, 0, 0);
-    drawPitch(context, projection, match.setup.pitch, match.setup.teams, defends);
+    const context = projection.resize(this.#ground);
+    drawGrass(context, projection, pitch);
+    fillGoals(context, projection, pitch, defends);
+    drawLines(context, projection, pitch);
+    writeTeams(context, projection, pitch, teams, defends);
   }
 
   #drawWorld(context, world) {
@@ -78,13 +82,14 @@ export class PitchCanvas {
     if (layers.beliefs !== "none") drawBeliefs(context, projection, match, world, layers.beliefs);
     for (const [name, robot] of Object.entries(world.robots)) {
       if (layers.velocities) drawVelocity(context, projection, robot, SIDES[match.sideOf(name)].line);
-      drawRobot(context, projection, match, name, robot, {
+      drawMarkedRobot(context, projection, match, name, robot, {
         selected: name === selection.robot,
         holding: world.possession === name,
         label: layers.roles && (projection.width >= ROOM_PX || name === selection.robot) ? match.radioOf(name)?.role : null,
       });
     }
-    drawBall(context, projection, world.ball, match.setup.ball.radius, layers.velocities);
+    if (layers.velocities) drawVelocity(context, projection, world.ball, BALL_VELOCITY);
+    drawBall(context, projection, world.ball, match.setup.ball.radius);
     if (selection.dragged) drawGhost(context, projection, selection.dragged);
   }
 

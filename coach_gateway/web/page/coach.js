@@ -1,6 +1,6 @@
-// Orders to a side: what the team shall do, and the test mode with points and angles picked on the field.
+// Orders to a side: modes, and tests with points and angles picked on the field.
 
-import { circle, write } from "./shapes.js";
+import { circle, write } from "./shared/shapes.js";
 import { onField } from "./beliefs.js";
 import { byId, choice, element, mark, offer, setText, show } from "./elements.js";
 import { FIELDS, TESTS } from "./coach_tests.js";
@@ -8,7 +8,7 @@ import { degrees, capitalized, radians, readable } from "./text.js";
 
 const MODES = ["play", "hold", "park", "test"];
 const LIMITS = ["max_speed", "max_turn_rate"];
-const OF_TESTS = ["radius", "kick_mode", "with_ball", "avoid"]; // fields that no other order has
+const OF_TESTS = ["radius", "kick_mode", "with_ball", "avoid"]; // fields of tests alone
 
 export class Coach {
   #inputs = {};
@@ -28,7 +28,7 @@ export class Coach {
     return byId("order-side").value;
   }
 
-  /** Who may be ordered, and how the standing orders are taken in. */
+  /** Shows the sides that may be given orders, and the active orders with their acknowledgements. */
   update() {
     const { match } = this;
     if (match.setup === null) return;
@@ -37,7 +37,7 @@ export class Coach {
     offer(byId("order-side"), shown.map((side) => [side, match.setup.teams[side].name]));
     const robots = [["", "none"], ...match.setup.teams[this.side].robots.map((name) => [name, name])];
     for (const key of ["robot_a", "robot_b"]) offer(this.#inputs[key].select, robots);
-    const why = !match.live ? "this is a recording" : sides.length ? "" : "orders are for the coach of a side, and the referee";
+    const why = !match.live ? "this is a recording" : sides.length ? "" : "orders need the token of the side's coach or the referee's";
     byId("order-give").disabled = why !== "" || !match.hostThere;
     byId("order-give").title = why;
     byId("active-orders").replaceChildren(...["cyan", "magenta"].flatMap((side) => this.#orderLine(side)));
@@ -53,7 +53,7 @@ export class Coach {
     }
   }
 
-  /** Shows the fields that the order needs. */
+  /** Shows the fields of the order. */
   #fit() {
     const mode = byId("order-mode").value;
     const [, sentence, needed, taken] = TESTS[byId("order-test").value];
@@ -89,13 +89,13 @@ export class Coach {
     return [
       element(
         "p", {},
-        element("b", {}, `${this.match.setup.teams[side].name}: ${what}`), ` — taken in by ${taken} of ${robots.length} `,
+        element("b", {}, `${this.match.setup.teams[side].name}: ${what}`), ` — acknowledged by ${taken} of ${robots.length} `,
         ...robots.map(([name, has]) => element("span", { class: `ack ${has ? "accepted" : "waits"}` }, `${has ? "✓" : "…"} ${name}`)),
       ),
     ];
   }
 
-  /** The points of the form while it is seen, and those of the standing orders of a test. */
+  /** Draws the points of the form while it is visible, and those of active tests. */
   #draw(context, projection) {
     if (byId("order-fields").offsetParent !== null) {
       for (const key of ["point_a", "point_b"]) {
@@ -115,12 +115,12 @@ export class Coach {
 }
 
 const MODE_WORDS = {
-  play: "The team plays; tactic, points and robots mean what its own code makes of them.",
+  play: "The team plays; its own code decides what tactic, points and robots mean.",
   hold: "All robots of the side stand still.",
-  park: "All robots of the side drive to where they park.",
+  park: "All robots of the side drive to their parking places.",
 };
 
-/** Kind of field → its row, and how it is read: a value of the order, or nothing where it is left empty. */
+/** Kind of field → its row and its `read`: a value of the order, or null where it is left empty. */
 const KINDS = {
   robot(coach, key, words) {
     const select = choice([], { id: `order-${key}` });
@@ -171,7 +171,7 @@ const KINDS = {
   },
 };
 
-/** A direction of the field in the frame of the side that is ordered, in (−π, π]. */
+/** A direction of the field in the frame of the order's side, in (−π, π]. */
 function turnedBy(coach, angle) {
   const turned = coach.match.attack(coach.side) > 0 ? angle : angle + Math.PI;
   return Math.atan2(Math.sin(turned), Math.cos(turned));

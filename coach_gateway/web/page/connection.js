@@ -1,10 +1,10 @@
-// The line to the gateway: what comes is handed on, what is asked is answered, and a broken line is tied again.
+// The connection to the gateway: passes on messages, matches replies to requests, and reconnects.
 
 const FIRST_WAIT_MS = 200;
 const LONGEST_WAIT_MS = 3000;
-const SENT_AWAY_MS = 5000;
-const ANSWER_MS = 8000; // the host answers between two ticks; later than this, nobody will
-const SILENT_MS = 7000; // the gateway says something every second, if only that it is there
+const CLOSED_WAIT_MS = 5000;
+const ANSWER_MS = 8000; // the host replies between two ticks; after this, no reply comes
+const SILENT_MS = 7000; // the gateway sends a message every second, at least `alive`
 const LOOK_MS = 1000;
 
 export class Connection {
@@ -13,20 +13,20 @@ export class Connection {
   #waiting = 0;
   #number = 0;
   #asked = new Map();
-  #heardAt = 0;
+  #receivedAt = 0;
   #lookedAt = 0;
   #onMessage;
   #onChange;
 
-  /** `onMessage` is given each message, `onChange` whether the line is up. */
+  /** `onMessage` is called with each message, `onChange` with whether the connection is up. */
   constructor(token, onMessage, onChange) {
     this.token = token;
     this.up = false;
-    /** Why the gateway closed the line, or nothing. */
-    this.sentAway = "";
-    /** ms without a word after which the line is taken for broken: whose network went does not hear it close. */
+    /** Why the gateway closed the connection; empty where it has not. */
+    this.closeReason = "";
+    /** ms without a message after which the connection counts as broken: a lost network closes no socket. */
     this.patience = SILENT_MS;
-    /** ms after which an answer comes no more. */
+    /** ms after which a request counts as unanswered. */
     this.answerWithin = ANSWER_MS;
     this.#onMessage = onMessage;
     this.#onChange = onChange;
@@ -36,17 +36,17 @@ export class Connection {
     this.#open();
   }
 
-  /** Asks for a deed; the answer says whether it was accepted, and if not, why; `unanswered` where nobody said so. */
+  /** Requests a deed; resolves to its reply, `unanswered` where none came. */
   ask(deed, content = {}) {
     if (!this.up) return Promise.resolve(unanswered(0, "the page has no connection to the gateway"));
     return new Promise((answer) => {
       const id = this.#send(deed, content);
-      const late = setTimeout(() => this.#answer(unanswered(id, "no answer came")), this.answerWithin);
+      const late = setTimeout(() => this.#answer(unanswered(id, "no reply came")), this.answerWithin);
       this.#asked.set(id, { answer, late });
     });
   }
 
-  /** Says something that is answered only if it is refused; `refused` hears the reason. */
+  /** Sends a request that gets a reply only if it is refused; `refused` is called with that reply. */
   send(deed, content, refused) {
     if (!this.up) return;
     this.#asked.set(this.#send(deed, content), { answer: refused, late: 0 });
@@ -56,7 +56,7 @@ export class Connection {
     }
   }
 
-  /** Speaks with another token from now on. */
+  /** Uses another token from now on. */
   useToken(token) {
     this.token = token;
     return this.ask("token");
@@ -73,37 +73,37 @@ export class Connection {
     if (this.#socket !== null) return;
     const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws`);
     this.#socket = socket;
-    this.#heardAt = performance.now();
+    this.#receivedAt = performance.now();
     socket.addEventListener("open", () => {
       if (socket !== this.#socket) return;
       this.up = true;
-      this.sentAway = "";
+      this.closeReason = "";
       this.#onChange(true);
     });
     socket.addEventListener("message", (event) => {
       if (socket !== this.#socket) return;
-      this.#heardAt = performance.now();
+      this.#receivedAt = performance.now();
       const message = JSON.parse(event.data);
       if (message.kind === "reply") this.#answer(message);
-      else if (message.kind === "refusal") this.sentAway = message.reason;
+      else if (message.kind === "refusal") this.closeReason = message.reason;
       else this.#receive(message);
     });
     socket.addEventListener("close", () => this.#closed(socket));
   }
 
-  /** Whether the line still holds; a page that slept gives what came meanwhile time to be read. */
+  /** Closes a silent connection; after a sleep of the page, messages that wait are read first. */
   #look() {
     const now = performance.now();
-    if (now - this.#lookedAt > 3 * LOOK_MS) this.#heardAt = now;
+    if (now - this.#lookedAt > 3 * LOOK_MS) this.#receivedAt = now;
     this.#lookedAt = now;
     const socket = this.#socket;
-    if (socket === null || now - this.#heardAt < this.patience) return;
+    if (socket === null || now - this.#receivedAt < this.patience) return;
     this.#closed(socket);
     socket.close();
   }
 
   #receive(message) {
-    this.#wait = FIRST_WAIT_MS; // the line is up, and somebody speaks
+    this.#wait = FIRST_WAIT_MS; // the connection works
     this.#onMessage(message);
   }
 
@@ -113,7 +113,7 @@ export class Connection {
     this.up = false;
     for (const id of [...this.#asked.keys()]) this.#answer(unanswered(id, "the connection to the gateway broke"));
     this.#onChange(false);
-    if (this.sentAway) this.#wait = SENT_AWAY_MS;
+    if (this.closeReason) this.#wait = CLOSED_WAIT_MS;
     this.#waiting = setTimeout(() => this.#open(), this.#wait);
     this.#wait = Math.min(1.6 * this.#wait, LONGEST_WAIT_MS);
   }

@@ -1,10 +1,10 @@
-// How far robots have to stay from the ball, while a restart is signalled and until the ball is in play.
+// How far robots have to stay from the ball, from the signal of a restart until the ball is in play.
 
-import { SIDES, circle, write } from "./shapes.js";
+import { SIDES, circle, write } from "./shared/shapes.js";
 
 const SIDED = new Set(["kick_off", "free_kick", "goal_kick", "throw_in", "corner", "penalty"]);
 
-/** The circles of a state: [metres from the ball's spot, who, whose colour]. */
+/** The circles of a state: [metres from the ball's spot, robots it is for, side of its colour]. */
 export function circlesOf(state, setup) {
   const { opponent_distance, teammate_distance, drop_ball_distance } = setup.restarts;
   if (state.phase === "drop_ball") return [[drop_ball_distance, "all robots", null]];
@@ -12,7 +12,7 @@ export function circlesOf(state, setup) {
   const other = state.side === "cyan" ? "magenta" : "cyan";
   return [
     [opponent_distance, setup.teams[other].name, other],
-    [teammate_distance, `${setup.teams[state.side].name}, but the taker`, state.side],
+    [teammate_distance, `${setup.teams[state.side].name}, except the taker`, state.side],
   ];
 }
 

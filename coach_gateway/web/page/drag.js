@@ -10,7 +10,7 @@ const TURN_M = 0.35; // a drawn direction is longer
 export class Drag {
   #held = null;
   #drawn = null;
-  #pointer = null; // the finger or mouse that does it; others are passed over
+  #pointer = null; // the finger or mouse that drags; others are ignored
 
   constructor(canvas, pitchCanvas, match, requests, selection) {
     Object.assign(this, { canvas, pitchCanvas, match, requests, selection });
@@ -24,25 +24,25 @@ export class Drag {
     pitchCanvas.over.push((context, projection) => this.#draw(context, projection));
   }
 
-  /** Lets everything lie where it is. */
+  /** Drops nothing, and leaves everything where it is. */
   cancel() {
     this.#held = null;
     this.#drawn = null;
     this.selection.cancel();
   }
 
-  /** Why a body cannot be set down, or nothing. */
+  /** Why a body cannot be placed; null when it can. */
   why(body) {
     const { match } = this;
     const action = body === "ball" && !byId("freely").checked;
     if (!match.live) return "this is a recording";
-    if (!match.may(action ? "place_ball" : "scene")) return "only the referee sets bodies down";
+    if (!match.may(action ? "place_ball" : "scene")) return "only the referee places bodies";
     if (action && match.refbox.connected) return "the referee box commands the match";
     if (action || byId("freely").checked || !match.state?.running) return null;
     return "the game is running; stop it first, or place freely (Settings)";
   }
 
-  /** Sets a body down, and shows what came of it. */
+  /** Places a body, and shows the reply. */
   place(source, body, { x, y, heading }) {
     const words = `${body === "ball" ? "Ball" : body} to (${metres(x)}, ${metres(y)})`;
     if (body === "ball" && !byId("freely").checked) {
@@ -79,7 +79,7 @@ export class Drag {
     this.canvas.setPointerCapture(event.pointerId);
   }
 
-  /** Whether an event is of the pointer that holds something; while nothing is held, any is. */
+  /** Whether an event is of the pointer that holds a body; while none is held, any pointer counts. */
   #follows({ pointerId }) {
     return (this.#held === null && this.#drawn === null) || pointerId === this.#pointer;
   }
@@ -120,7 +120,7 @@ export class Drag {
       const dx = drawn.to.x - drawn.from.x, dy = drawn.to.y - drawn.from.y;
       this.selection.picked(drawn.from, Math.hypot(dx, dy) > TURN_M ? Math.atan2(dy, dx) : null);
     } else if (held?.moved && this.why(held.body) !== null) {
-      this.#refuse(held.body, this.why(held.body)); // the game has gone on meanwhile
+      this.#refuse(held.body, this.why(held.body)); // the game may have changed since
     } else if (held?.moved) {
       this.place(byId("drop"), held.body, held.place);
     } else if (held && held.body !== "ball") {
@@ -128,7 +128,7 @@ export class Drag {
     }
   }
 
-  /** What lies under a pointer, the nearest: a robot's name, `ball`, or nothing. */
+  /** The nearest body under a pointer: a robot's name, `ball`, or null. */
   #bodyAt({ left, top }) {
     const { projection, world } = this.pitchCanvas;
     if (world === null) return null;
@@ -162,6 +162,6 @@ export class Drag {
   #hint() {
     const { picking } = this.selection;
     show(byId("hint"), picking !== null);
-    if (picking) setText(byId("hint"), `Point at the field: ${picking.words}. Draw on for a direction. Esc leaves it.`);
+    if (picking) setText(byId("hint"), `Point at the field: ${picking.words}. Keep drawing for a direction. Esc cancels.`);
   }
 }

@@ -1,4 +1,4 @@
-// The few words in which this page makes and finds elements.
+// Helpers to create, find and change elements.
 
 export const byId = (id) => document.getElementById(id);
 
@@ -16,7 +16,7 @@ export function element(tag, properties = {}, ...children) {
   return made;
 }
 
-/** Says a text, and leaves the element alone that says it already. */
+/** Sets the text of an element, unless it has that text already. */
 export function setText(node, text) {
   if (node.textContent !== text) node.textContent = text;
 }
@@ -26,7 +26,7 @@ export function show(node, shown) {
   if (node.hidden === shown) node.hidden = !shown;
 }
 
-/** Gives an element a class, or takes it away. */
+/** Adds a class to an element, or removes it. */
 export function mark(node, name, marked) {
   if (node.classList.contains(name) !== marked) node.classList.toggle(name, marked);
 }

@@ -1,10 +1,10 @@
-// Where everything is at the moment of drawing: between the pictures that came, a little behind the newest.
+// Where everything is at the time of drawing: interpolated between received worlds, a little behind the newest.
 
-const KEPT = 40; // pictures
-const DELAY_MS = 45; // behind the newest: pictures come every 20 ms, now and then one is late
-const SETTLE_MS = 180; // in which the shown time comes near to where it should be
-const STALE_MS = 260; // without a picture for so long, nothing moves any more: the newest is shown as it is
-const JUMP_M = 0.5; // what moves farther between two pictures than this and its speed allow was set down there
+const KEPT = 40; // worlds
+const DELAY_MS = 45; // behind the newest: worlds come every 20 ms, and some are late
+const SETTLE_MS = 180; // time constant with which the shown time approaches its target
+const STALE_MS = 260; // without a new world for this long, the newest is shown as it is
+const JUMP_M = 0.5; // a body that moves farther between two worlds than this and its speed allow was placed there
 const FASTEST = 25; // m/s
 
 export class FrameBuffer {
@@ -12,20 +12,20 @@ export class FrameBuffer {
   #shown = 0;
   #drawnAt = 0;
 
-  /** Shows the newest picture exactly, and nothing between. */
+  /** Whether the newest world is shown exactly, without interpolation. */
   still = false;
 
-  /** The newest world that came, or nothing. */
+  /** The newest world received, or null. */
   get newest() {
     return this.#pictures.at(-1)?.world ?? null;
   }
 
-  /** Forgets what was before: the world begins anew. */
+  /** Forgets all worlds: a new episode begins. */
   clear() {
     this.#pictures = [];
   }
 
-  /** Takes in a world that came at `now`, in ms. */
+  /** Adds a world received at `now`, in ms. */
   add(world, now) {
     const last = this.#pictures.at(-1);
     if (last && (world.time < last.world.time || world.time > last.world.time + 30)) this.clear();
@@ -34,7 +34,7 @@ export class FrameBuffer {
     if (this.#pictures.length > KEPT) this.#pictures.shift();
   }
 
-  /** The world as it is to be drawn at `now`, in ms; nothing before the first picture. */
+  /** The world to draw at `now`, in ms; null before the first. */
   at(now) {
     const last = this.#pictures.at(-1);
     if (last === undefined) return null;
@@ -68,7 +68,7 @@ export class FrameBuffer {
   }
 }
 
-/** A body between two pictures; what was set down elsewhere goes there at once. */
+/** A body between two worlds; a placed body jumps at once. */
 function mixed(before, after, share, reach) {
   if (before === undefined || Math.hypot(after.x - before.x, after.y - before.y) > reach) return after;
   const body = {

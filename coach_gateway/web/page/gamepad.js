@@ -1,10 +1,10 @@
-// What the first gamepad does: left stick drives, right stick turns, buttons kick and dribble.
+// The first gamepad: left stick drives, right stick turns, buttons kick and dribble.
 
 const DEAD = 0.12;
 const GROUND = 0, LOB = 1, DRIBBLES = [4, 5]; // buttons of the standard layout: A, B, both shoulders
 let before = [];
 
-/** Ahead, left and counter-clockwise from −1 to 1, and buttons that were just pressed; nothing without a gamepad. */
+/** Ahead, left and counter-clockwise from −1 to 1, and buttons that were just pressed; null without a gamepad. */
 export function readGamepad() {
   const pad = navigator.getGamepads?.().find((one) => one?.connected);
   if (!pad) return null;

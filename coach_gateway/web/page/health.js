@@ -1,4 +1,4 @@
-// How the host is doing, its recorders and each robot's program, and how fast this page draws.
+// The health of the host, its recorders and each robot's program, and how fast this page draws.
 
 import { byId, element, setText } from "./elements.js";
 
@@ -11,15 +11,15 @@ const COLUMNS = [
   ["ms", ({ latency_ms: latency }) => (latency === null ? "–" : latency.toFixed(1))],
 ];
 
-/** Word → the text from the health and from the page. */
+/** Label → its text, from the health. */
 const LINES = [
   ["pace", ({ health }) => health.pace],
   ["real-time factor", ({ health }) => `${health.real_time_factor.toFixed(2)} ×`],
   ["late ticks", ({ health }) => String(health.late_ticks)],
   ["worst tick of the last second", ({ health }) => `${health.worst_tick_ms.toFixed(1)} ms`],
   ["recorders", ({ health }) => recorderWords(health.recorders)],
-  ["messages where nobody should speak", ({ health }) => String(sum(Object.values(health.strangers)))],
-  ["answers missed by all robots", ({ health }) => String(sum(Object.values(health.robots).map(({ missed }) => missed)))],
+  ["messages on unexpected keys", ({ health }) => String(sum(Object.values(health.strangers)))],
+  ["commands missed, of all robots", ({ health }) => String(sum(Object.values(health.robots).map(({ missed }) => missed)))],
 ];
 
 export class HealthPanel {
@@ -31,7 +31,7 @@ export class HealthPanel {
     this.drawing = this.#line("this page draws");
     byId("health").append(...this.#values.map(({ row }) => row), this.drawing.row);
     match.on("health welcome", () => this.update());
-    setInterval(() => setText(this.drawing.value, `${pitchCanvas.rate} pictures a second`), EVERY_MS);
+    setInterval(() => setText(this.drawing.value, `${pitchCanvas.rate} frames per second`), EVERY_MS);
   }
 
   update() {
@@ -63,7 +63,7 @@ export class HealthPanel {
 
 function recorderWords(recorders) {
   const all = Object.entries(recorders);
-  if (all.length === 0) return "none: nothing is recorded";
+  if (all.length === 0) return "none, so nothing is recorded";
   return all.map(([name, behind]) => (behind > 5 ? `${name} is ${behind} ticks behind` : `${name} keeps up`)).join(", ");
 }
 

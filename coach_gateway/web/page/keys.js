@@ -2,23 +2,23 @@
 
 import { byId } from "./elements.js";
 
-/** What the help says: keys, and what they do. */
+/** Keys and what they do, for the help. */
 export const KEYS = [
   ["space", "stop: the match, or your own side; in a recording, pause and play"],
   ["?", "this list"],
   ["v", "see the field from another side"],
-  ["[ ]", "choose the robot before or after"],
-  ["esc", "leave picking, dragging and driving"],
-  ["n p", "recording: next event, event before"],
-  ["← →", "recording: 1 s back or on, with shift 10 s"],
-  [", .", "recording: one picture back or on"],
+  ["[ ]", "choose the previous or next robot"],
+  ["esc", "cancel picking, dragging and driving"],
+  ["n p", "recording: next event, previous event"],
+  ["← →", "recording: 1 s back or forward, with shift 10 s"],
+  [", .", "recording: one frame back or forward"],
   ["w a s d, arrows", "driving: ahead, left, back, right"],
   ["q e", "driving: turn left, turn right"],
   ["z", "driving: dribbler on or off"],
   ["k l", "driving: kick along the ground, lob"],
   ["enter", "press the button, or switch the box, that has the focus"],
 ];
-const PICTURE_S = 0.02;
+const FRAME_S = 0.02;
 
 export function listenForKeys({ match, buttons, manualControl, drag, replay, layers, selection }) {
   const typed = {
@@ -31,7 +31,7 @@ export function listenForKeys({ match, buttons, manualControl, drag, replay, lay
     n: () => replay.jump(1),
     p: () => replay.jump(-1),
     ".": () => replay.step(),
-    ",": () => replay.seek(replay.time - PICTURE_S),
+    ",": () => replay.seek(replay.time - FRAME_S),
     ArrowLeft: (event) => replay.seek(replay.time - (event.shiftKey ? 10 : 1)),
     ArrowRight: (event) => replay.seek(replay.time + (event.shiftKey ? 10 : 1)),
   };
@@ -65,12 +65,12 @@ export function listenForKeys({ match, buttons, manualControl, drag, replay, lay
     does(event);
   }, { capture: true });
   addEventListener("keyup", (event) => {
-    if (event.code === "Space" && stops()) event.preventDefault(); // or a button with the focus would be pressed too
+    if (event.code === "Space" && stops()) event.preventDefault(); // otherwise a button with the focus would be pressed, too
     manualControl.key(event, false);
   }, { capture: true });
 }
 
-/** Whether keys go into a field. */
+/** Whether keys are typed into a field. */
 const isTyping = (target) => target.matches?.("input:not([type=checkbox]):not([type=range]), select, textarea") ?? false;
 
 function chooseNext(match, selection, step) {

@@ -1,8 +1,8 @@
-// What the picture shows: switches beside it, kept for the next visit.
+// What the picture shows: switches that are kept for the next visit.
 
 import { byId, choice, element, offer } from "./elements.js";
 import { TRAILS } from "./trails.js";
-import { SEEN_FROM } from "./projection.js";
+import { SEEN_FROM } from "./seen_from.js";
 
 const KEY = "touchline.layers";
 const SWITCHES = [
@@ -24,7 +24,7 @@ export class Layers {
     this.#lay(match);
   }
 
-  /** Looks at the field from the other side, or back. */
+  /** Shows the field from the next side. */
   turn() {
     const steps = SEEN_FROM.map(([value]) => value);
     this.#set("seenFrom", steps[(steps.indexOf(this.seenFrom) + 1) % steps.length]);
@@ -49,7 +49,7 @@ export class Layers {
     return element("label", { class: "chosen" }, text, select);
   }
 
-  /** Whose beliefs can be looked at: those that are shown to who sits here. */
+  /** Offers the robots whose beliefs this role is shown. */
   #offerRobots(match) {
     const sides = match.setup === null ? [] : match.shown;
     const robots = match.robots.filter((name) => sides.includes(match.sideOf(name)));
@@ -76,11 +76,11 @@ function keep(all) {
   try {
     localStorage.setItem(KEY, JSON.stringify(all));
   } catch {
-    // people may forbid pages to remember: it holds for this visit
+    // storage may be forbidden: the choice lasts for this visit
   }
 }
 
-/** What was chosen at the last visit. */
+/** The choices of the last visit. */
 function kept() {
   try {
     return JSON.parse(localStorage.getItem(KEY) ?? "{}");

@@ -6,7 +6,7 @@ import { Requests } from "./requests.js";
 import { Drag } from "./drag.js";
 import { ManualControl } from "./manual_control.js";
 import { byId, element, setText, show } from "./elements.js";
-import { Events } from "./events.js";
+import { EventList } from "./event_list.js";
 import { HealthPanel } from "./health.js";
 import { KEYS, listenForKeys } from "./keys.js";
 import { Layers } from "./layers.js";
@@ -30,7 +30,7 @@ const layers = new Layers(match);
 const pitchCanvas = new PitchCanvas(byId("ground"), byId("moving"), match, layers, selection);
 const board = new Scoreboard(match, connection);
 const replay = new Replay(match, requests);
-const events = new Events(match, (time) => replay.seek(time));
+const events = new EventList(match, (time) => replay.seek(time));
 const buttons = new Buttons(match, requests, selection);
 const drag = new Drag(byId("moving"), pitchCanvas, match, requests, selection);
 const manualControl = new ManualControl(match, pitchCanvas, requests, selection);
@@ -50,19 +50,19 @@ pitchCanvas.over.push(() => {
 });
 
 const ROLE_TEXT = {
-  spectator: "You watch. Who is to command opens the address that was given out with a token, or types it in here.",
+  spectator: "You are watching. To command, open the address that you were given with a token, or enter the token here.",
   referee: "You are the referee, who runs the match and may do everything.",
   cyan: "You coach cyan: orders, driving, repair and substitution are for your own robots.",
   magenta: "You coach magenta: orders, driving, repair and substitution are for your own robots.",
 };
 
-/** The line to the gateway came up, or broke. */
+/** Handles that the connection came up or broke. */
 async function changed(up) {
   board?.update();
   if (up && connection.token) await claim(connection.token);
 }
 
-/** Sits down with a token; one that is nobody's is forgotten, one that nobody answered is tried again. */
+/** Takes the role of a token; an unknown token is forgotten, an unanswered check is repeated. */
 async function claim(token) {
   const reply = await connection.useToken(token);
   if (reply.unanswered) {
@@ -96,5 +96,5 @@ match.on("welcome", () => {
 byId("help-open").addEventListener("click", () => byId("help").showModal());
 byId("keys").append(...KEYS.map(([keys, does]) => element("div", {}, element("dt", {}, keys), element("dd", {}, does))));
 
-/** For those who look at the page from outside: tests, and people at its console. */
+/** For tests, and for the console of the browser. */
 window.touchline = { match, pitchCanvas, connection, selection, layers, manualControl };

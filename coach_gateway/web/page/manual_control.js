@@ -1,11 +1,11 @@
-// One robot driven by keyboard or gamepad in place of its brain, and given back.
+// One robot driven by keyboard, gamepad or buttons in place of its brain.
 
 import { byId, offer, setText, show } from "./elements.js";
 import { readGamepad } from "./gamepad.js";
 
 const SEND_EVERY_MS = 50;
 
-/** Key → which way it moves: ahead, to the left, counter-clockwise. */
+/** Key → motion ahead, to the left, counter-clockwise. */
 const MOVES = {
   KeyW: { ahead: 1 }, ArrowUp: { ahead: 1 },
   KeyS: { ahead: -1 }, ArrowDown: { ahead: -1 },
@@ -17,7 +17,7 @@ const KICKS = { KeyK: "ground", KeyL: "lob" };
 const DRIBBLE = "KeyZ";
 
 export class ManualControl {
-  /** The robot that is driven, or nothing. */
+  /** The robot that is driven, or null. */
   robot = null;
   #keys = new Set();
   #dribble = false;
@@ -38,7 +38,7 @@ export class ManualControl {
     match.on("welcome host health", () => this.update());
   }
 
-  /** Takes a robot over from its brain. */
+  /** Takes over a robot from its brain. */
   takeOver(robot) {
     this.giveBack();
     this.robot = robot || null;
@@ -55,11 +55,11 @@ export class ManualControl {
     this.update();
   }
 
-  /** Whether a key is for the robot that is driven; then it is taken. */
+  /** Handles a key of the robot that is driven; returns whether it was one. */
   key(event, down) {
     if (!this.robot) return false;
     if (event.ctrlKey || event.metaKey || event.altKey) {
-      this.#keys.clear(); // a key that is let go of beside one of these may not be heard of
+      this.#keys.clear(); // the release of another key beside one of these may not be reported
       return false;
     }
     const { code } = event;
@@ -73,7 +73,7 @@ export class ManualControl {
     return true;
   }
 
-  /** Who can be driven, and who is. */
+  /** Shows which robots can be driven, and which one is. */
   update() {
     const { match, selection } = this;
     const robots = match.robots.filter((name) => match.may("drive", match.sideOf(name)));
@@ -83,7 +83,7 @@ export class ManualControl {
     const chosen = byId("drive-robot").value;
     byId("drive-robot").disabled = this.robot !== null || !match.live;
     byId("drive-take").disabled = !match.live || (this.robot === null && (!chosen || !match.hostThere));
-    setText(byId("drive-take"), this.robot ? `Give ${this.robot} back` : "Take in hand");
+    setText(byId("drive-take"), this.robot ? `Give ${this.robot} back` : "Take over");
     byId("drive-take").setAttribute("aria-pressed", this.robot !== null);
     byId("dribble").setAttribute("aria-pressed", this.#dribble);
     for (const id of ["dribble", "kick-ground", "kick-lob"]) byId(id).disabled = this.robot === null;
@@ -93,7 +93,7 @@ export class ManualControl {
     show(byId("driven"), words !== "");
   }
 
-  /** Buttons for a finger, each like a key that is held down. */
+  /** Buttons for a finger; each acts like a key that is held down. */
   #pads() {
     for (const button of byId("pad").children) {
       const { code } = button.dataset;
@@ -112,7 +112,7 @@ export class ManualControl {
     this.update();
   }
 
-  /** Says twenty times a second what the hand does: half a second of silence gives the robot back. */
+  /** Sends the drive 20 times a second: after half a second of silence the host gives the robot back. */
   #sendState() {
     if (!this.robot) return;
     const speed = byId("drive-speed").valueAsNumber || 0, turning = byId("drive-turn").valueAsNumber || 0;
@@ -134,7 +134,7 @@ export class ManualControl {
     return moves;
   }
 
-  /** Up and left as the picture shows them, in the frame of the robot's body. */
+  /** Up and left of the picture as a velocity in the frame of the robot's body. */
   #inBody(up, left) {
     const heading = this.pitchCanvas.world?.robots[this.robot]?.heading ?? 0;
     const sign = this.pitchCanvas.projection.sign;

@@ -1,24 +1,24 @@
-// The match as the gateway tells it: what is known now, and who wants to hear when that changes.
+// The match as the gateway sends it: what is known, and handlers for changes.
 
 import { FrameBuffer } from "./frame_buffer.js";
 
 const MOST_EVENTS = 5000;
 
-/** What is known of a match of which nothing was heard yet. */
+/** A match before anything was received. */
 const emptyMatch = () => ({
   role: "spectator",
   live: true,
   name: "",
   setup: null,
   deeds: new Set(),
-  shown: [], // sides whose beliefs are told
-  scenes: {}, // name → what it is for
+  shown: [], // sides whose beliefs are sent
+  scenes: {}, // name → description
   state: null,
   health: null,
   orders: {},
   beliefs: {},
   events: [],
-  eventCount: 0, // events so far, also those that are not kept any more
+  eventCount: 0, // events so far, including dropped ones
   replay: null,
   refbox: { connected: false, team: null },
   hostThere: true,
@@ -26,7 +26,7 @@ const emptyMatch = () => ({
   frames: new FrameBuffer(),
 });
 
-/** Kind of message → what becomes of it. */
+/** Kind of message → how it changes the match. */
 const READERS = {
   welcome(match, { role, match: name, setup, live, deeds, beliefs, scenes }) {
     Object.assign(match, emptyMatch(), { role, name, setup, live, deeds: new Set(deeds), shown: beliefs, scenes });
@@ -70,25 +70,25 @@ export class Match {
     Object.assign(this, emptyMatch());
   }
 
-  /** Has `does` called after each message of these kinds. */
+  /** Calls `does` after each message of these kinds. */
   on(kinds, does) {
     for (const kind of kinds.split(" ")) this.#handlers.set(kind, [...(this.#handlers.get(kind) ?? []), does]);
   }
 
-  /** Takes in a message of the gateway; of a kind that this page does not know there is nothing to take. */
+  /** Takes in a message of the gateway; an unknown kind is ignored. */
   receive(message) {
     READERS[message.kind]?.(this, message);
     for (const does of this.#handlers.get(message.kind) ?? []) does(this);
   }
 
-  /** All robots: those of the setup in order, then others that the pitch has. */
+  /** All robots: those of the setup in order, then others on the pitch. */
   get robots() {
     const listed = this.setup ? ["cyan", "magenta"].flatMap((side) => this.setup.teams[side].robots) : [];
     const there = this.frames.newest?.robots ?? {};
     return [...listed, ...Object.keys(there).filter((name) => !listed.includes(name))];
   }
 
-  /** Whether who sits here may do a deed, for a side where it belongs to one. */
+  /** Whether this role may do a deed; `side` is the side it is for, or null. */
   may(deed, side = null) {
     if (!this.deeds.has(deed)) return false;
     return this.role === "referee" || side === null || side === this.role;
@@ -99,7 +99,7 @@ export class Match {
     return robot.startsWith("magenta") ? "magenta" : "cyan";
   }
 
-  /** 1 if a side attacks +x now, −1 if it attacks −x: what turns its team frame into the field's. */
+  /** 1 if a side attacks +x, −1 if it attacks −x: the sign that turns its team frame into the field's. */
   attack(side) {
     const cyan = this.state?.cyan_attacks ?? 1;
     return side === "cyan" ? cyan : -cyan;
@@ -111,7 +111,7 @@ export class Match {
     return (this.setup?.models[type]?.body ?? this.setup?.robot)?.radius ?? 0.25;
   }
 
-  /** What a robot last said, or nothing when that is older than `age` s. */
+  /** A robot's newest radio message; null when it is older than `age` s. */
   radioOf(robot, age = 1.5) {
     const belief = this.beliefs[robot];
     const now = this.frames.newest?.time ?? 0;

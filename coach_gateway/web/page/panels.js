@@ -1,4 +1,4 @@
-// A panel for each robot: who it is, what it does and means to do, where it is, and how its program is doing.
+// A panel for each robot: role, intention, pose, ball, health of its program, order and cards.
 
 import { byId, element, mark, setText, show } from "./elements.js";
 import { disciplineText } from "./scoreboard.js";
@@ -6,17 +6,17 @@ import { degreeText, metres, numberOf, placeText, readable } from "./text.js";
 
 const EVERY_MS = 200;
 const HIGH_M = 0.25; // the centre of a ball that is off the ground
-/** Key, word before it, and the text from what is known of the robot; an empty text hides the line. */
+/** Key, label, and the text from what is known of the robot; an empty text hides the line. */
 const LINES = [
-  ["intention", "means", ({ word }) => word?.intention ?? ""],
+  ["intention", "intends", ({ word }) => word?.intention ?? ""],
   ["pose", "at", ({ body }) => (body ? `${placeText(body)} ${degreeText(body.heading)}` : "")],
   ["speed", "speed", ({ body }) => (body ? `${metres(Math.hypot(body.vx, body.vy))} m/s` : "")],
-  ["ball", "ball", ({ body, ball, holds }) => (holds ? "in hand" : body ? `${metres(Math.hypot(ball.x - body.x, ball.y - body.y))} m off` : "")],
+  ["ball", "ball", ({ body, ball, holds }) => (holds ? "held" : body ? `${metres(Math.hypot(ball.x - body.x, ball.y - body.y))} m away` : "")],
   ["battery", "battery", ({ word }) => batteryWords(word?.extra?.battery)],
-  ["latency", "answers in", ({ health }) => (health?.latency_ms ? `${health.latency_ms.toFixed(1)} ms` : "")],
+  ["latency", "replies in", ({ health }) => (health?.latency_ms ? `${health.latency_ms.toFixed(1)} ms` : "")],
   ["missed", "missed", ({ health }) => (health?.missed ? `${health.missed} of ${health.answers + health.missed}` : "")],
   ["refused", "refused", ({ health }) => (health?.refused ? String(health.refused) : "")],
-  ["order", "order", ({ acknowledged }) => (acknowledged === undefined ? "" : acknowledged ? "taken in" : "not taken in yet")],
+  ["order", "order", ({ acknowledged }) => (acknowledged === undefined ? "" : acknowledged ? "acknowledged" : "not acknowledged yet")],
   ["cards", "referee", ({ discipline }) => (discipline ? disciplineText(discipline) : "")],
 ];
 
@@ -94,7 +94,7 @@ export class Panels {
   }
 }
 
-/** What is most to be known of a robot, in a word, and how that looks. */
+/** The most important fact about a robot, as a badge: its text and its class. */
 function stateOf({ body, holds, health }) {
   if (!body) return ["not there", "grey"];
   if (body.off_field) return [readable(body.off_field), "grey"];
@@ -106,11 +106,11 @@ function stateOf({ body, holds, health }) {
   return ["", ""];
 }
 
-/** Where the ball is, how fast, how high, and who has it. */
+/** The ball's place, speed and height, and the robot that has it. */
 function ballWords({ ball, possession }) {
   const words = [`at ${placeText(ball)}`, `${metres(Math.hypot(ball.vx, ball.vy))} m/s`];
   if (ball.z > HIGH_M) words.push(`${metres(ball.z)} m high`);
-  return [...words, possession ? `${possession} has it` : "nobody has it"].join(", ");
+  return [...words, possession ? `${possession} has it` : "no robot has it"].join(", ");
 }
 
 /** A share up to 1 in percent; a larger number is a voltage. */

@@ -1,4 +1,4 @@
-// Live parameters, speeds and noise among them: listed with unit and range, set, and reset.
+// Live parameters, such as speeds and noise: listed with unit and range, set, and reset.
 
 import { byId, element, setText, show } from "./elements.js";
 import { capitalized } from "./text.js";
@@ -16,7 +16,7 @@ export class Parameters {
     match.on("event", ({ events }) => events.at(-1).kind === "parameters" && this.#changed());
   }
 
-  /** Asks for all parameters, when the panel is seen. */
+  /** Queries all parameters, when the panel is visible. */
   async load() {
     const { match } = this;
     if (!match.live || match.setup === null || !match.deeds.has("read_parameters")) return;
@@ -26,7 +26,7 @@ export class Parameters {
     const reply = await this.requests.connection.ask("parameters", { request: { operation: "list" } });
     this.loading = false;
     if (this.again) {
-      this.load(); // they have changed since they were asked for
+      this.load(); // they have changed since the query
       return;
     }
     this.stale = !reply.accepted;
@@ -105,7 +105,7 @@ export class Parameters {
   #set(source, one, text) {
     const value = valueOf(text, one);
     if (value === null) {
-      this.requests.show(source, `Set ${one.name}`, { accepted: false, reason: `${text} is no number` });
+      this.requests.show(source, `Set ${one.name}`, { accepted: false, reason: `${text} is not a number` });
       return;
     }
     this.#change(source, `${one.name} = ${text}`, { operation: "set", values: { [one.name]: value } });
@@ -131,7 +131,7 @@ export class Parameters {
   }
 }
 
-/** Sections that people look for come first; types of robots last. */
+/** Order of sections: those in demand first, types of robots last. */
 function rank(section) {
   const place = FIRST.findIndex((name) => section.includes(name));
   return (section.startsWith("types") ? 100 : 0) + (place < 0 ? FIRST.length : place);
@@ -147,7 +147,7 @@ function rangeWords({ unit, low, high, options }) {
 
 const valueWords = (value) => (Array.isArray(value) ? value.join(", ") : String(value));
 
-/** What was typed as the protocol wants it, or nothing if it is no number. */
+/** The typed text as a value of the protocol; null if it is not a number. */
 function valueOf(text, { value, options }) {
   if (options.length || typeof value === "string") return text;
   const numbers = text.split(",").map((part) => Number(part.trim() === "" ? NaN : part));

@@ -1,11 +1,11 @@
-// A recording is played here: a bar with the marks of its events, play, pause, step, rate, loop, and jumps.
+// Controls of a replay: a bar with the marks of its events, play, pause, step, rate, loop, and jumps.
 
 import { byId, mark, setText, show } from "./elements.js";
-import { LEAD_S } from "./events.js";
-import { SIDES } from "./shapes.js";
+import { SYMBOLS, jumpTarget } from "./shared/events.js";
+import { SIDES } from "./shared/shapes.js";
 import { clockText } from "./text.js";
 
-const MARKED = { goal: "★", card: "▮", foul: "•", half_time: "|", full_time: "|" };
+const MARKED = new Set(["goal", "card", "foul", "half_time", "full_time"]);
 
 export class Replay {
   #wanted = null;
@@ -26,8 +26,8 @@ export class Replay {
     byId("rate").addEventListener("change", () => this.setRate(byId("rate").value));
     byId("marks").addEventListener("click", (event) => this.#pointed(event));
     match.on("welcome replay", () => this.update());
-    match.on("event welcome", () => this.#later());
-    addEventListener("resize", () => this.#later());
+    match.on("event welcome", () => this.#drawLater());
+    addEventListener("resize", () => this.#drawLater());
   }
 
   /** Simulated time in s that is shown. */
@@ -45,7 +45,7 @@ export class Replay {
     if (Number(scrub.min) !== replay.start || Number(scrub.max) !== replay.end) {
       scrub.min = replay.start;
       scrub.max = replay.end;
-      this.#later();
+      this.#drawLater();
     }
     mark(byId("play"), "playing", !replay.paused);
     byId("play").setAttribute("aria-label", replay.paused ? "Play (space)" : "Pause (space)");
@@ -53,13 +53,13 @@ export class Replay {
     if (document.activeElement !== byId("rate")) byId("rate").value = replay.rate === null ? "fast" : String(replay.rate);
   }
 
-  /** Why nobody may do anything here, or nothing. */
+  /** Why the replay cannot be controlled; empty when it can. */
   #why() {
-    if (this.match.replay === null) return "it is not known yet how the replay stands";
-    return this.match.may("replay") ? "" : "only the referee of this replay may";
+    if (this.match.replay === null) return "the status of the replay is not known yet";
+    return this.match.may("replay") ? "" : "only the referee of this replay may control it";
   }
 
-  /** Lets the replay be controlled, or says why it cannot be. */
+  /** Disables the controls with a reason, or enables them. */
   #lock(why) {
     for (const control of byId("replay").querySelectorAll("button, select, #scrub")) {
       control.disabled = why !== "";
@@ -67,7 +67,7 @@ export class Replay {
     }
   }
 
-  /** The bar follows what is drawn, unless it is being dragged. */
+  /** Moves the bar to the drawn time, unless it is being dragged. */
   tick(world) {
     if (this.match.live || world === null) return;
     setText(byId("moment"), `${clockText(this.#wanted ?? world.time)} of ${clockText(this.match.replay?.end ?? 0)}`);
@@ -88,7 +88,7 @@ export class Replay {
     return this.#ask("rate", `Rate ${rate}`, rate === "fast" ? { operation: "rate" } : { operation: "rate", rate: Number(rate) });
   }
 
-  /** Goes to a time in s; while one is on its way, only the newest wish counts. */
+  /** Seeks to a time in s; while a seek is pending, only the newest one counts. */
   async seek(time) {
     if (this.#why()) return;
     const { start, end } = this.match.replay;
@@ -107,11 +107,10 @@ export class Replay {
     this.#asking = false;
   }
 
-  /** To the event before or after the shown moment. */
+  /** Seeks to the event before or after the shown time. */
   jump(step) {
-    const times = this.match.events.filter(({ kind }) => MARKED[kind]).map(({ time }) => Math.max(time - LEAD_S, this.match.replay?.start ?? 0));
-    const now = this.time;
-    const to = step > 0 ? times.find((time) => time > now + 0.05) : times.findLast((time) => time < now - 0.5);
+    const marked = this.match.events.filter(({ kind }) => MARKED.has(kind));
+    const to = jumpTarget(marked, step, this.time, this.match.replay?.start ?? 0);
     if (to !== undefined) this.seek(to);
   }
 
@@ -127,7 +126,7 @@ export class Replay {
     this.seek(start + ((event.clientX - box.left) / box.width) * (end - start));
   }
 
-  #later() {
+  #drawLater() {
     if (this.waiting || this.match.live) return;
     this.waiting = true;
     requestAnimationFrame(() => {
@@ -136,7 +135,7 @@ export class Replay {
     });
   }
 
-  /** Marks of goals, cards, fouls and halves along the bar. */
+  /** Draws the marks of goals, cards, fouls and halves along the bar. */
   #draw() {
     const canvas = byId("marks"), { replay, events } = this.match;
     const density = devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
@@ -149,11 +148,11 @@ export class Replay {
     context.textBaseline = "middle";
     const ink = getComputedStyle(canvas).color;
     for (const event of events) {
-      if (!MARKED[event.kind] || event.time < replay.start || event.time > replay.end) continue;
+      if (!MARKED.has(event.kind) || event.time < replay.start || event.time > replay.end) continue;
       const left = ((event.time - replay.start) / Math.max(replay.end - replay.start, 0.01)) * width;
       context.fillStyle = event.kind === "goal" && event.side ? SIDES[event.side].fill : ink;
       context.font = `${event.kind === "goal" ? 17 : 12}px system-ui, "DejaVu Sans", sans-serif`;
-      context.fillText(MARKED[event.kind], Math.min(Math.max(left, 7), width - 7), height / 2);
+      context.fillText(SYMBOLS[event.kind], Math.min(Math.max(left, 7), width - 7), height / 2);
     }
   }
 }

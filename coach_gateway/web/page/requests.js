@@ -1,4 +1,4 @@
-// Where deeds are asked for: each answer is shown beside what asked for it, and kept in a log.
+// Requests for deeds: each reply is shown beside its button or field, and kept in a log.
 
 import { byId, element } from "./elements.js";
 
@@ -15,7 +15,7 @@ export class Requests {
     addEventListener("resize", () => this.#follow());
   }
 
-  /** Asks for a deed called `words`; the verdict stands beside `source`, an element or nothing. */
+  /** Requests a deed that people know as `words`; the verdict is shown beside the element `source`, if there is one. */
   async ask(source, words, deed, content) {
     source?.classList.add("asking");
     const reply = await this.connection.ask(deed, content);
@@ -24,7 +24,7 @@ export class Requests {
     return reply;
   }
 
-  /** Shows what came of something. */
+  /** Shows a verdict. */
   show(source, words, { accepted, reason }) {
     const verdict = accepted ? "accepted" : `refused: ${reason}`;
     this.#note(words, verdict, accepted);
@@ -57,7 +57,7 @@ export class Requests {
     this.#bubbles.delete(source);
   }
 
-  /** What asked has moved, or is hidden by now. */
+  /** Moves the verdicts with their elements, and removes those of hidden ones. */
   #follow() {
     for (const [source, { bubble }] of [...this.#bubbles]) {
       if (source.offsetParent === null) this.#remove(source);
@@ -66,7 +66,7 @@ export class Requests {
   }
 }
 
-/** Lays a bubble below what asked, or above it where there is no room, and within the window. */
+/** Places a bubble below its element, or above it for lack of room, and within the window. */
 function lay(bubble, source) {
   const place = source.getBoundingClientRect(), size = bubble.getBoundingClientRect();
   const below = place.bottom + size.height + 8 < innerHeight;

@@ -1,4 +1,4 @@
-// Scenes: loading one, going back to a start, and setting a body down by numbers.
+// Scenes: loading one, resetting, and placing a body by numbers.
 
 import { byId, offer, setText } from "./elements.js";
 import { radians } from "./text.js";
@@ -7,8 +7,8 @@ export class Scenes {
   constructor(match, requests, drag) {
     Object.assign(this, { match, requests, drag });
     byId("scene-load").addEventListener("click", () => this.#ask("scene-load", `Scene ${byId("scene").value}`, { operation: "load", load: byId("scene").value }));
-    byId("scene-reset").addEventListener("click", () => this.#ask("scene-reset", "Scene anew", { operation: "reset" }));
-    byId("match-reset").addEventListener("click", () => this.#ask("match-reset", "Match anew", { operation: "reset", to_match: true }));
+    byId("scene-reset").addEventListener("click", () => this.#ask("scene-reset", "Reset scene", { operation: "reset" }));
+    byId("match-reset").addEventListener("click", () => this.#ask("match-reset", "Reset match", { operation: "reset", to_match: true }));
     byId("place").addEventListener("click", () => this.#place());
     byId("scene").addEventListener("change", () => this.update());
     match.on("welcome host", () => this.update());

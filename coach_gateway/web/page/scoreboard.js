@@ -1,4 +1,4 @@
-// The head of the page: names, score, clock, phase, who sits here, and whether everybody is there.
+// The head of the page: names, score, clock, phase, role, cards, and notices.
 
 import { byId, mark, setText, show } from "./elements.js";
 import { clockText, halfText, phaseText, readable } from "./text.js";
@@ -11,7 +11,7 @@ export class Scoreboard {
     match.on("welcome state host refbox replay", () => this.update());
   }
 
-  /** Score, phase and people; the clock follows each drawn picture. */
+  /** Updates score, phase and cards; the clock follows the drawn frames. */
   update() {
     const { match } = this;
     document.body.dataset.role = match.role;
@@ -33,7 +33,7 @@ export class Scoreboard {
     setText(byId("people"), state ? disciplineLine(state) : "");
   }
 
-  /** The clock of the picture that is shown. */
+  /** Shows the clock of the drawn frame. */
   tick(world) {
     if (world !== null) setText(byId("clock"), clockText(world.clock));
   }
@@ -41,10 +41,10 @@ export class Scoreboard {
   #notice() {
     const { match, connection } = this;
     const words = [];
-    if (connection.sentAway) words.push(`The gateway let this page go: ${connection.sentAway}. It tries again by itself.`);
-    else if (!connection.up) words.push("The connection is broken; the page tries again by itself.");
+    if (connection.closeReason) words.push(`The gateway closed the connection: ${connection.closeReason}. The page reconnects by itself.`);
+    else if (!connection.up) words.push("The connection is broken; the page reconnects by itself.");
     else if (match.setup === null) words.push("No host plays this match yet; the page waits for it.");
-    else if (!match.hostThere) words.push(match.live ? "The host is gone; the page waits for it." : "The replay has ended.");
+    else if (!match.hostThere) words.push(match.live ? "The host has left; the page waits for it." : "The replay has ended.");
     if (match.refbox.connected) {
       const whom = match.refbox.team ? ` of ${match.refbox.team}` : "";
       words.push(`A referee box commands the match${whom}; the referee's buttons are locked.`);
@@ -55,7 +55,7 @@ export class Scoreboard {
   }
 }
 
-/** Cards, and who is off the field and why: `cyan3 1 yellow, off: repair, 12 s`. */
+/** Robots with cards, and robots off the field with the reason: `cyan3 1 yellow, off: repair, 12 s`. */
 function disciplineLine(state) {
   return Object.entries(state.robots)
     .map(([name, discipline]) => [name, disciplineText(discipline)])

@@ -1,45 +1,45 @@
-// What who sits here has in hand: the robot that is chosen, what is being dragged, what is picked on the field.
+// The user's selection: the chosen robot, the body that is being dragged, the point that is picked on the field.
 
 export class Selection {
-  /** The robot that buttons, panels and driving are about, or nothing. */
+  /** The robot that buttons, panels and driving are about, or null. */
   robot = null;
-  /** Where a body is being dragged: {x, y, radius}, or nothing. */
+  /** The body that is being dragged: {x, y, radius}, or null. */
   dragged = null;
-  /** Who waits for a point of the field: {words, take}, or nothing. */
+  /** The request for a point of the field: {words, take}, or null. */
   picking = null;
   #handlers = [];
 
-  /** Has `does` called when something here changes. */
+  /** Calls `does` when the selection changes. */
   on(does) {
     this.#handlers.push(does);
   }
 
   choose(robot) {
     this.robot = robot;
-    this.#tell();
+    this.#notify();
   }
 
-  /** The next point of the field goes to `take`: a place, and a direction if one was drawn. */
+  /** Calls `take` with the next point of the field, and with a direction if one was drawn. */
   pick(words, take) {
     this.picking = { words, take };
-    this.#tell();
+    this.#notify();
   }
 
   picked(place, angle) {
     const { take } = this.picking;
     this.picking = null;
     take(place, angle);
-    this.#tell();
+    this.#notify();
   }
 
-  /** Lets go of everything. */
+  /** Ends picking and dragging. */
   cancel() {
     this.picking = null;
     this.dragged = null;
-    this.#tell();
+    this.#notify();
   }
 
-  #tell() {
+  #notify() {
     for (const does of this.#handlers) does(this);
   }
 }

@@ -1,4 +1,4 @@
-// The tabs beside the field; on a phone below it, with robots and events among them.
+// The tabs beside the field. On a phone they are below it, and include robots and events.
 
 import { byId, show } from "./elements.js";
 
@@ -6,7 +6,7 @@ export class Tabs {
   #tabs = [...document.querySelectorAll("[role=tab]")];
   #narrow = matchMedia("(max-width: 1000px)");
 
-  /** `seen` is called with the name of the tab that is opened. */
+  /** `seen` is called with the name of each tab that is opened. */
   constructor(seen) {
     this.seen = seen;
     for (const tab of this.#tabs) {

@@ -1,4 +1,4 @@
-// How the page says times, phases, places and names.
+// Times, phases, places and names as text.
 
 /** Game time as `m:ss.s`. */
 export function clockText(seconds) {
@@ -9,7 +9,7 @@ export function clockText(seconds) {
 /** A word of the protocol as people write it: `kick_off` is `kick off`. */
 export const readable = (word) => word.replaceAll("_", " ");
 
-/** The same at the beginning of a line. */
+/** The same with a capital letter. */
 export const capitalized = (word) => word.charAt(0).toUpperCase() + readable(word).slice(1);
 
 /** Metres with two digits, with a minus that is as wide as a plus. */
@@ -27,7 +27,7 @@ export function degreeText(angle) {
   return `${String(turned === -180 ? 180 : turned).replace("-", "−")}°`;
 }
 
-/** What is being played, and by whom. */
+/** The phase, and its team. */
 export function phaseText(state, teams) {
   const words = [capitalized(state.phase)];
   if (state.side) words.push(teams[state.side].name);

@@ -1,9 +1,9 @@
-// The token that says who sits here: it comes with the address once, and is kept for this tab alone.
+// The token that gives the page its role: it comes with the address once, and is kept for this tab alone.
 
 const KEY = "touchline.token";
-let unkept = ""; // where a browser keeps nothing
+let unkept = ""; // where storage is forbidden
 
-/** The token of the address or of this tab; the address keeps none. */
+/** The token of the address or of this tab; it is removed from the address. */
 export function tokenHere() {
   const words = new URLSearchParams(location.hash.slice(1));
   const given = words.get("token");
@@ -21,7 +21,7 @@ export function keepToken(token) {
   else storage()?.removeItem(KEY);
 }
 
-/** What this tab remembers; nothing where people forbid pages to remember. */
+/** The storage of this tab; null where it is forbidden. */
 function storage() {
   try {
     return sessionStorage;

@@ -1,15 +1,15 @@
-// Where everything has been: a tail behind each body, or all of its way.
+// Where everything has been: a tail behind each body, or its whole path.
 
-import { SIDES } from "./shapes.js";
+import { SIDES } from "./shared/shapes.js";
 
 export const TRAILS = [
   ["off", "off"],
   ["short", "3 s"],
-  ["all", "kept"],
+  ["all", "all"],
 ];
 const SHORT_S = 3;
-const STEP_M = 0.06; // what moved less is not noted
-const JUMP_M = 1.5; // what moved more was set down elsewhere
+const STEP_M = 0.06; // shorter moves are not added
+const JUMP_M = 1.5; // after longer moves the body was placed
 const MOST = 2500; // points of one body
 
 export class Trails {
@@ -17,7 +17,7 @@ export class Trails {
   #episode = 0;
   #time = 0;
 
-  /** Takes in where everything is. */
+  /** Adds the place of every body. */
   note(world) {
     if (world.episode !== this.#episode || world.time < this.#time) this.#ways.clear();
     this.#episode = world.episode;

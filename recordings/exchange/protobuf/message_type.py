@@ -12,7 +12,7 @@ from google.protobuf.descriptor_pb2 import DescriptorProto, FieldDescriptorProto
 from google.protobuf.descriptor_pool import DescriptorPool
 
 from recordings.container.json_schema import whole_schema
-from schemas.message import WireMessage
+from schemas.wire.message import WireMessage
 
 PACKAGE = "touchline"
 _PLAIN = {

@@ -19,19 +19,24 @@ from recordings.stats.tracks import Tracks
 from schemas.errors import TouchlineError
 
 SCRIPTS = (
+    "shared/projection.js",
+    "shared/shapes.js",
+    "shared/pitch.js",
+    "shared/bodies.js",
+    "shared/events.js",
     "match.js",
-    "pitch.js",
-    "bodies.js",
+    "canvas.js",
+    "moving_bodies.js",
     "player.js",
     "keys.js",
     "timeline.js",
-    "events.js",
+    "event_list.js",
     "heat_maps.js",
     "shots.js",
     "figures.js",
     "main.js",
 )
-"""Scripts of the page; each imports only from those before it."""
+"""Each imports only from those before it; those in `shared` are of `schemas/page`, which the match's page uses too."""
 
 
 def page_of(recording: Recording) -> tuple[MatchFigures, str]:
@@ -74,7 +79,9 @@ def write_page(path: Path, text: str) -> None:
 
 
 def _text(name: str) -> str:
-    return (resources.files(__package__ or __name__) / name).read_text("utf-8")
+    folder, _, file = name.rpartition("/")
+    files = resources.files("schemas") / "page" if folder == "shared" else resources.files(__package__ or __name__)
+    return (files / file).read_text("utf-8")
 
 
 def _inlined(module: str) -> str:

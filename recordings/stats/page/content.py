@@ -13,8 +13,9 @@ from recordings.stats.kicks import SHOTS, KickOutcome, KickRecord
 from recordings.stats.page.game_history import GameHistory
 from recordings.stats.table import ROBOT_HEADINGS, remarks, robot_rows, side_rows
 from recordings.stats.tracks import Tracks
-from schemas.game import EventKind, GameEvent
-from schemas.messages.host import Setup
+from schemas.game import EventKind
+from schemas.messages.game import GameEvent
+from schemas.messages.setup import Setup
 from schemas.side import Side
 
 _HIDDEN_KINDS = frozenset({EventKind.STOP, EventKind.START, EventKind.AGENT, EventKind.PARAMETERS})
@@ -37,8 +38,7 @@ def content_of(
         "started": manifest.started,
         "about": _about(manifest, setup),
         "teams": teams,
-        "pitch": dataclasses.asdict(setup.pitch)
-        | {"goal_area_width": setup.pitch.goal_area_width, "penalty_area_width": setup.pitch.penalty_area_width},
+        "pitch": dataclasses.asdict(setup.pitch),
         "start": tracks.start,
         "rate": tracks.rate,
         "samples": tracks.samples,

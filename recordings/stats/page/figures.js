@@ -1,6 +1,6 @@
 // The figures: both sides next to each other, and a table of robots.
 
-import { element } from "./events.js";
+import { element } from "./event_list.js";
 
 /** Shows a row for each figure of the two sides, with a bar of their shares. */
 export function showSides(place, rows) {

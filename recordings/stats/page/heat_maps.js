@@ -1,7 +1,8 @@
 // Heat maps: where each body was while the ball was in play.
 
-import { element } from "./events.js";
-import { drawGrass, drawLines, fitted } from "./pitch.js";
+import { fitted } from "./canvas.js";
+import { element } from "./event_list.js";
+import { drawGrass, drawLines } from "./shared/pitch.js";
 
 const CELL = 0.5; // m
 const SPREAD = 2; // cells; smooths the short tracks of a match
@@ -33,8 +34,8 @@ export function redrawHeatMaps(place) {
 }
 
 function drawMap(canvas, match, body) {
-  const { pitch } = match, context = fitted(canvas, pitch, 0.6);
-  drawGrass(context, pitch, true);
+  const { pitch } = match, { projection, context } = fitted(canvas, pitch, 0.6);
+  drawGrass(context, projection, pitch, true);
   const columns = Math.ceil(pitch.length / CELL), rows = Math.ceil(pitch.width / CELL);
   const cells = blurred(counted(match, body, columns, rows), columns, rows);
   const most = cells.reduce((high, value) => Math.max(high, value), 0);
@@ -45,13 +46,11 @@ function drawMap(canvas, match, body) {
     small.width = columns;
     small.height = rows;
     small.getContext("2d").putImageData(image, 0, 0);
-    context.save();
-    context.scale(1, -1);
     context.imageSmoothingQuality = "high";
-    context.drawImage(small, -pitch.length / 2, -pitch.width / 2, pitch.length, pitch.width);
-    context.restore();
+    const [left, top] = [projection.x(-pitch.length / 2), projection.y(pitch.width / 2)];
+    context.drawImage(small, left, top, projection.length(pitch.length), projection.length(pitch.width));
   }
-  drawLines(context, pitch, "#ffffff8c", 0.12);
+  drawLines(context, projection, pitch, "#ffffff8c", 0.12);
 }
 
 function counted(match, body, columns, rows) {

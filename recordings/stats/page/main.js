@@ -1,13 +1,14 @@
 // Connects the parts of the page.
 
-import { drawBodies } from "./bodies.js";
-import { Events } from "./events.js";
+import { fitted } from "./canvas.js";
+import { EventList } from "./event_list.js";
 import { showRobots, showSides } from "./figures.js";
 import { drawHeatMaps, redrawHeatMaps } from "./heat_maps.js";
 import { listenForKeys } from "./keys.js";
 import { formatClock, readMatch } from "./match.js";
-import { drawGrass, drawLines, fitted } from "./pitch.js";
+import { drawMovingBodies } from "./moving_bodies.js";
 import { Player } from "./player.js";
+import { drawGrass, drawLines } from "./shared/pitch.js";
 import { drawShots } from "./shots.js";
 import { Timeline } from "./timeline.js";
 
@@ -16,14 +17,15 @@ const match = readMatch(byId("match").textContent);
 const player = new Player(match.start, match.end, show);
 const seek = (time) => player.seek(time);
 const timeline = new Timeline(byId("momentum"), match, seek);
-const events = new Events(byId("events"), { key: byId("key-events"), all: byId("all-events") }, match, seek);
-const margin = Math.max(match.pitch.goal_depth + 0.25, Math.min(match.pitch.border, 1));
+const events = new EventList(byId("events"), { key: byId("key-events"), all: byId("all-events") }, match, seek);
+const view = {};
 const pitchLayer = document.createElement("canvas");
 
 function fit() {
-  const context = fitted(byId("pitch"), match.pitch, margin);
-  drawGrass(context, match.pitch);
-  drawLines(context, match.pitch);
+  Object.assign(view, fitted(byId("pitch"), match.pitch));
+  const { context, projection } = view;
+  drawGrass(context, projection, match.pitch);
+  drawLines(context, projection, match.pitch);
   pitchLayer.width = context.canvas.width;
   pitchLayer.height = context.canvas.height;
   pitchLayer.getContext("2d").drawImage(context.canvas, 0, 0);
@@ -34,12 +36,13 @@ function fit() {
 }
 
 function show({ time, playing }) {
-  const context = byId("pitch").getContext("2d");
+  const { context, projection } = view;
+  if (context === undefined) return; // nothing is laid out yet
   context.save();
   context.setTransform(1, 0, 0, 1, 0, 0);
   context.drawImage(pitchLayer, 0, 0);
   context.restore();
-  drawBodies(context, match, time);
+  drawMovingBodies(context, projection, match, time);
   timeline.draw(time);
   events.mark(time);
   const interval = match.interval(time), scrub = byId("scrub");
@@ -90,4 +93,4 @@ new ResizeObserver(() => {
   width = document.body.clientWidth;
   fit();
 }).observe(document.body);
-window.touchline = { match, player };
+window.touchline = { match, player, view };

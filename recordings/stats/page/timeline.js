@@ -1,6 +1,7 @@
 // Momentum over time, with goals and shots; a click jumps to that time.
 
-const SIDE_COLOURS = { cyan: "#28b9dc", magenta: "#c9237b" };
+import { SYMBOLS } from "./shared/events.js";
+import { SIDES } from "./shared/shapes.js";
 
 export class Timeline {
   constructor(canvas, match, seek) {
@@ -51,7 +52,7 @@ export class Timeline {
         context.lineTo(this.x(this.match.start + (number + 0.5) * step), middle - sign * Math.max(0, sign * value) * reach);
       });
       context.lineTo(this.x(Math.min(this.match.end, this.match.start + values.length * step)), middle);
-      context.fillStyle = SIDE_COLOURS[side];
+      context.fillStyle = SIDES[side].fill;
       context.fill();
     }
     context.strokeStyle = quiet;
@@ -68,7 +69,7 @@ export class Timeline {
       const y = event.side === "magenta" ? height - 9 * this.density : 9 * this.density;
       context.font = `${(goal ? 17 : 10) * this.density}px "DejaVu Sans", system-ui, sans-serif`;
       context.fillStyle = quiet;
-      context.fillText(goal ? "★" : "◆", Math.min(Math.max(this.x(event.time), 9), width - 9), y);
+      context.fillText(goal ? SYMBOLS.goal : SYMBOLS.shot, Math.min(Math.max(this.x(event.time), 9), width - 9), y);
     }
   }
 

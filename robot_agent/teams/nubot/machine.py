@@ -1,7 +1,7 @@
 """The paper's behaviour state machine (figure 5): its states, its transition table, and what each state does.
 
-Knows one robot, one ball and a goal: no teammates, no opponents, no rules. Time passes as the ticks say, not by a
-constant.
+Knows one robot, one ball and a goal: no teammates, no opponents, no rules. Time advances by the ticks' durations, not
+by a constant.
 """
 
 import math
@@ -18,11 +18,11 @@ from schemas.messages.command import Kick, KickMode
 REACH = 0.40
 """m, centre to centre; CHASE_BALL ends here."""
 ARRIVED = 0.1
-"""m; closer than this to a point is at it."""
+"""m; a robot closer than this to a point has arrived."""
 FACING = math.radians(0.5)
-"""rad in total, half of it to either side: closer than this to a direction is facing it."""
+"""rad in total, half of it to either side; a robot within it faces a direction."""
 MOVED = 0.5
-"""m; a target that moved farther than this is planned for anew."""
+"""m; a target that has moved farther than this is planned for again."""
 KICK = Kick(mode=KickMode.LOB, speed=20.0)
 """m/s; the paper's kick_ball_vel."""
 _KEEP = 4.0
@@ -54,7 +54,7 @@ class Points(NamedTuple):
 
 
 class Situation(NamedTuple):
-    """What the machine is told at one tick."""
+    """The input of the machine at one tick."""
 
     me: Body
     ball: tuple[float, float]
@@ -66,7 +66,7 @@ class Situation(NamedTuple):
 
 
 class MachineOutput(NamedTuple):
-    """What the machine wants at one tick: velocity in the team frame, m/s and rad/s."""
+    """The output of the machine at one tick: velocity in the team frame, m/s and rad/s."""
 
     vx: float = 0.0
     vy: float = 0.0
@@ -79,7 +79,7 @@ Condition = Callable[[Situation, Points], bool]
 
 
 def ball_in_reach(now: Situation, points: Points) -> bool:
-    """Within the paper's distance; or held, since robots wider than the paper's threshold touch the ball before."""
+    """The ball is within the paper's distance, or held: robots wider than the threshold touch the ball before."""
     del points
     return now.holding or math.dist(now.ball, now.me[:2]) <= REACH
 
@@ -91,7 +91,7 @@ def hold_lost(now: Situation, points: Points) -> bool:
 
 
 def at_dribble_point(now: Situation, points: Points) -> bool:
-    """The robot has brought the ball where it wants to shoot from."""
+    """The robot has brought the ball to the point of its shot."""
     return math.dist(points.dribble, now.me[:2]) <= ARRIVED
 
 
@@ -101,18 +101,18 @@ def facing_goal(now: Situation, points: Points) -> bool:
 
 
 def at_once(now: Situation, points: Points) -> bool:
-    """Nothing is waited for."""
+    """Always, without waiting."""
     del now, points
     return True
 
 
 def at_reset_point(now: Situation, points: Points) -> bool:
-    """The robot is back."""
+    """The robot is back at its reset point."""
     return math.dist(points.reset, now.me[:2]) <= ARRIVED
 
 
 def world_reset(now: Situation, points: Points) -> bool:
-    """Somebody set the world back: Gazebo's Reset World, or in a match the ball that is the robot's own again."""
+    """The world was reset: in Gazebo by Reset World, in a match when the ball is the robot's own again."""
     del points
     return now.world_reset
 
@@ -135,7 +135,7 @@ TRANSITIONS = (
     Transition(State.RESET, at_reset_point, State.HOME),
     Transition(State.HOME, world_reset, State.CHASE_BALL),
 )
-"""All transitions; the first row of a state whose condition is met decides, one in each tick."""
+"""All transitions; the first row of a state whose condition holds is taken, one per tick."""
 
 
 class Machine:
@@ -146,7 +146,7 @@ class Machine:
         self._enter(State.CHASE_BALL)
 
     def restart(self) -> None:
-        """Begin at CHASE_BALL again, from whatever state."""
+        """Go back to CHASE_BALL from any state."""
         self._enter(State.CHASE_BALL)
 
     def step(self, now: Situation) -> MachineOutput:
@@ -164,7 +164,7 @@ class Machine:
         self._faced = False
 
     def _chase(self, now: Situation) -> MachineOutput:
-        """Rotate toward the ball, then translate to it; from the start, with the speeds it has, when the ball moved."""
+        """Rotate toward the ball, then translate to it; start over, keeping the speeds, when the ball has moved."""
         if not math.dist(now.ball, self._target) <= MOVED:
             self._target, self._faced = now.ball, False
         self._faced = self._faced or abs(_error(now.me, now.ball)) <= FACING / 2.0

@@ -25,34 +25,34 @@ from schemas.messages.command import Drive, KickMode
 HOMES = ((-10.5, 0.0), (-2.0, 1.0), (-2.0, -1.0), (-5.0, 2.0), (-5.0, -2.0))
 """m on 22 × 14 m, the goalkeeper first; simatch's start poses."""
 AHEAD = {2: (3.0, 2.5), 3: (3.0, -2.5)}
-"""m on 22 × 14 m; where two robots wait for the pass without which a goal of their side would not count."""
+"""m on 22 × 14 m; where two robots wait for a pass, without which a goal of their side would not count."""
 LOYALTY = 0.5
 """m by which a teammate must be nearer to the ball than the robot that plays it, to play it instead."""
 PROMISED = 3.0
-"""m that the robot which was promised the ball may be farther from it than another."""
+"""m by which the robot that was promised the ball may be farther from it than another."""
 _PREPARED = 1.0
 """m into the other half."""
 _KICKED = 2.0
 """m/s; a ball faster than this is still on its way from the kick."""
 _NEAR_ENOUGH = 1.5
-"""m around the dribble point; who is pressed does not brake for the last step."""
+"""m around the dribble point; a pressed robot does not brake for the last step."""
 _TURNS = 4.0
-"""m before the dribble point, where the robot begins to turn to the goal; before that its body shields the ball."""
+"""m before the dribble point, where the robot begins to turn to the goal; until then its body shields the ball."""
 _BALL_ROOM = 0.1
 """m of air to opponents, for the ball before the robot."""
 _RESTART_SPEED = 3.0
-"""m/s at most; of the ball kicked at a restart."""
+"""m/s of the ball kicked at a restart, at most."""
 _KICK_OFF_TO = (0.2, -1.0)
-"""m; a kick-off goes softly to the side, and the taker after it."""
+"""m; target of a kick-off: softly to the side, and the taker follows."""
 _KICK_OFF_ROLLS = 2.5
-"""m that it rolls, if nobody takes it before."""
+"""m that the ball of a kick-off rolls, if no robot takes it before."""
 _RESTART_ERROR = 0.4
-"""m; how far beside the target it may pass."""
+"""m beside the target of a restart, at most."""
 PLAYS, HOLDS, KEEPS = "plays the ball", "holds its place", "keeper"
 
 
 class NuBot(Player):
-    """One of the five; alone, the paper's robot."""
+    """One of the five robots; alone, the paper's robot."""
 
     plays_alone = True
 
@@ -68,17 +68,17 @@ class NuBot(Player):
         self._role = HOLDS
         self._promised: Promise | None = None
         self._receiver: str | None = None
-        """Who is meant to get the ball that this robot plays."""
+        """The receiver of the ball that this robot plays."""
         self._shown = 0
-        """Number of the order that the machine was last begun for."""
+        """Number of the order for which the machine was started last."""
 
     def restart(self) -> None:
-        """The paper's reset of the world: its machine begins again, from whatever state."""
+        """Restart the machine, as the paper's reset of the world does."""
         super().restart()
         self._machine.restart()
 
     def show_test(self, belief: WorldBelief, order: CoachOrder) -> Action:
-        """Every team's tests, and the paper's: one robot runs the machine once, to the order's points or its own."""
+        """The tests of all teams, and `machine`: one robot runs the machine once, to the order's points or its own."""
         if order.test is not CoachTest.MACHINE or order.robot_a != self.briefing.robot or belief.ball is None:
             return super().show_test(belief, order)
         if order.sequence != self._shown:
@@ -94,7 +94,7 @@ class NuBot(Player):
         return self._carried_out(belief._replace(opponents=in_the_way), self._machine.step(situation))
 
     def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
-        """Keep, play the ball, or hold the place."""
+        """Keep the goal, play the ball, or hold the place."""
         ball = belief.ball
         del order
         self._promised = promise_after(self._promised, belief)
@@ -112,7 +112,7 @@ class NuBot(Player):
         return self._take_restart(belief, ball, spot) if phase.ours else self._run_machine(belief, ball)
 
     def _nearest(self, belief: WorldBelief, spot: tuple[float, float]) -> str:
-        """The field robot that plays the ball: the nearest; who does already or was promised it, unless farther."""
+        """The field robot that plays the ball: the nearest, with a bonus for playing it already or a promised pass."""
         promised = self._promised.receiver if self._promised is not None else None
         robots = [(self.briefing.robot, belief.me, self._role)]
         robots += [(name, mate.body, mate.role) for name, mate in belief.mates.items() if name != self.keeper]
@@ -125,7 +125,7 @@ class NuBot(Player):
         return nearest
 
     def _run_machine(self, belief: WorldBelief, ball: SeenBall) -> Action:
-        """The paper's machine; when it has kicked and the ball is this robot's own again, it begins anew."""
+        """Run the paper's machine; it starts over when it has kicked and this robot is at the ball again."""
         self._machine.points = self._points._replace(dribble=self._dribble_point(belief, ball))
         back = self._machine.state in (State.RESET, State.HOME)
         if back and math.hypot(ball.now.vx, ball.now.vy) < _KICKED:
@@ -143,7 +143,7 @@ class NuBot(Player):
         return self._carried_out(belief, output)
 
     def _pass_ahead(self, belief: WorldBelief) -> Action | None:
-        """Where a goal would not count, to a teammate in the other half, if there is one whom a pass reaches."""
+        """Where a goal would not count, pass to a teammate in the other half; None if a pass reaches none."""
         ahead = {name: place for name, place in places_of(belief.mates).items() if place[0] > _PREPARED}
         self._receiver = receiver = best_receiver(belief.me[:2], ahead, belief.opponents, chosen=self._receiver)
         if receiver is None:
@@ -152,14 +152,14 @@ class NuBot(Player):
         return self._promising(Action(PLAYS, "pass ahead", motion, dribble=True, kick=kick), receiver)
 
     def _promising(self, action: Action, receiver: str | None) -> Action:
-        """The same, and with its kick the receiver is told."""
+        """The same action; with its kick, the radio message names the receiver."""
         if action.kick is None or receiver is None:
             return action
         self._promised = Promise(receiver)
         return action._replace(pass_to=receiver)
 
     def _dribble_point(self, belief: WorldBelief, ball: SeenBall) -> tuple[float, float]:
-        """The paper's point or its mirror image on the ball's side; where the robot is, once that is near enough."""
+        """The paper's point or its mirror image on the ball's side; the robot's own place once it is near enough."""
         x, y = self._points.dribble
         point = x, math.copysign(y, ball.now.y)
         return belief.me[:2] if math.dist(point, belief.me[:2]) < _NEAR_ENOUGH else point
@@ -173,7 +173,7 @@ class NuBot(Player):
         return take_ball(belief.me, ball.now, meeting, gap, foes, clearance, self.limits, mates)
 
     def _carried_out(self, belief: WorldBelief, output: MachineOutput) -> Action:
-        """The machine's wish, led around opponents, and turned to the goal on its last metres with the ball."""
+        """The machine's output, steered around opponents, and turned to the goal on the last metres with the ball."""
         vx, vy = output.vx, output.vy
         if self._machine.state is not State.CHASE_BALL:
             others = circles(belief.opponents, 2.0 * self.setup.robot.reach + _BALL_ROOM)
@@ -186,7 +186,7 @@ class NuBot(Player):
         return Action(PLAYS, self._machine.state.value, motion, output.dribble, output.kick)
 
     def _facing(self, belief: WorldBelief, vx: float, vy: float) -> float | None:
-        """Where to look with the ball: on the last metres at the goal; before, ahead, if the rules count ways back."""
+        """The heading with the ball: to the goal on the last metres; before, ahead if driving backward is limited."""
         if self._is_nearly_there(belief):
             x, y = self._points.goal
             return math.atan2(y - belief.me.y, x - belief.me.x)
@@ -196,7 +196,7 @@ class NuBot(Player):
         return math.dist(self._machine.points.dribble, belief.me[:2]) < _TURNS
 
     def _take_restart(self, belief: WorldBelief, ball: SeenBall, spot: tuple[float, float]) -> Action:
-        """Kick to whom a pass reaches, else ahead and run after it; at a penalty, the machine's own kick."""
+        """Kick to a teammate that a pass reaches, else ahead, and follow; a penalty with the machine's own kick."""
         target, receiver = self._restart_target(belief, spot)
         if not belief.game.running:
             motion = wait_behind(belief.me, spot, target, belief.others, self.setup, self.limits)
@@ -213,7 +213,7 @@ class NuBot(Player):
         return self._promising(Action(PLAYS, "kick", motion, dribble=True, kick=kick), receiver)
 
     def _restart_target(self, belief: WorldBelief, spot: tuple[float, float]) -> tuple[tuple[float, float], str | None]:
-        """Where to, and to whom."""
+        """Target and receiver of a restart."""
         phase = belief.game.phase
         if phase is TeamPhase.OUR_PENALTY:
             return self._points.goal, None
@@ -238,6 +238,6 @@ class NuBot(Player):
 
 
 def _spot(belief: WorldBelief, ball: SeenBall) -> tuple[float, float]:
-    """Where a restart is taken, in play where the ball is."""
+    """The spot of a restart; in play, the ball's place."""
     spot = belief.game.spot
     return (spot.x, spot.y) if spot is not None else (ball.now.x, ball.now.y)

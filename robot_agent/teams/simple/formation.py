@@ -1,4 +1,4 @@
-"""Where those who do not play the ball stand, relative to it."""
+"""The places of robots that do not play the ball, relative to it."""
 
 import math
 
@@ -7,15 +7,15 @@ from robot_agent.teams.simple.roles import Role
 from schemas.config.sections import Pitch
 
 CLEAR = 2.4
-"""m that everybody leaves between himself and the ball that a teammate plays."""
+"""m between a robot and a ball that a teammate plays."""
 WING = 0.25
 """Share of the pitch's width between its middle and a supporter."""
 AHEAD = 2.0
 """m that supporters are ahead of the ball."""
 GUARD = 0.45
-"""Share of the way from the own goal to the ball where the defender stands."""
+"""Where the defender stands between the own goal and the ball, as a share."""
 FARTHEST = 0.32
-"""Share of the pitch's length that the defender leaves his goal at most."""
+"""Distance of the defender from its goal at most, as a share of the pitch's length."""
 
 
 def places(ball: tuple[float, float], pitch: Pitch, inset: float) -> list[tuple[Role, tuple[float, float]]]:
@@ -32,7 +32,7 @@ def places(ball: tuple[float, float], pitch: Pitch, inset: float) -> list[tuple[
 
 
 def _guard(ball: tuple[float, float], pitch: Pitch, front: float) -> tuple[float, float]:
-    """Between the own goal and the ball."""
+    """The defender's place between the own goal and the ball."""
     dx, dy = ball[0] + pitch.goal_line, ball[1]
     share = min(GUARD, FARTHEST * pitch.length / max(math.hypot(dx, dy), 1e-6))
     x, y = inside(share * dx - pitch.goal_line, share * dy, pitch, 0.0)

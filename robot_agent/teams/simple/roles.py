@@ -1,7 +1,7 @@
-"""Who does what: the field robot that is at the ball first plays it, the others share the places of the formation.
+"""Role assignment: the field robot that is first at the ball plays it, the others share the places of the formation.
 
-Every robot decides for itself, from its own pose and the radio; the same beliefs give the same decision. What a
-robot does already counts a little in its favour, so that two of them do not swap each tick.
+Every robot decides for itself, from its own pose and the radio; the same beliefs give the same decision. A robot's
+present role counts a little in its favour, so that two of them do not swap each tick.
 """
 
 import math
@@ -15,7 +15,7 @@ from robot_agent.skills.intercept import meeting_time, way_of
 
 
 class Role(StrEnum):
-    """What a robot is for just now."""
+    """The role of a robot."""
 
     KEEPER = "keeper"
     STRIKER = "striker"
@@ -25,20 +25,20 @@ class Role(StrEnum):
 
 
 class Candidate(NamedTuple):
-    """A field robot, and what it says it does."""
+    """A field robot, with the role that it sends."""
 
     body: Body
     role: str
     is_receiver: bool = False
-    """A teammate asks it to receive a pass."""
+    """A teammate has promised it a pass."""
 
 
 STAYS = 0.35
 """s by which another robot must be at the ball earlier than the striker, to become the striker."""
 RECEIVES = 0.8
-"""s that the robot which was promised the ball is given."""
+"""s in favour of the robot that was promised the ball."""
 KEEPS_PLACE = 0.8
-"""m that another robot must be nearer to a place than the one that has it."""
+"""m by which another robot must be nearer to a place than the one that has it."""
 _TIE = 1e-6
 """s; more than rounding can change."""
 
@@ -46,7 +46,7 @@ _TIE = 1e-6
 def striker_of(
     candidates: Mapping[str, Candidate], ball: Ball, deceleration: float, reach: float, limits: DriveLimits
 ) -> str:
-    """The robot that plays the ball: first at it, ties by name."""
+    """The robot that is first at the ball, and so plays it; ties by name."""
     way = way_of(ball, deceleration)
     first, least = "", math.inf
     for name in sorted(candidates, key=lambda name: candidates[name].role != Role.STRIKER):
@@ -61,7 +61,7 @@ def striker_of(
 def share_places(
     candidates: Mapping[str, Candidate], places: Sequence[tuple[Role, tuple[float, float]]]
 ) -> dict[str, Role]:
-    """Who takes which place: the least sum of distances, the first places first; no place for who is too many."""
+    """The assignment with the least sum of distances, first places first; surplus robots get no place."""
     names = sorted(candidates)
     open_places = places[: len(names)]
     far = [[_far(candidates[name], role, place) for name in names] for role, place in open_places]
@@ -77,5 +77,5 @@ def share_places(
 
 
 def _far(candidate: Candidate, role: Role, place: tuple[float, float]) -> float:
-    """m from a place, less for who has it."""
+    """m from a place, less for the robot that has it."""
     return math.dist(candidate.body[:2], place) - (KEEPS_PLACE if candidate.role == role else 0.0)

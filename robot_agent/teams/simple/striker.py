@@ -1,4 +1,4 @@
-"""The robot with the ball: shoot when the goal is open, pass when the way is not, else carry it to where it is."""
+"""The robot with the ball: shoot when the goal is open, pass when pressed, else carry the ball to where it is open."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -17,34 +17,34 @@ from robot_agent.teams.simple.roles import Role
 from robot_agent.world_model import Teammate, places_of
 from schemas.config.sections import Pitch
 from schemas.messages.command import Kick, KickMode
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 Point = tuple[float, float]
 
 RANGE = 8.0
-"""m from the goal's middle; from farther away nobody shoots."""
+"""m from the goal's middle; no shots from farther away."""
 OPEN = 0.5
 """m of free lane that make a shot worth it."""
 SHOOT_FROM = 3.2
-"""m in front of the goal line: where the ball is carried to."""
+"""m in front of the goal line, where the ball is carried to."""
 PRESSED = 0.9
-"""m between the centres; an opponent this near presses."""
+"""m between the centres; an opponent nearer than this presses."""
 RISES = 1.5
-"""m after which a lob is above everybody."""
+"""m after which a lob is above all robots."""
 DUEL = 0.6
-"""s under pressure after which the ball is knocked on into free situation."""
+"""s under pressure after which the ball is knocked on into free ground."""
 KNOCK_ON = 3.0
 """m of ground that must be free for it."""
 PATIENCE = 2.5
-"""s with the ball after which the best kick there is gets done."""
+"""s with the ball after which the best available kick is taken."""
 PREPARED = 1.0
-"""m into the other half; a pass to there makes a goal count."""
+"""m into the other half; a pass received there makes a goal count."""
 SHOT_ERROR = 0.15
-"""m beside the target."""
+"""m beside the target, at most."""
 
 
 class StrikerSituation(NamedTuple):
-    """What the striker decides on."""
+    """The input of the striker's decision."""
 
     me: Body
     mates: Mapping[str, Teammate]
@@ -55,11 +55,11 @@ class StrikerSituation(NamedTuple):
     pressed: float
     """s with the ball and an opponent beside it."""
     receiver: str | None
-    """To whom a pass was meant a tick ago."""
+    """The receiver that was chosen a tick ago."""
     may_score: bool = True
-    """A goal would count."""
+    """Whether a goal would count."""
     must_pass: bool = False
-    """The rules let this robot not keep the ball for much longer."""
+    """Whether the rules require this robot to give up the ball soon."""
 
 
 def play_ball(situation: StrikerSituation, setup: Setup, limits: DriveLimits) -> Action:
@@ -86,7 +86,7 @@ def play_ball(situation: StrikerSituation, setup: Setup, limits: DriveLimits) ->
 
 
 def _receiver(situation: StrikerSituation, ball: Point, hurried: bool) -> str | None:
-    """The one who was chosen already while the lane to him stays open; somebody new, or behind, only in a hurry."""
+    """The chosen receiver while its lane stays open; another one, or one behind the ball, only in a hurry."""
     places, has_to = places_of(situation.mates), hurried or not situation.may_score
     chosen = places.get(situation.receiver or "")
     if chosen is not None and (has_to or chosen[0] > ball[0]) and is_open(ball, chosen, situation.opponents, EASE):
@@ -98,7 +98,7 @@ def _receiver(situation: StrikerSituation, ball: Point, hurried: bool) -> str | 
 
 
 def is_pressed(me: Body, opponents: Sequence[Point]) -> bool:
-    """An opponent is near and not behind."""
+    """Whether an opponent is near and not behind."""
     for x, y in opponents:
         dx, dy = x - me.x, y - me.y
         if math.hypot(dx, dy) < PRESSED and dx * math.cos(me.heading) + dy * math.sin(me.heading) > -0.2:
@@ -107,7 +107,7 @@ def is_pressed(me: Body, opponents: Sequence[Point]) -> bool:
 
 
 def _can_lob(ball: Point, aim: float, opponents: Sequence[Point], pitch: Pitch) -> bool:
-    """Whether the ball can rise: nobody stands right before it, and the goal is far enough to come down in."""
+    """Whether a lob is possible: no opponent right before the ball, and the goal far enough away."""
     dx, dy = pitch.goal_line - ball[0], aim - ball[1]
     far = math.hypot(dx, dy)
     risen = ball[0] + dx / far * RISES, ball[1] + dy / far * RISES
@@ -123,7 +123,7 @@ def _can_knock_on(situation: StrikerSituation, ball: Point, setup: Setup) -> boo
 
 
 def _knock_on(situation: StrikerSituation, setup: Setup, limits: DriveLimits) -> Action:
-    """Out of a duel: kick the ball past the opponent, and run after it."""
+    """Leave a duel: kick the ball past the opponent, and follow it."""
     speed = math.sqrt(2.0 * setup.ball.rolling_deceleration * 2.0 * KNOCK_ON)
     motion = drive(situation.me, situation.me.vx, situation.me.vy, 0.0, limits)
     kick = Kick(mode=KickMode.GROUND, speed=speed)
@@ -131,7 +131,7 @@ def _knock_on(situation: StrikerSituation, setup: Setup, limits: DriveLimits) ->
 
 
 def _shoot(situation: StrikerSituation, target: Point, width: float, setup: Setup, limits: DriveLimits) -> Action:
-    """Along the ground into an open lane, over everybody when there is none."""
+    """Shoot along the ground into an open lane, over all robots when there is none."""
     kicker = setup.kicker
     mode, speed = KickMode.GROUND, kicker.max_ground_speed
     if width <= OPEN:
@@ -141,13 +141,13 @@ def _shoot(situation: StrikerSituation, target: Point, width: float, setup: Setu
 
 
 def _pass(situation: StrikerSituation, receiver: str, setup: Setup, limits: DriveLimits) -> Action:
-    """Aim, and kick; the receiver is named while there is no kick yet, too, so that it stays the same."""
+    """Aim and kick; the receiver is set before the kick, too, so that it stays the same."""
     motion, kick = pass_to(situation.me, situation.mates[receiver].body[:2], setup, limits)
     return Action(Role.STRIKER, f"pass to {receiver}", motion, dribble=True, kick=kick, pass_to=receiver)
 
 
 def _carry(situation: StrikerSituation, setup: Setup, limits: DriveLimits) -> Action:
-    """Toward the goal, to where one shoots from."""
+    """Carry the ball toward the goal, to the place of a shot."""
     me, pitch = situation.me, setup.pitch
     x, y = pitch.goal_line - SHOOT_FROM, 0.4 * me.y
     facing = math.atan2(-me.y, pitch.goal_line - me.x)

@@ -1,4 +1,4 @@
-"""One robot of the team: it finds its role, and does what the role and the phase ask for."""
+"""One robot of the team: finds its role, and acts by role and phase."""
 
 import math
 
@@ -28,13 +28,13 @@ CLEAR = "clear"
 THREAT = 0.75
 """Share of the own half, from the middle, beyond which an opponent with the ball is met by the defender, too."""
 KICK_OFF_TO = (0.8, 3.0)
-"""m; where a kick-off is played to: ahead, so that the taker waits in his own half."""
+"""m; target of a kick-off: ahead, so that the taker waits in its own half."""
 KICK_OFF_ARRIVING = 1.0
-"""m/s; a kick-off waits there for its receiver, who stands in his own half until START."""
+"""m/s on arrival; the ball waits there for its receiver, which stands in its own half until START."""
 
 
 class Simple(Player):
-    """One of up to five."""
+    """One of up to five robots."""
 
     def __init__(self, briefing: Briefing) -> None:
         super().__init__(briefing)
@@ -42,12 +42,12 @@ class Simple(Player):
         self._held = self._pressed = 0.0
         self._promised: Promise | None = None
         self._receiver: str | None = None
-        """Who is meant to get the ball that this robot holds or is about to play."""
+        """The receiver of the ball that this robot holds or is about to play."""
         self._gap, self._reach = self.setup.dribble.gap, self.setup.robot.reach
         self._clearance = 2.0 * self._reach + 0.05
 
     def play(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
-        """Find the role, then do what it asks for."""
+        """Find the role, then act by it."""
         del order
         self._held = self._held + belief.dt if belief.holding else 0.0
         pressed = belief.holding and is_pressed(belief.me, belief.opponents)
@@ -71,9 +71,9 @@ class Simple(Player):
         return self._strike(belief, ball)
 
     def _find_role(self, belief: WorldBelief, ball: Ball, spot: Point) -> tuple[Role, Point]:
-        """The role that everybody's poses and present roles give this robot, and its place.
+        """The role of this robot from all poses and present roles, and its place.
 
-        A striker who may not play the ball stands between it and the own goal.
+        A striker that may not play the ball stands between it and the own goal.
         """
         me = self.briefing.robot
         receiver = self._promised.receiver if self._promised is not None else None
@@ -131,7 +131,7 @@ class Simple(Player):
         return Action(self._role, "hold", self._stand(belief, place, spot))
 
     def _is_threat(self, belief: WorldBelief, ball: Point) -> bool:
-        """An opponent has the ball near our goal."""
+        """Whether an opponent has the ball near our goal."""
         in_play = belief.game.phase is TeamPhase.PLAY and ball[0] < -THREAT * self.setup.pitch.goal_line
         return in_play and any(math.dist(ball, opponent) < HAS_IT for opponent in belief.opponents)
 
@@ -139,7 +139,7 @@ class Simple(Player):
         return Action(Role.STRIKER, "wait for the drop", self._stand(belief, self._before_own_goal(spot), spot))
 
     def _before_own_goal(self, spot: Point) -> Point:
-        """A step from the ball toward the own goal; the rules of the phase move it farther away."""
+        """A place 1 m from the ball toward the own goal; the rules of the phase move it farther away."""
         dx, dy = -self.setup.pitch.goal_line - spot[0], -spot[1]
         away = max(math.hypot(dx, dy), 1e-6)
         return spot[0] + dx / away, spot[1] + dy / away
@@ -148,7 +148,7 @@ class Simple(Player):
         return stand(belief.me, place, belief.game, spot, belief.others, self.setup, self.limits)
 
     def _take_restart(self, belief: WorldBelief, ball: Ball, spot: Point) -> Action:
-        """Line up behind the ball, and after START kick it at once to a teammate; at a penalty, at the goal."""
+        """Line up behind the ball, and after START kick it at once: to a teammate, or a penalty at the goal."""
         target, receiver = self._restart_kick(belief, spot)
         if not belief.game.running:
             motion = wait_behind(belief.me, spot, target, belief.others, self.setup, self.limits)
@@ -193,7 +193,7 @@ class Simple(Player):
         return Action(Role.KEEPER, "guard", motion, dribble=in_play)
 
     def _is_mine(self, belief: WorldBelief, ball: Ball) -> bool:
-        """A slow ball in the own penalty area that no opponent is nearer to."""
+        """Whether a slow ball is in the own penalty area, with no opponent nearer to it."""
         pitch = self.setup.pitch
         if ball.x > pitch.penalty_area_depth - pitch.goal_line or abs(ball.y) > 0.5 * pitch.penalty_area_width:
             return False
@@ -203,7 +203,7 @@ class Simple(Player):
         )
 
     def _play_out(self, belief: WorldBelief) -> Action:
-        """To a teammate, or far up the side that the ball is on."""
+        """Pass to a teammate, or far up the wing that the ball is on."""
         mates = self._field_mates(belief)
         receiver = best_receiver(belief.me[:2], places_of(mates), belief.opponents, chosen=self._receiver)
         self._receiver = receiver

@@ -21,15 +21,16 @@ from schemas.bus.contract import (
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.mailbox import EveryMailbox
 from schemas.bus.zenoh.newest import ZenohNewest
-from schemas.bus.zenoh.queries import ZenohPendingReply, ZenohServer, ZenohWatch
+from schemas.bus.zenoh.presence import ZenohPresenceWatch
+from schemas.bus.zenoh.queries import ZenohPendingReply, ZenohServer
 from schemas.bus.zenoh.reader import ZenohReader
 from schemas.bus.zenoh.session import SessionContext, open_connection, open_router
 from schemas.bus.zenoh.stream import ZenohPublisher, ZenohSubscription
 from schemas.bus.zenoh.wait_timer import WaitTimer
-from schemas.message import WireMessage
 from schemas.process.clock import Clock
 from schemas.topic import Delivery, Topic
 from schemas.topics import TOPICS, key_prefix
+from schemas.wire.message import WireMessage
 
 
 def open_host(match: str, clock: Clock, listen: str = DEFAULT_ENDPOINT) -> "ZenohBus":
@@ -100,7 +101,7 @@ class ZenohBus(Bus):
             token.undeclare()  # type: ignore[no-untyped-call]
 
     def watch_alive(self) -> PresenceWatch:
-        watch = ZenohWatch(self._open())
+        watch = ZenohPresenceWatch(self._open())
         self._mailboxes.append(watch.mailbox)
         return watch
 

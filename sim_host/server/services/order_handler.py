@@ -2,10 +2,10 @@
 
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, ReceivedMessage
-from schemas.message import BadMessageError
 from schemas.messages.coach import CoachOrder
 from schemas.side import Side
 from schemas.topics import ORDER
+from schemas.wire.message import BadMessageError
 from sim_host.server.invalid_log import InvalidLog
 
 

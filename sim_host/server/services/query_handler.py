@@ -4,8 +4,8 @@ from collections.abc import Callable
 from typing import Any
 
 from schemas.bus.contract import Bus
-from schemas.message import BadMessageError, Message
 from schemas.topic import Topic
+from schemas.wire.message import BadMessageError, Message
 from sim_host.server.invalid_log import InvalidLog
 
 

@@ -1,4 +1,4 @@
-"""Which pages may speak to the server: nobody else can lead a browser to a name that is ours."""
+"""Which origins may connect: no foreign DNS name can point a browser to an allowed one."""
 
 import pytest
 
@@ -39,7 +39,7 @@ def test_our_own_page_and_an_allowed_one_come_in(origin: str, host: str) -> None
         ("http://[::1", "[::1"),
     ],
 )
-def test_a_page_of_somebody_else_does_not(origin: str | None, host: str | None) -> None:
+def test_a_foreign_origin_is_not_allowed(origin: str | None, host: str | None) -> None:
     assert not Origins(["https://cup.example.org"], ["localhost"]).allows(origin, host)
 
 

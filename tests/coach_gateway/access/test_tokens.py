@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
+from coach_gateway.access.roles import Role
 from coach_gateway.access.tokens import Tokens, page_address, read_or_make
-from coach_gateway.web.protocol import Role
 from schemas.errors import TouchlineError
 
 
@@ -51,7 +51,7 @@ def test_a_token_stands_for_its_role(role: Role) -> None:
     assert tokens.role_of(tokens.of(role)) is role
 
 
-def test_a_token_that_is_nobody_s_stands_for_nobody() -> None:
+def test_an_unknown_token_has_no_role() -> None:
     tokens = Tokens("the-referee", "the-coach-1", "the-coach-2")
     for forged in ("the-refere", "the-referee ", "THE-REFEREE", "the-coach-", "ö", " ", "\ud800"):
         assert tokens.role_of(forged) is None
@@ -68,8 +68,8 @@ def test_a_token_stands_behind_the_sign_that_no_browser_sends() -> None:
         ("no json", "is not JSON; delete it"),
         ({}, "need a token each"),
         ([], "need a token each"),
-        ({"referee": "short", "cyan": "long-enough-1", "magenta": "long-enough-2"}, "at least 8 characters"),
-        ({"referee": "the-same-token", "cyan": "the-same-token", "magenta": "another-token"}, "different ones"),
+        ({"referee": "short", "cyan": "long-enough-1", "magenta": "long-enough-2"}, "8 characters or longer"),
+        ({"referee": "the-same-token", "cyan": "the-same-token", "magenta": "another-token"}, "all different"),
         ({"referee": 12345678, "cyan": "long-enough-1", "magenta": "long-enough-2"}, "need a token each"),
     ],
 )

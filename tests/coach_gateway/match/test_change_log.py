@@ -5,14 +5,15 @@ import pytest
 from coach_gateway.match.change_log import log_changes
 from schemas.bus.in_process_bus import Medium
 from schemas.errors import TouchlineError
-from schemas.game import EventKind, GameEvent, GameState, Phase, Score
+from schemas.game import EventKind, Phase, Score
+from schemas.messages.game import GameEvent, GameState
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import EVENT, STATE
 
 
 class HostOf:
-    """A host whose next words come whenever the watcher's clock moves on, one at a time; then it leaves."""
+    """A host that publishes its next message whenever the watcher's clock advances, and leaves after the last."""
 
     def __init__(self, *messages: GameState | GameEvent) -> None:
         self.medium = Medium()
@@ -52,7 +53,7 @@ def state(clock: float, phase: Phase = Phase.PLAY, side: Side | None = None, run
     return GameState(tick=1, time=clock, clock=clock, phase=phase, side=side, running=running, score=Score(cyan=2))
 
 
-def test_a_line_is_said_when_something_changes_and_not_when_only_the_clock_runs() -> None:
+def test_a_line_is_logged_when_something_changes_and_not_when_only_the_clock_runs() -> None:
     said = lines_of(state(0.0), state(1.0), state(61.25, Phase.THROW_IN, Side.MAGENTA), state(62.0))
     assert said == [
         " 0:00.0  half 1  cyan 2 : 0 magenta  play",
@@ -61,12 +62,12 @@ def test_a_line_is_said_when_something_changes_and_not_when_only_the_clock_runs(
     ]
 
 
-def test_every_event_is_said_in_its_own_words() -> None:
+def test_every_event_is_logged_with_its_text() -> None:
     event = GameEvent(tick=5, time=0.1, clock=0.1, kind=EventKind.BALL_OUT, rule="ball_out", text="over the touch line")
     assert lines_of(event, event) == [" 0:00.1  ball out: over the touch line"] * 2
 
 
-def test_watching_a_match_that_nobody_plays_says_so() -> None:
+def test_watching_a_match_without_a_host_is_an_error_with_the_reason() -> None:
     bus = Medium().open_bus("cup", SteppedClock())
     with pytest.raises(TouchlineError, match='match "cup": no host plays it there'):
         log_changes(bus, lambda line: None, threading.Event())

@@ -6,19 +6,17 @@ from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import Medium
-from schemas.config.match_config import load_match
-from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
-from schemas.game import ActionName, ActionReply, RefereeAction
+from schemas.game import ActionName
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
-from schemas.messages.host import Setup
+from schemas.messages.game import ActionReply, RefereeAction
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import ACTION, ACTIVE_ORDER, ORDER, SETUP
+from support.messages import make_setup
 
 MICROSECONDS = 1_795_275_009_214_000
-"""Since 1970: far beyond what a clock in ms will say."""
+"""Since 1970: far beyond any clock in ms."""
 
 
 @pytest.fixture
@@ -30,11 +28,6 @@ def seat(medium: Medium) -> Bus:
     return medium.open_bus("friendly", SteppedClock())
 
 
-def setup_of_a_match() -> Setup:
-    match = load_match(None, {f"teams.{side}.size": 2 for side in Side})
-    return Setup.of(match, load_profile("msl"), load_rule_book("friendly"))
-
-
 @pytest.fixture
 def host(medium: Medium):
     """Answers how the match is set up, and refuses every action but `stop`; gives the actions it was asked for.
@@ -43,7 +36,7 @@ def host(medium: Medium):
     """
     bus = seat(medium)
     setups, actions = bus.serve(SETUP), bus.serve(ACTION)
-    setup = setup_of_a_match().model_copy(update={"orders": {Side.MAGENTA: MICROSECONDS}})
+    setup = make_setup(size=2).model_copy(update={"orders": {Side.MAGENTA: MICROSECONDS}})
     asked: list[RefereeAction] = []
 
     def answer_setups() -> None:
@@ -119,7 +112,7 @@ def test_an_order_that_contradicts_itself_is_refused_with_the_reason(medium: Med
         HostClient(seat(medium)).order(Side.CYAN, mode=CoachMode.TEST, test="move")
 
 
-def test_an_order_is_numbered_after_the_one_that_stands_whatever_the_clock_says(
+def test_an_order_is_numbered_after_the_active_one_whatever_the_clock_has(
     medium: Medium, host: list[RefereeAction]
 ) -> None:
     gateway = HostClient(seat(medium))
@@ -130,7 +123,7 @@ def test_an_order_is_numbered_after_the_one_that_stands_whatever_the_clock_says(
     assert gateway.order(Side.CYAN).sequence == ahead.sequence + 1
 
 
-def test_a_coach_who_has_just_come_goes_on_from_the_number_that_stands_however_large(
+def test_a_new_coach_goes_on_from_the_number_of_the_active_order_however_large(
     medium: Medium, host: list[RefereeAction]
 ) -> None:
     first = HostClient(seat(medium)).order(Side.MAGENTA)
@@ -139,7 +132,7 @@ def test_a_coach_who_has_just_come_goes_on_from_the_number_that_stands_however_l
 
 
 class AnsweringClock(SteppedClock):
-    """Has another robot acknowledge whenever somebody waits."""
+    """Has another robot acknowledge whenever the clock is waited on."""
 
     __slots__ = ("say",)
 

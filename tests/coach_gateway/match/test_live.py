@@ -8,16 +8,16 @@ from coach_gateway.match.live import LiveMatch
 from coach_gateway.refbox.call_generator import CallGenerator
 from schemas.bus.in_process_bus import Medium
 from schemas.config.match_config import load_match
-from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
-from schemas.game import REFBOX, ActionName, GameState, Phase, RefereeAction, Score
-from schemas.messages.host import Setup
+from schemas.game import REFBOX, ActionName, Phase, Score
+from schemas.messages.game import GameState, RefereeAction
+from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock, WallClock
 from schemas.side import Side
 from schemas.topics import BELIEF, EVENT, SETUP, STATE
+from support.messages import make_setup
 
 
-def test_without_a_host_the_answer_is_a_refusal_that_says_so(opened: Any, until: Any) -> None:
+def test_without_a_host_the_reply_is_a_refusal_with_the_reason(opened: Any, until: Any) -> None:
     async def play() -> None:
         async with opened() as bench:
             bench.stage.bus.close()
@@ -75,7 +75,7 @@ def test_a_host_that_comes_after_another_is_asked_anew_and_nothing_of_the_old_ma
     asyncio.run(play())
 
 
-def test_what_another_host_says_before_its_first_state_counts(opened: Any, until: Any) -> None:
+def test_events_of_another_host_before_its_first_state_count(opened: Any, until: Any) -> None:
     async def play() -> None:
         async with opened() as bench:
             for _ in range(100):
@@ -111,7 +111,7 @@ def test_a_replay_that_goes_back_keeps_the_events_of_before(opened: Any, until: 
     asyncio.run(play())
 
 
-def test_an_answer_of_a_host_that_has_gone_meanwhile_does_not_pass_for_the_new_ones(opened: Any, until: Any) -> None:
+def test_a_reply_of_a_host_that_has_left_does_not_pass_for_that_of_the_new_one(opened: Any, until: Any) -> None:
     async def play() -> None:
         async with opened() as bench:
             ask, answers = bench.live._client.setup, threading.Event()
@@ -122,7 +122,7 @@ def test_an_answer_of_a_host_that_has_gone_meanwhile_does_not_pass_for_the_new_o
                 return answer
 
             bench.live._client.setup = slow
-            bench.stage.say(episode=2)  # others may take part: it is asked again
+            bench.stage.say(episode=2)  # other robots may take part: the setup is queried again
             await until(lambda: bench.live._asking is not None and not bench.live._asking.done())
             bench.stage.setup = bench.stage.setup.model_copy(update={"rules": "another book"})
             bench.stage.say(episode=3)
@@ -133,7 +133,7 @@ def test_an_answer_of_a_host_that_has_gone_meanwhile_does_not_pass_for_the_new_o
     asyncio.run(play())
 
 
-def test_a_stop_waits_for_nobody_elses_questions(opened: Any, until: Any) -> None:
+def test_a_stop_waits_for_no_other_request(opened: Any, until: Any) -> None:
     async def play() -> None:
         async with opened() as bench:
             held = threading.Event()
@@ -152,7 +152,7 @@ def test_a_stop_waits_for_nobody_elses_questions(opened: Any, until: Any) -> Non
     asyncio.run(play())
 
 
-def test_an_order_of_one_side_waits_for_none_of_the_others(opened: Any, until: Any) -> None:
+def test_an_order_of_one_side_does_not_wait_for_the_other_side(opened: Any, until: Any) -> None:
     async def play() -> None:
         async with opened() as bench:
             held = threading.Event()
@@ -164,8 +164,10 @@ def test_an_order_of_one_side_waits_for_none_of_the_others(opened: Any, until: A
             held.set()
             await asyncio.gather(*slow)
 
+    asyncio.run(play())
 
-def test_what_changes_while_the_host_answers_is_asked_for_again(until: Any) -> None:
+
+def test_a_setup_that_changes_while_the_host_replies_is_queried_again(until: Any) -> None:
     async def play() -> None:
         medium, clock = Medium(), SteppedClock()
         host, live = medium.open_bus("friendly", WallClock()), LiveMatch(medium.open_bus("friendly", clock))
@@ -177,19 +179,15 @@ def test_what_changes_while_the_host_answers_is_asked_for_again(until: Any) -> N
             asked.extend(iter(server.receive, None))
             return len(asked)
 
-        def setup(size: int) -> Setup:
-            match = load_match(None, {f"teams.{side}.size": size for side in Side})
-            return Setup.of(match, load_profile("msl"), load_rule_book("friendly"))
-
         states.put(GameState(tick=1, time=0.02, phase=Phase.PLAY))
         await until(look, "the question")
         states.put(GameState(tick=2, time=0.04, phase=Phase.PLAY, episode=2))
         look()
-        asked[0].reply(setup(1))  # as it was before the scene that came meanwhile
+        asked[0].reply(make_setup(size=1))  # as it was before the scene that came meanwhile
         await until(lambda: len(live.sides) == 2)
         clock.sleep_until(10.0)
         await until(lambda: look() == 2, "another question")
-        asked[1].reply(setup(3))
+        asked[1].reply(make_setup(size=3))
         await until(lambda: len(live.sides) == 6)
         stop = asyncio.Event()
         stop.set()
@@ -198,19 +196,19 @@ def test_what_changes_while_the_host_answers_is_asked_for_again(until: Any) -> N
     asyncio.run(play())
 
 
-def test_what_cannot_be_read_is_counted_and_left_out(opened: Any, until: Any) -> None:
+def test_unreadable_messages_are_counted_and_left_out(opened: Any, until: Any) -> None:
     async def play() -> None:
         async with opened() as bench:
             for topic, chunks in ((STATE, {}), (EVENT, {}), (BELIEF, {"side": "cyan", "robot": "cyan1"})):
                 bench.stage.bus.publisher(topic, **chunks).put_payload(b"{")
-            await until(lambda: bench.live.unreadable >= 2)
+            await until(lambda: bench.live.follower.unreadable >= 2)
             assert bench.live.beliefs(list(Side)) == {}
-            assert bench.live.unreadable == 3
+            assert bench.live.follower.unreadable == 3
 
     asyncio.run(play())
 
 
-def test_a_gateway_that_ends_asks_nobody_any_more() -> None:
+def test_a_gateway_that_ends_sends_no_more_requests() -> None:
     async def play() -> None:
         live = LiveMatch(Medium().open_bus("friendly", WallClock()))
         stop = asyncio.Event()

@@ -16,7 +16,7 @@ def standing(sequence: int, tick: int = 5, **acknowledged: bool) -> ActiveOrder:
     )
 
 
-def test_an_order_is_unheard_then_stands_then_is_replaced() -> None:
+def test_an_order_is_pending_then_active_then_replaced() -> None:
     book = OrderBook()
     assert book.receipt(Side.CYAN, 7).status is OrderStatus.PENDING
     book.update(Side.CYAN, standing(6))
@@ -26,7 +26,7 @@ def test_an_order_is_unheard_then_stands_then_is_replaced() -> None:
     assert book.receipt(Side.CYAN, 6).status is OrderStatus.REPLACED
 
 
-def test_a_receipt_names_who_has_acknowledged_and_who_has_not() -> None:
+def test_a_receipt_names_the_robots_that_have_acknowledged_and_those_that_have_not() -> None:
     book = OrderBook()
     book.update(Side.CYAN, standing(7, cyan1=True, cyan2=False, cyan3=True))
     receipt = book.receipt(Side.CYAN, 7)
@@ -44,7 +44,7 @@ def test_each_side_has_its_own_order() -> None:
     assert book.receipt(Side.MAGENTA, 7).status is OrderStatus.PENDING
 
 
-def test_what_is_only_said_again_is_no_news() -> None:
+def test_a_repeated_order_is_not_news() -> None:
     book = OrderBook()
     assert book.update(Side.CYAN, standing(7, tick=5))
     assert not book.update(Side.CYAN, standing(7, tick=55))
@@ -52,7 +52,7 @@ def test_what_is_only_said_again_is_no_news() -> None:
     assert book.update(Side.CYAN, standing(8, tick=61, cyan1=True))
 
 
-def test_with_another_host_no_order_stands() -> None:
+def test_with_another_host_no_order_is_active() -> None:
     book = OrderBook()
     book.update(Side.CYAN, standing(7))
     book.clear()
@@ -60,7 +60,7 @@ def test_with_another_host_no_order_stands() -> None:
 
 
 @pytest.mark.parametrize("payload", [b"{", b"[]", b"\xff"])
-def test_the_watch_tells_which_side_there_is_news_of_and_counts_what_it_cannot_read(payload: bytes) -> None:
+def test_the_follower_returns_the_sides_with_news_and_counts_unreadable_messages(payload: bytes) -> None:
     medium = Medium()
     host = medium.open_bus("friendly", SteppedClock())
     watch = OrderFollower(medium.open_bus("friendly", SteppedClock()))

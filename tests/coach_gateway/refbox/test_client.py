@@ -14,67 +14,14 @@ import pytest
 from coach_gateway.refbox import client as client_module
 from coach_gateway.refbox.client import UPLOAD_S, BoxAddress, RefBoxClient
 from coach_gateway.refbox.framing import BoxProtocol
-from schemas.game import REFBOX, ActionName, ActionReply, Phase, RefereeAction
+from schemas.game import REFBOX, ActionName, Phase
 from schemas.messages.coach import CoachMode
+from schemas.messages.game import ActionReply, RefereeAction
 from schemas.side import Side
+from support.referee_box import CYAN_AT, MAGENTA_AT, Box
 
-CYAN_AT, MAGENTA_AT = "224.16.32.44", "224.16.32.55"
 RESTARTS = {"KICKOFF": "kick_off", "FREEKICK": "free_kick", "GOALKICK": "goal_kick", "THROWIN": "throw_in"}
 RESTARTS |= {"CORNER": "corner", "PENALTY": "penalty"}
-
-
-class Box:
-    """A referee box: whoever connects is welcomed with its address, and everybody hears everything."""
-
-    def __init__(self, greets: bool = True, reads: bool = True) -> None:
-        self.greets = greets
-        self.reads = reads
-        self.links: list[asyncio.StreamWriter] = []
-        self.came = 0
-        self.states: list[Any] = []
-        """World states that came."""
-
-    async def open(self, port: int = 0) -> int:
-        door = socket.socket()
-        door.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        kept = 2**20
-        if not self.reads:  # else the stream and the kernel on both ends, by its large segments, swallow megabytes
-            kept = 1024
-            door.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, kept)
-            door.setsockopt(socket.IPPROTO_TCP, socket.TCP_MAXSEG, 536)
-        door.bind(("127.0.0.1", port))
-        self._server = await asyncio.start_server(self._meet, sock=door, limit=kept)
-        return int(self._server.sockets[0].getsockname()[1])
-
-    async def close(self) -> None:
-        self._server.close()
-        self.hang_up()
-        await asyncio.sleep(0)
-
-    def hang_up(self) -> None:
-        for link in self.links:
-            link.transport.abort()
-        self.links.clear()
-
-    def send(self, data: bytes) -> None:
-        for link in self.links:
-            link.write(data)
-
-    def say(self, command: str, target: str = "", **more: Any) -> None:
-        self.send(json.dumps({"command": command, "targetTeam": target, **more}).encode() + b"\x00")
-
-    async def _meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        if self.greets:
-            target = (CYAN_AT, MAGENTA_AT)[self.came % 2]
-            writer.write(json.dumps({"command": "WELCOME", "targetTeam": target}).encode() + b"\x00")
-        self.links.append(writer)
-        self.came += 1
-        try:
-            while self.reads:
-                self.states.append(json.loads((await reader.readuntil(b"\x00"))[:-1]))
-            await asyncio.Event().wait()
-        except (OSError, asyncio.IncompleteReadError):
-            writer.transport.abort()
 
 
 @pytest.fixture
@@ -133,9 +80,7 @@ def test_every_restart_as_a_character_reaches_the_referee_for_the_right_side(met
 
 
 @pytest.mark.parametrize("protocol", [BoxProtocol.AUTO, BoxProtocol.JSON])
-def test_fragments_and_several_commands_in_one_packet_are_all_heard(
-    protocol: BoxProtocol, met: Any, until: Any
-) -> None:
+def test_fragments_and_several_commands_in_one_packet_are_all_read(protocol: BoxProtocol, met: Any, until: Any) -> None:
     async def play() -> None:
         async with met(protocol) as (bench, box, _):
             bench.stage.say(phase=Phase.STOPPED)
@@ -152,7 +97,7 @@ def test_fragments_and_several_commands_in_one_packet_are_all_heard(
     asyncio.run(play())
 
 
-def test_garbage_between_commands_is_counted_and_the_next_one_heard(met: Any, until: Any) -> None:
+def test_garbage_between_commands_is_counted_and_the_next_command_read(met: Any, until: Any) -> None:
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
@@ -162,7 +107,7 @@ def test_garbage_between_commands_is_counted_and_the_next_one_heard(met: Any, un
             await until(lambda: bench.stage.asked)
             assert asked(bench) == ["corner magenta"]
             await until(lambda: client.counts["unreadable"] == 5)  # a broken piece counts what is before its brace, too
-            assert any('"DANCE" is no command' in line for line in bench.said)
+            assert any('"DANCE" is not a command' in line for line in bench.said)
 
     asyncio.run(play())
 
@@ -178,7 +123,7 @@ def test_cards_repairs_and_substitutions_find_their_robot_by_its_number(met: Any
             box.say("REPAIR_END", MAGENTA_AT, robotID=3)
             await until(lambda: len(bench.stage.asked) == 3)
             assert asked(bench) == ["yellow_card cyan2", "repair magenta3", "enter magenta3"]
-            assert client.counts["untold"] == 2
+            assert client.counts["not forwarded"] == 2
             assert any("RED_CARD for magenta names no robot" in line for line in bench.said)
 
     asyncio.run(play())
@@ -235,12 +180,12 @@ def test_park_is_ordered_to_the_robots_and_the_next_command_has_them_play(met: A
         async with met() as (bench, box, _):
             bench.stage.say(phase=Phase.HALF_TIME)
             box.say("PARK")
-            await until(lambda: len(bench.stage.orders) == 2)
+            await until(lambda: len(bench.stage.given_orders) == 2)
             bench.stage.say(phase=Phase.STOPPED, half=2)
             await until(lambda: bench.live.state.half == 2)
             box.say("KICKOFF", MAGENTA_AT)
-            await until(lambda: len(bench.stage.orders) == 4)
-            modes = [(side, order.mode) for side, order in bench.stage.orders]
+            await until(lambda: len(bench.stage.given_orders) == 4)
+            modes = [(side, order.mode) for side, order in bench.stage.given_orders]
             assert modes == [(side, mode) for mode in (CoachMode.PARK, CoachMode.PLAY) for side in Side]
 
     asyncio.run(play())
@@ -280,7 +225,7 @@ def test_manual_actions_are_locked_while_the_link_is_up_and_not_after(met: Any, 
     asyncio.run(play())
 
 
-def test_a_referee_of_ours_that_decides_beside_the_box_is_told_of(met: Any, until: Any) -> None:
+def test_a_referee_of_ours_that_decides_beside_the_box_is_logged(met: Any, until: Any) -> None:
     async def play() -> None:
         async with met() as (bench, _, _):
             await until(lambda: any("--referee manual" in line for line in bench.said))
@@ -292,7 +237,7 @@ def test_a_link_that_breaks_in_the_middle_of_a_command_is_made_again(met: Any, u
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
-            box.came = 0  # whoever comes next is welcomed as the first one was
+            box.came = 0  # the next base station is welcomed as the first one was
             box.send(b'{"command": "CORNER", "targetTe')
             await asyncio.sleep(0.02)
             box.hang_up()
@@ -304,8 +249,8 @@ def test_a_link_that_breaks_in_the_middle_of_a_command_is_made_again(met: Any, u
     asyncio.run(play())
 
 
-def test_a_box_that_lets_everybody_go_unheard_is_tried_less_and_less_often(opened: Any, until: Any) -> None:
-    """As a tunnel is whose other end is not there: it takes each link, and drops it."""
+def test_a_box_that_drops_every_link_is_tried_less_and_less_often(opened: Any, until: Any) -> None:
+    """Like a tunnel whose other end is missing: it accepts each link, and drops it."""
 
     async def play() -> None:
         came: list[float] = []
@@ -325,38 +270,39 @@ def test_a_box_that_lets_everybody_go_unheard_is_tried_less_and_less_often(opene
     asyncio.run(play())
 
 
-def test_a_box_that_says_more_than_can_be_done_is_heard_in_what_it_said_last(
-    met: Any, until: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_of_too_many_commands_the_newest_count(met: Any, until: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(client_module, "_MOST_WAITING", 3)
 
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
-            state, bench.live.state = bench.live.state, None  # nothing is passed on as long as no match is known
+            state, bench.live.follower.state = (
+                bench.live.state,
+                None,
+            )  # no command is forwarded before the match is known
             box.hang_up()
             box.came = 0
             await until(lambda: client.counts["connections"] == 2 and box.links)
             box.send(
                 b"".join(json.dumps({"command": name, "targetTeam": CYAN_AT}).encode() + b"\0" for name in RESTARTS)
             )
-            await until(lambda: client.counts["heard"] >= len(RESTARTS) + 1)
-            bench.live.state = state
+            await until(lambda: client.counts["received"] >= len(RESTARTS) + 1)
+            bench.live.follower.state = state
             await until(lambda: len(bench.stage.asked) == 3)
             assert asked(bench) == [f"{word} cyan" for word in list(RESTARTS.values())[-3:]]
-            assert client.counts["passed over"] >= 3
+            assert client.counts["dropped"] >= 3
 
     asyncio.run(play())
 
 
-def test_a_box_that_says_nothing_that_is_known_does_not_fill_the_log(met: Any, until: Any) -> None:
+def test_unknown_commands_do_not_fill_the_log(met: Any, until: Any) -> None:
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
             for _ in range(500):
                 box.say("DANCE")
             await until(lambda: client.counts["unreadable"] == 500)
-            assert 5 <= sum("is no command" in line for line in bench.said) < 60
+            assert 5 <= sum("is not a command" in line for line in bench.said) < 60
 
     asyncio.run(play())
 
@@ -379,7 +325,7 @@ def test_a_box_that_comes_late_is_met(opened: Any, until: Any) -> None:
     asyncio.run(play())
 
 
-def test_a_box_that_never_reads_misses_world_states_and_holds_nobody_up(
+def test_a_box_that_never_reads_misses_world_states_and_delays_nothing(
     met: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("coach_gateway.refbox.client._UNREAD", 20_000)
@@ -412,8 +358,8 @@ def test_a_box_that_has_not_read_for_long_is_left_and_met_again(
     asyncio.run(play())
 
 
-def test_a_gateway_that_waits_for_a_box_ends_when_it_is_told(opened: Any, until: Any) -> None:
-    """The box's machine is there, and nothing accepts."""
+def test_a_gateway_that_waits_for_a_box_ends_when_stopped(opened: Any, until: Any) -> None:
+    """The box's machine is there, but does not accept."""
 
     async def play() -> None:
         with socket.socket() as full:

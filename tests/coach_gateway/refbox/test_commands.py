@@ -90,6 +90,6 @@ def test_a_robot_may_be_written_as_text(value: object) -> None:
 
 
 @pytest.mark.parametrize("said", [{}, {"command": 3}, {"command": "DANCE"}, {"type": "worldstate"}])
-def test_what_is_no_command_says_so(said: dict[str, object]) -> None:
+def test_an_object_without_a_command_is_an_error_with_the_reason(said: dict[str, object]) -> None:
     with pytest.raises(NoCommandError):
         commands.read(said)

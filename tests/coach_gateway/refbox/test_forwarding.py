@@ -5,9 +5,10 @@ from typing import Any
 import pytest
 
 from coach_gateway.refbox.forwarding import FORWARD, SignalResponse, is_ours, response_to, speaks_for
-from schemas.game import REFBOX, GameStage, GameState, Phase
+from schemas.game import REFBOX, GameStage, Phase
 from schemas.league.signals import BY_NAME, SIGNALS
 from schemas.messages.coach import CoachMode
+from schemas.messages.game import GameState
 from schemas.side import Side
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
@@ -76,7 +77,7 @@ def test_a_signal_becomes_actions(
 
 
 @pytest.mark.parametrize("name", ["RESET", "TESTMODE_ON", "TESTMODE_OFF", "READY", "CANCEL", "RESTART"])
-def test_what_our_game_has_no_word_for_is_said(name: str) -> None:
+def test_a_signal_without_a_counterpart_in_our_game_has_a_reason(name: str) -> None:
     found = led_to(name)
     assert not found.actions and name in found.reason
 
@@ -90,7 +91,7 @@ def test_a_card_or_a_repair_for_no_robot_in_particular_cannot_be_carried_out(nam
 @pytest.mark.parametrize("name", ["KICKOFF", "GOAL", "REPAIR"])
 def test_a_command_for_a_team_that_is_not_known_is_not_guessed(name: str) -> None:
     found = led_to(name, None)
-    assert not found.actions and "which team" in found.reason
+    assert not found.actions and "does not name its team" in found.reason
 
 
 def test_start_is_asked_for_until_the_game_runs() -> None:

@@ -1,4 +1,4 @@
-"""What a base station of ours tells the box: the league's schema, its axes, the robots' own words."""
+"""The world state of a base station of ours: the league's schema, its axes, the robots' own beliefs."""
 
 import math
 from collections.abc import Callable
@@ -10,9 +10,10 @@ from coach_gateway.refbox.own_world_state import own_world_state
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
-from schemas.game import GameState, OffField, Phase
-from schemas.messages.command import BallBelief, Motion, Radio
-from schemas.messages.host import Belief, Setup
+from schemas.game import OffField, Phase
+from schemas.messages.game import GameState
+from schemas.messages.radio import BallBelief, Belief, Motion, Radio
+from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, ObstacleTruth, RobotTruth, World
 from schemas.side import Side
 
@@ -83,12 +84,12 @@ def test_after_the_teams_have_changed_ends_each_still_looks_ahead(view: View) ->
     assert view(Side.MAGENTA, cyan_attacks=-1)["robots"][0]["pose"] == [1.0, 8.0, 3.142]
 
 
-def test_who_is_off_the_field_is_no_robot_and_no_obstacle(view: View) -> None:
+def test_a_robot_off_the_field_is_neither_a_robot_nor_an_obstacle(view: View) -> None:
     assert [robot["id"] for robot in view(Side.MAGENTA)["robots"]] == [1]
     assert len(view(Side.CYAN)["obstacles"]) == 1
 
 
-def test_robots_are_where_they_say_that_they_are(view: View) -> None:
+def test_robots_have_the_poses_that_they_send(view: View) -> None:
     """Magenta's robot speaks in its own team's frame."""
     said = Motion(x=-7.5, y=0.5, heading=0.1, vx=1.0, vy=0.0, omega=0.0)
     seen = view(Side.MAGENTA, magenta1=word("magenta1", self=said, intention="keep the goal"))
@@ -98,7 +99,7 @@ def test_robots_are_where_they_say_that_they_are(view: View) -> None:
     assert seen["ageMs"] == 100
 
 
-def test_what_was_said_long_ago_does_not_count(view: View) -> None:
+def test_old_beliefs_do_not_count(view: View) -> None:
     old = word("cyan1", time=8.0, self=Motion(x=5.0, y=5.0, heading=0.0))
     assert view(Side.CYAN, cyan1=old)["robots"][0]["pose"] == [-1.0, -8.0, 0.0]
 
@@ -119,7 +120,7 @@ def test_the_ball_is_where_it_was_seen_last_and_the_less_sure_the_longer_ago(
     assert ball["confidence"] == pytest.approx(confidence, abs=1e-3)
 
 
-def test_a_team_that_sees_no_ball_says_of_none(view: View) -> None:
+def test_a_team_that_sees_no_ball_sends_none(view: View) -> None:
     assert view(Side.CYAN, cyan1=word("cyan1", role="searcher"))["balls"] == []
 
 

@@ -15,16 +15,17 @@ from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from coach_gateway.refbox.team_world_state import TeamWorldState
 from schemas.errors import TouchlineError
-from schemas.game import DisciplinaryRecord, OffField, Phase, Score
+from schemas.game import OffField, Phase, Score
 from schemas.league.calls import Call
 from schemas.league.findings import MOST
 from schemas.league.lenient_json import _canonical
 from schemas.league.signals import BY_NAME
+from schemas.messages.game import DisciplinaryRecord
 from schemas.side import Side
 
 
 class Team:
-    """A base station: hears commands, and may say something."""
+    """A base station: reads commands, and may send objects."""
 
     def __init__(self, port: int) -> None:
         self.port = port
@@ -164,20 +165,20 @@ def test_a_team_against_itself_is_told_apart_by_its_suffix(boxed: Any) -> None:
     asyncio.run(play())
 
 
-def test_a_token_tells_the_side_and_a_wrong_one_is_turned_away(boxed: Any) -> None:
+def test_a_token_identifies_the_side_and_an_unknown_one_is_turned_away(boxed: Any) -> None:
     async def play() -> None:
         tokens = {"secret-of-magenta": Side.MAGENTA}
         async with boxed(of_token=tokens.get) as (bench, _, come):
             right = await come(token="secret-of-magenta")
             assert right.commands()[0] == "WELCOME Ruby"
             assert (await come(token="guessed", team="cyan")).gone
-            assert any("the token is nobody's" in line for line in bench.said)
+            assert any("unknown token" in line for line in bench.said)
 
     asyncio.run(play())
 
 
 @pytest.mark.parametrize("word", ["team", "token"])
-def test_half_a_letter_in_a_hello_is_nobodys_name_and_no_fault(boxed: Any, until: Any, word: str) -> None:
+def test_half_a_letter_in_a_hello_is_an_unknown_name(boxed: Any, until: Any, word: str) -> None:
     async def play() -> None:
         faults: list[Any] = []
         asyncio.get_running_loop().set_exception_handler(lambda _, fault: faults.append(fault))
@@ -208,7 +209,7 @@ def test_software_that_knows_no_hello_is_known_by_its_world_states_or_by_its_por
     asyncio.run(play())
 
 
-def test_who_says_nothing_is_welcomed_as_nobody_and_hears_the_game(
+def test_a_silent_base_station_is_welcomed_without_an_address_and_receives_the_game(
     boxed: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(server_module, "_SILENCE_S", 0.02)
@@ -224,7 +225,7 @@ def test_who_says_nothing_is_welcomed_as_nobody_and_hears_the_game(
     asyncio.run(play())
 
 
-def test_who_comes_while_the_game_runs_is_told_that_it_runs(boxed: Any, until: Any) -> None:
+def test_a_base_station_that_connects_while_the_game_runs_receives_start(boxed: Any, until: Any) -> None:
     async def play() -> None:
         async with boxed() as (bench, _, come):
             bench.stage.say(phase=Phase.PLAY, running=True)
@@ -281,7 +282,7 @@ def test_a_base_station_that_spells_every_key_anew_fills_no_memory() -> None:
     assert _canonical.cache_info().currsize <= 1024
 
 
-def test_a_base_station_that_never_reads_is_dropped_and_the_others_hear_everything(
+def test_a_base_station_that_never_reads_is_dropped_and_the_others_receive_everything(
     boxed: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     async def play() -> None:
@@ -305,7 +306,7 @@ def test_a_base_station_that_never_reads_is_dropped_and_the_others_hear_everythi
     asyncio.run(play())
 
 
-def test_a_base_station_that_goes_in_the_middle_of_a_word_stops_nobody(boxed: Any, until: Any) -> None:
+def test_a_base_station_that_leaves_in_the_middle_of_a_message_stops_no_other(boxed: Any, until: Any) -> None:
     async def play() -> None:
         async with boxed() as (bench, _, come):
             cyan, magenta = await come(team="cyan"), await come(team="magenta")
@@ -332,10 +333,10 @@ def test_more_base_stations_than_there_is_room_for_are_turned_away(
     asyncio.run(play())
 
 
-def test_who_has_not_said_who_it_is_gives_way_to_a_team(
+def test_an_unidentified_base_station_gives_way_to_a_team(
     boxed: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Whoever opens links and says nothing keeps no team out."""
+    """Silent links keep no team out."""
     monkeypatch.setattr(server_module, "MOST", 3)
 
     async def play() -> None:
@@ -377,11 +378,11 @@ class Display(asyncio.DatagramProtocol):
         self.said.append(json.loads(data[:-1]))
 
 
-def test_the_audience_hears_of_teams_and_events(
+def test_the_audience_receives_teams_and_events(
     boxed: Any, until: Any, check_world_state: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A base station's own world state, and where none comes, what our robots say."""
-    monkeypatch.setattr("coach_gateway.refbox.audience_feed._OLD_S", 1000.0)  # it is said once
+    monkeypatch.setattr("coach_gateway.refbox.audience_feed._OLD_S", 1000.0)  # it is sent once
 
     async def play() -> None:
         async with boxed() as (bench, box, come):
@@ -429,7 +430,7 @@ def test_the_audience_hears_of_teams_and_events(
     asyncio.run(play())
 
 
-def test_a_base_station_that_tells_too_much_does_not_silence_the_audience_feed(
+def test_a_world_state_that_is_too_large_does_not_silence_the_audience_feed(
     boxed: Any, until: Any, check_world_state: Any
 ) -> None:
     async def play() -> None:
@@ -446,7 +447,7 @@ def test_a_base_station_that_tells_too_much_does_not_silence_the_audience_feed(
             told = len(display.said)
             await until(lambda: len(display.said) > told + 3)
             check_world_state(display.said[-1]["teamA"]["worldState"])
-            assert sum("more than a datagram holds" in line for line in bench.said) == 1
+            assert sum("larger than a datagram" in line for line in bench.said) == 1
             transport.close()
 
     asyncio.run(play())

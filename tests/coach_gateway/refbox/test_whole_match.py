@@ -8,42 +8,22 @@ from typing import Any
 
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
-from schemas.game import ActionName, Phase, RefereeAction
+from schemas.game import ActionName, Phase
+from schemas.messages.game import RefereeAction
 from schemas.side import Side
-
-US, THEM = "224.16.32.44", "224.16.32.55"
-
-
-class Box:
-    """A referee box that one base station comes to."""
-
-    def __init__(self) -> None:
-        self.link: asyncio.StreamWriter | None = None
-        self.states: list[Any] = []
-
-    async def meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        self.link = writer
-        self.say("WELCOME", US)
-        while data := await reader.read(2**16):
-            self.states.append(data)
-        writer.transport.abort()
-
-    def say(self, command: str, target: str = "", robot: int = -1) -> None:
-        assert self.link is not None
-        said = {"command": command, "targetTeam": target, "robotID": robot}
-        self.link.write(json.dumps(said).encode() + b"\x00")
+from support.referee_box import CYAN_AT, MAGENTA_AT, Box
 
 
 @asynccontextmanager
 async def officiated(kicked_off: Callable[..., Any], until: Any) -> AsyncIterator[tuple[Any, Box]]:
-    """A match whose referee only does as he is told, and a box that cyan's base station has come to."""
+    """A match with manual officiating, and a box that cyan's base station is connected to."""
     async with kicked_off(**{"referee.mode": "manual", "rules": "friendly", "duration": 3600.0}) as bench:
         box = Box()
-        async with await asyncio.start_server(box.meet, "127.0.0.1", 0) as server:
-            port = server.sockets[0].getsockname()[1]
-            bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append))
-            await until(lambda: box.link and bench.live.refboxes)
-            yield bench, box
+        port = await box.open()
+        bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append))
+        await until(lambda: box.links and bench.live.refboxes)
+        yield bench, box
+        await box.close()
 
 
 def test_a_whole_match_is_played_by_the_commands_of_the_box(kicked_off: Callable[..., Any], until: Any) -> None:
@@ -53,7 +33,7 @@ def test_a_whole_match_is_played_by_the_commands_of_the_box(kicked_off: Callable
         async with officiated(kicked_off, until) as (bench, box):
             state = lambda: bench.stage.state  # noqa: E731  the referee's own
 
-            box.say("KICKOFF", US)
+            box.say("KICKOFF", CYAN_AT)
             await until(lambda: (state().phase, state().side) == (Phase.KICK_OFF, Side.CYAN), "the kick-off")
             box.say("FIRST_HALF")
             box.say("START")
@@ -62,13 +42,13 @@ def test_a_whole_match_is_played_by_the_commands_of_the_box(kicked_off: Callable
             assert not by_hand.accepted and "referee box is connected" in by_hand.reason
 
             box.say("STOP")
-            box.say("GOAL", THEM)
+            box.say("GOAL", MAGENTA_AT)
             await until(lambda: state().score.magenta == 1, "the goal")
-            box.say("SUBGOAL", THEM)
+            box.say("SUBGOAL", MAGENTA_AT)
             await until(lambda: state().score.magenta == 0, "the goal taken back")
-            box.say("REPAIR", US, 2)
+            box.say("REPAIR", CYAN_AT, robotID=2)
             await until(lambda: "cyan2" in state().participation.absences, "the repair")
-            box.say("CORNER", US)
+            box.say("CORNER", CYAN_AT)
             await until(lambda: (state().phase, state().side) == (Phase.CORNER, Side.CYAN), "the corner")
             box.say("START")
             await until(lambda: state().running, "the corner's start")
@@ -76,12 +56,12 @@ def test_a_whole_match_is_played_by_the_commands_of_the_box(kicked_off: Callable
             box.say("STOP")
             box.say("HALF_TIME")
             await until(lambda: state().phase in (Phase.HALF_TIME, Phase.PARKING) or state().half == 2, "the break")
-            box.say("KICKOFF", THEM)
+            box.say("KICKOFF", MAGENTA_AT)
             box.say("SECOND_HALF")
             box.say("START")
             await until(lambda: state().half == 2 and state().running, "the second half")
             assert state().cyan_attacks == -1
-            box.say("GOAL", US)
+            box.say("GOAL", CYAN_AT)
             await until(lambda: state().score.cyan == 1, "a goal")
             box.say("END_GAME")
             await until(lambda: bench.stage.host.simulation.over, "the end")
@@ -91,18 +71,18 @@ def test_a_whole_match_is_played_by_the_commands_of_the_box(kicked_off: Callable
 
 
 def test_a_box_need_not_wait_between_its_commands(kicked_off: Callable[..., Any], until: Any) -> None:
-    """All in one breath: each is taken as what the one before has led to asks for."""
+    """All in one packet: each command is carried out in the state that the one before has led to."""
 
     async def play() -> None:
         async with officiated(kicked_off, until) as (bench, box):
-            box.say("KICKOFF", US)
+            box.say("KICKOFF", CYAN_AT)
             box.say("FIRST_HALF")
             box.say("START")
             await until(lambda: bench.stage.state.running, "the first half")
             box.say("STOP")
-            box.say("GOAL", THEM)
+            box.say("GOAL", MAGENTA_AT)
             box.say("HALF_TIME")
-            box.say("KICKOFF", THEM)
+            box.say("KICKOFF", MAGENTA_AT)
             box.say("SECOND_HALF")
             box.say("START")
             await until(lambda: bench.stage.state.half == 2 and bench.stage.state.running, "the second half")
@@ -111,7 +91,7 @@ def test_a_box_need_not_wait_between_its_commands(kicked_off: Callable[..., Any]
     asyncio.run(play())
 
 
-def test_a_team_of_the_league_hears_the_match_that_our_referee_officiates(
+def test_a_team_of_the_league_receives_the_match_that_our_referee_officiates(
     kicked_off: Callable[..., Any], until: Any
 ) -> None:
     """By itself: kick-off, START, and a stall that is dropped."""

@@ -5,11 +5,11 @@ from typing import Any
 
 import pytest
 
+from coach_gateway.access.roles import Role
 from coach_gateway.udp import coach_programs as coaches_module
 from coach_gateway.udp.coach_programs import MOST_WAITING, CoachPrograms, DatagramResult
 from coach_gateway.udp.protocol import MAX_BYTES, Ack
 from coach_gateway.udp.session import AT_ONCE, KEPT, SILENCE_S
-from coach_gateway.web.protocol import Role
 from schemas.game import REFBOX, ActionName
 from schemas.messages.coach import CoachMode, CoachTest
 from schemas.side import Side
@@ -19,7 +19,7 @@ ROBOTS = {"cyan1": Side.CYAN, "cyan2": Side.CYAN, "magenta1": Side.MAGENTA}
 
 
 class Program:
-    """One coach program; `hear` is what the gateway makes of what it says."""
+    """One coach program without a socket."""
 
     def __init__(self, coaches: CoachPrograms, role: str = "cyan", port: int = 1) -> None:
         self.coaches = coaches
@@ -69,7 +69,7 @@ def test_a_hello_with_a_token_begins_a_session(cyan: Program) -> None:
 
 
 @pytest.mark.parametrize("token", ["", "guessed", "cyan-token ", "é"])
-def test_a_token_that_is_nobodys_is_refused(coaches: CoachPrograms, token: str) -> None:
+def test_an_unknown_token_is_refused(coaches: CoachPrograms, token: str) -> None:
     said = json.dumps({"kind": "hello", "sequence": 1, "token": token}).encode()
     ack = coaches.handle(said, ("127.0.0.1", 9), 0.0, ROBOTS).ack
     assert ack is not None and not ack.accepted and "token" in ack.reason
@@ -84,7 +84,7 @@ def test_a_hello_that_comes_again_is_answered_with_the_session_that_it_began(cya
 
 
 def test_a_program_that_was_started_again_at_its_old_address_begins_anew(cyan: Program) -> None:
-    """It counts from 1 again, as the one before did, and has to be heard at once, not when that has been forgotten."""
+    """It counts from 1 again, and has to be answered at once, not after its earlier session has ended."""
     for _ in range(20):
         cyan.say("alive")
     anew = cyan.say("hello", token="cyan-token", sequence=1).ack
@@ -93,12 +93,12 @@ def test_a_program_that_was_started_again_at_its_old_address_begins_anew(cyan: P
     assert cyan.say("order", order={"mode": "hold"}).request is not None
 
 
-def test_saying_hello_again_and_again_does_not_let_a_program_say_more(coaches: CoachPrograms, cyan: Program) -> None:
+def test_repeated_hellos_do_not_raise_the_rate_limit(coaches: CoachPrograms, cyan: Program) -> None:
     answered = sum(cyan.say("hello", token="cyan-token").ack is not None for _ in range(1000))
     assert AT_ONCE - 1 <= answered <= AT_ONCE
 
 
-def test_a_program_waits_for_its_answers_before_it_asks_more_but_a_stop_is_always_heard(
+def test_a_program_waits_for_its_acknowledgements_before_it_asks_more_but_a_stop_is_always_accepted(
     coaches: CoachPrograms, referee: Program
 ) -> None:
     deeds = [referee.say("action", action={"action": "goal", "side": "cyan"}).request for _ in range(MOST_WAITING)]
@@ -114,12 +114,12 @@ def test_a_program_waits_for_its_answers_before_it_asks_more_but_a_stop_is_alway
 
 @pytest.mark.parametrize("session", ["", "guessed", "é"])
 def test_without_its_session_nothing_is_done(cyan: Program, session: str) -> None:
-    assert "no such session" in cyan.refusal("order", order={"mode": "hold"}, session=session)
+    assert "unknown session" in cyan.refusal("order", order={"mode": "hold"}, session=session)
 
 
 def test_another_address_has_no_part_in_a_session(coaches: CoachPrograms, cyan: Program) -> None:
     cyan.address = ("127.0.0.1", 77)
-    assert "no such session" in cyan.refusal("order", order={"mode": "hold"})
+    assert "unknown session" in cyan.refusal("order", order={"mode": "hold"})
 
 
 def test_an_order_is_for_the_coachs_own_side(cyan: Program) -> None:
@@ -185,7 +185,7 @@ def test_a_match_mode_of_the_referee_is_an_action(
 def test_a_match_mode_of_a_coach_is_an_order_to_its_robots(cyan: Program) -> None:
     deed = cyan.say("match_mode", mode="stop").request
     assert deed is not None and (deed.sides, deed.order) == ((Side.CYAN,), {"mode": CoachMode.HOLD})
-    assert "says which" in cyan.refusal("match_mode", mode="test")
+    assert "names the test" in cyan.refusal("match_mode", mode="test")
     assert "mode is 14; known: 0, 1" in cyan.refusal("match_mode", mode=14)
 
 
@@ -194,7 +194,7 @@ def test_the_referee_parks_both_sides(referee: Program) -> None:
     assert deed is not None and deed.sides == tuple(Side)
 
 
-def test_nobody_can_pass_for_the_referee_box(referee: Program) -> None:
+def test_no_program_can_pass_for_the_referee_box(referee: Program) -> None:
     deed = referee.say("action", action={"action": "start", "source": REFBOX}).request
     assert deed is not None and deed.action is not None and deed.action.source == "coach program coach"
 
@@ -202,14 +202,14 @@ def test_nobody_can_pass_for_the_referee_box(referee: Program) -> None:
 def test_a_datagram_that_comes_again_is_done_once_and_answered_again(coaches: CoachPrograms, cyan: Program) -> None:
     deed = cyan.say("order", order={"mode": "hold"}).request
     assert deed is not None
-    assert cyan.say("order", order={"mode": "hold"}, sequence=2) == DatagramResult()  # it is being done
+    assert cyan.say("order", order={"mode": "hold"}, sequence=2) == DatagramResult()  # it is in progress
     coaches.finish(deed, Ack(sequence=2, of="order", accepted=True, order=77))
     again = cyan.say("order", order={"mode": "hold"}, sequence=2)
     assert again.request is None and again.ack is not None
     assert (again.ack.duplicate, again.ack.order) == (True, 77)
 
 
-def test_a_datagram_that_comes_late_is_told_so_and_not_done(cyan: Program) -> None:
+def test_a_late_datagram_is_refused(cyan: Program) -> None:
     cyan.say("order", order={"mode": "hold"}, sequence=5)
     late = cyan.say("order", order={"mode": "play"}, sequence=4)
     assert late.request is None and late.ack is not None and late.ack.reason.startswith("late")
@@ -252,7 +252,7 @@ def test_what_is_no_datagram_of_the_protocol_is_counted_and_answered(
     assert coaches.invalid == 1
 
 
-def test_a_flood_is_left_out_and_stops_nobody_else(coaches: CoachPrograms, cyan: Program, referee: Program) -> None:
+def test_a_flood_is_dropped_and_stops_no_other_program(coaches: CoachPrograms, cyan: Program, referee: Program) -> None:
     answered = sum(cyan.say("alive").ack is not None for _ in range(1000))
     assert AT_ONCE - 1 <= answered <= AT_ONCE
     assert coaches.sessions[cyan.address].left_out == 1000 - answered
@@ -277,9 +277,7 @@ def test_there_is_room_for_so_many_programs(coaches: CoachPrograms, monkeypatch:
     assert Program(coaches, port=9).hello.accepted
 
 
-def test_a_session_is_over_when_nothing_is_heard_and_any_datagram_keeps_it(
-    coaches: CoachPrograms, cyan: Program
-) -> None:
+def test_a_silent_session_ends_and_any_datagram_keeps_it(coaches: CoachPrograms, cyan: Program) -> None:
     session = coaches.sessions[cyan.address]
     cyan.now = SILENCE_S - 0.1
     cyan.say("alive")

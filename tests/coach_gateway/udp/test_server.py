@@ -15,9 +15,10 @@ from coach_gateway.access.tokens import Tokens
 from coach_gateway.udp import session as session_module
 from coach_gateway.udp.server import UdpServer
 from schemas.errors import TouchlineError
-from schemas.game import ActionReply, Phase
+from schemas.game import Phase
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
-from schemas.messages.command import Motion, Radio
+from schemas.messages.game import ActionReply
+from schemas.messages.radio import Motion, Radio
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER
 
@@ -26,7 +27,7 @@ EXAMPLE = Path(__file__).parents[3] / "examples" / "udp_coach.py"
 
 
 class Program(asyncio.DatagramProtocol):
-    """A coach program, written from the protocol's page; one that does not read keeps nothing."""
+    """A coach program, written from docs/coach.md."""
 
     def __init__(self) -> None:
         self.heard: list[dict[str, Any]] = []
@@ -134,7 +135,7 @@ def test_several_coaches_stop_each_its_own_side(served: Any, until: Any) -> None
     asyncio.run(play())
 
 
-def test_a_program_is_told_of_game_and_events_and_its_own_robots_words(served: Any, until: Any) -> None:
+def test_a_program_receives_game_events_and_the_beliefs_of_its_own_robots(served: Any, until: Any) -> None:
     async def play() -> None:
         async with served() as (bench, _, come):
             cyan, referee = await come("cyan"), await come("referee")
@@ -184,7 +185,7 @@ def test_an_event_that_was_lost_can_be_asked_for(served: Any, until: Any) -> Non
     asyncio.run(play())
 
 
-def test_a_long_past_is_told_frame_by_frame_and_whole(served: Any, until: Any) -> None:
+def test_many_past_events_are_sent_frame_by_frame_and_completely(served: Any, until: Any) -> None:
     async def play() -> None:
         async with served() as (bench, _, come):
             for number in range(170):
@@ -199,7 +200,7 @@ def test_a_long_past_is_told_frame_by_frame_and_whole(served: Any, until: Any) -
     asyncio.run(play())
 
 
-def test_the_events_of_another_host_are_told_from_their_beginning(served: Any, until: Any) -> None:
+def test_the_events_of_another_host_are_sent_from_their_beginning(served: Any, until: Any) -> None:
     async def play() -> None:
         async with served() as (bench, _, come):
             program = await come("cyan", rate=1)  # so seldom that both hosts speak between two frames
@@ -218,7 +219,7 @@ def test_the_events_of_another_host_are_told_from_their_beginning(served: Any, u
     asyncio.run(play())
 
 
-def test_the_referees_program_acts_and_hears_why_not(served: Any, until: Any) -> None:
+def test_the_referees_program_acts_or_receives_the_reason_of_a_refusal(served: Any, until: Any) -> None:
     async def play() -> None:
         async with served() as (bench, _, come):
             program = await come("referee", name="whistle")
@@ -248,7 +249,7 @@ def test_a_datagram_sent_three_times_is_done_once_and_answered_each_time(served:
             await until(lambda: len(program.acks(asked)) == 3)
             assert [ack["duplicate"] for ack in program.acks(asked)] == [False, True, True]
             assert len({ack["order"] for ack in program.acks(asked)}) == 1
-            assert [(side, order.mode) for side, order in bench.stage.orders] == [(Side.CYAN, CoachMode.HOLD)]
+            assert [(side, order.mode) for side, order in bench.stage.given_orders] == [(Side.CYAN, CoachMode.HOLD)]
 
     asyncio.run(play())
 
@@ -264,7 +265,7 @@ def test_an_order_for_a_robot_that_does_not_play_is_refused_with_a_hint(served: 
     asyncio.run(play())
 
 
-def test_garbage_and_a_program_that_never_reads_stop_nobody(served: Any, until: Any) -> None:
+def test_garbage_and_a_program_that_never_reads_stop_no_other_program(served: Any, until: Any) -> None:
     async def play() -> None:
         async with served() as (_, server, come):
             deaf = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -278,12 +279,12 @@ def test_garbage_and_a_program_that_never_reads_stop_nobody(served: Any, until: 
             asked = program.send("order", order={"mode": "hold"})
             await until(lambda: program.acks(asked))
             deaf.close()
-            await until(lambda: len(program.of("frame")) > 40)  # nobody minds the port that is closed now
+            await until(lambda: len(program.of("frame")) > 40)  # the closed port stops no other program
 
     asyncio.run(play())
 
 
-def test_a_program_that_falls_silent_is_told_that_its_session_is_over(
+def test_a_program_that_falls_silent_receives_the_end_of_its_session(
     served: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(session_module, "SILENCE_S", 1000.0)
@@ -298,7 +299,7 @@ def test_a_program_that_falls_silent_is_told_that_its_session_is_over(
             frames = len(quiet.of("frame"))
             asked = quiet.send("alive")
             await until(lambda: quiet.acks(asked))
-            assert "no such session" in quiet.acks(asked)[0]["reason"]
+            assert "unknown session" in quiet.acks(asked)[0]["reason"]
             assert len(quiet.of("frame")) == frames
 
     asyncio.run(play())
@@ -327,7 +328,7 @@ def test_the_example_coaches_a_side_with_nothing_but_pythons_own_library(served:
                 said = 0
                 while True:
                     await asyncio.sleep(0.01)
-                    for _, order in bench.stage.orders[said:]:
+                    for _, order in bench.stage.given_orders[said:]:
                         told = {f"cyan{number}": True for number in (1, 2, 3)}
                         standing.put(ActiveOrder(tick=1, time=0.0, order=order, acknowledged=told))
                         said += 1
@@ -343,9 +344,9 @@ def test_the_example_coaches_a_side_with_nothing_but_pythons_own_library(served:
             lines = output.splitlines()
             assert lines[0] == "coach of cyan"
             assert "order mode hold: acknowledged by all" in lines
-            assert any(line.startswith("a corner for us: our_corner is the referee's") for line in lines)
+            assert any(line.startswith("a corner for us: our_corner is for the referee alone") for line in lines)
             assert "cyan2 at 1.00, 2.00, wait" in lines
-            given: list[CoachOrder] = [order for _, order in bench.stage.orders]
+            given: list[CoachOrder] = [order for _, order in bench.stage.given_orders]
             assert [order.mode.value for order in given] == ["hold", "play", "test", "play"]
 
     asyncio.run(play())

@@ -1,4 +1,4 @@
-"""What waits for a page, how often frames are told, and how much a page may say."""
+"""What waits for a page, how often frames are sent, and how much a page may send."""
 
 import asyncio
 
@@ -16,7 +16,7 @@ def drained(queue: SendQueue, count: int) -> list[str]:
     return asyncio.run(take())
 
 
-def test_of_frames_the_newest_alone_waits_and_of_words_all() -> None:
+def test_all_messages_wait_and_of_frames_the_newest_alone() -> None:
     queue = SendQueue()
     for number in range(5):
         queue.put_frame(f"frame {number}")
@@ -34,7 +34,7 @@ def test_a_frame_of_before_the_welcome_is_not_sent_after_it() -> None:
     assert drained(queue, 3) == ["answer", "welcome", "new frame"]
 
 
-def test_who_reads_nothing_overflows() -> None:
+def test_the_queue_of_a_page_that_does_not_read_overflows() -> None:
     queue = SendQueue()
     for _ in range(MOST):
         queue.put("word")
@@ -54,7 +54,7 @@ def test_a_wait_ends_when_something_comes() -> None:
     assert asyncio.run(waiting()) == "frame"
 
 
-def test_an_allowance_is_used_up_at_once_and_fills_up_with_time() -> None:
+def test_a_token_bucket_is_used_up_at_once_and_fills_up_with_time() -> None:
     rate_limit = TokenBucket(per_second=4.0, at_once=3.0, now=100.0)
     assert [rate_limit.allow(100.0) for _ in range(4)] == [True, True, True, False]
     assert [rate_limit.allow(100.25), rate_limit.allow(100.25)] == [True, False]
@@ -62,7 +62,7 @@ def test_an_allowance_is_used_up_at_once_and_fills_up_with_time() -> None:
 
 
 def shown(pace: FramePace, takes_s: float, seconds: float) -> int:
-    """How many frames are told when the server looks every 10 ms and each takes so long."""
+    """Number of frames sent when the server looks every 10 ms and each frame takes this long."""
     count, now = 0, 0.0
     while now < seconds:
         if pace.due(now):
@@ -74,7 +74,7 @@ def shown(pace: FramePace, takes_s: float, seconds: float) -> int:
 
 
 @pytest.mark.parametrize(("takes_s", "least", "most"), [(0.0, 48, 51), (0.002, 45, 51), (0.025, 9, 13), (0.1, 2, 5)])
-def test_frames_are_told_fifty_times_a_second_unless_telling_takes_a_quarter_of_the_time(
+def test_frames_are_sent_fifty_times_a_second_unless_sending_takes_a_quarter_of_the_time(
     takes_s: float, least: int, most: int
 ) -> None:
     pace = FramePace()
@@ -85,7 +85,7 @@ def test_frames_are_told_fifty_times_a_second_unless_telling_takes_a_quarter_of_
     assert least <= shown(fresh, takes_s, 1.0) <= most
 
 
-def test_a_server_that_has_time_again_tells_as_often_as_before() -> None:
+def test_a_server_that_has_time_again_sends_as_often_as_before() -> None:
     pace = FramePace()
     for _ in range(50):
         pace.took(0.1)

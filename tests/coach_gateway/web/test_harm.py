@@ -9,18 +9,20 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from schemas.messages.world import ObstacleTruth
 from schemas.topics import WORLD
-
-from .conftest import SOON, FakeHost, Gateway, Visitor, world
+from support.fake_host import FakeHost
+from support.messages import make_world
+from support.page_gateway import SOON, Gateway
+from support.visitor import Visitor
 
 Visit = Callable[..., Visitor]
 
 
-def test_a_forged_token_is_nobody_s(visit: Visit, host: FakeHost) -> None:
+def test_a_forged_token_is_unknown(visit: Visit, host: FakeHost) -> None:
     page = visit()
     for forged in ("the-refere", "the-referee ", "THE-REFEREE", "x", "é" * 50):
         for deed, content in (("token", {}), ("action", {"action": {"action": "stop"}})):
             reply = page.ask(deed, token=forged, **content)
-            assert (reply["accepted"], reply["reason"][:6]) == (False, "nobody")
+            assert (reply["accepted"], reply["reason"][:13]) == (False, "unknown token")
     assert [question for question in host.asked if hasattr(question, "source")] == []
 
 
@@ -77,20 +79,18 @@ def test_garbage_is_answered_and_the_page_goes_on(visit: Visit) -> None:
     assert page.ask("token")["accepted"]
 
 
-def test_what_was_refused_is_counted_and_said_at_the_end(host: FakeHost, gateway_of: Callable[..., Gateway]) -> None:
+def test_refusals_are_counted_and_logged_at_the_end(host: FakeHost, gateway_of: Callable[..., Gateway]) -> None:
     gateway = gateway_of()
     page = Visitor(gateway.origin)
     for rubbish in ("{", "[]", b"x"):
         page.send(rubbish)
         page.hear("reply")
-    page.ask("token", token="nobody's")
+    page.ask("token", token="unknown")
     with pytest.raises(InvalidStatus):
         Visitor(gateway.origin, claims="http://evil.example")
     page.close()
     gateway.close()
-    assert gateway.said == [
-        "refused: 1 pages from elsewhere, 3 messages that could not be read, 1 uses of a token that is nobody's"
-    ]
+    assert gateway.said == ["refused or dropped: 1 page refused for its origin, 3 unreadable messages, 1 unknown token"]
 
 
 def test_a_broken_message_is_answered_under_its_number_where_it_has_one(visit: Visit) -> None:
@@ -121,7 +121,7 @@ def test_a_flood_is_held_back_and_its_page_sent_away_while_others_command(visit:
     assert referee.ask("action", action={"action": "stop"})["accepted"]
 
 
-def test_a_page_that_does_not_read_keeps_nobody_waiting_and_is_dropped(
+def test_a_page_that_does_not_read_delays_no_other_and_is_dropped(
     visit: Visit, host: FakeHost, gateway_of: Callable[..., Gateway], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("coach_gateway.web.pages.STUCK_S", 0.5)
@@ -157,7 +157,7 @@ def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
     quick, slow = Visitor(gateway.origin), Visitor(gateway.origin, sock=narrow, max_queue=1)
     slow.hear("host", there=True)
     pillar = ObstacleTruth(x=1, y=2, heading=0, radius=0.5, height=1, shape="cylinder", size_x=1, size_y=1)
-    full = world(0).model_copy(update={"obstacles": {f"pillar{number}": pillar for number in range(400)}})
+    full = make_world(0).model_copy(update={"obstacles": {f"pillar{number}": pillar for number in range(400)}})
     for tick in range(1, 101):
         host.put(WORLD, full.model_copy(update={"tick": tick}))
         quick.hear("frame", tick=tick)
@@ -170,10 +170,10 @@ def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
     slow.close()
 
 
-def test_one_page_more_than_there_is_room_for_is_told_so(host: FakeHost, gateway_of: Callable[..., Gateway]) -> None:
+def test_one_page_too_many_gets_the_reason(host: FakeHost, gateway_of: Callable[..., Gateway]) -> None:
     gateway = gateway_of(pages=1)
     first, second = Visitor(gateway.origin), Visitor(gateway.origin)
-    assert second.hear("refusal")["reason"] == "1 pages are open, and no more are let in; try again later"
+    assert second.hear("refusal")["reason"] == "1 pages are open, which is the limit; try again later"
     with pytest.raises(ConnectionClosed):
         second.hear()
     first.close()

@@ -7,8 +7,9 @@ import pytest
 from coach_gateway.access.client_network import client_network
 from coach_gateway.web import socket_endpoint
 from coach_gateway.web.pages import Page, Pages
-
-from .conftest import FakeHost, Gateway, Visitor
+from support.fake_host import FakeHost
+from support.page_gateway import Gateway
+from support.visitor import Visitor
 
 
 @pytest.mark.parametrize(
@@ -39,7 +40,7 @@ def test_one_address_does_not_take_the_room_of_all_others():
     pages = Pages(300, 100)
     fill(pages, 100, "192.0.2.7")
     assert pages.why_no_room("192.0.2.7") == (
-        "100 pages of your address are open; close one, or have more let in: --pages-per-address"
+        "100 pages of your address are open; close one, or raise --pages-per-address"
     )
     fill(pages, 100, "192.0.2.8")
     pages.forget(next(page for page in pages if page.network == "192.0.2.7"))
@@ -52,7 +53,7 @@ def test_pages_of_this_machine_or_of_a_proxy_on_it_may_take_all_room():
     assert "300 pages are open" in pages.why_no_room(None)
 
 
-def test_who_is_refused_for_its_address_is_told_so_and_others_come_in(
+def test_a_page_refused_for_its_address_gets_the_reason_and_others_are_admitted(
     host: FakeHost, gateway_of: Callable[..., Gateway], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Addresses of loopback stand for those of other machines."""
@@ -62,6 +63,6 @@ def test_who_is_refused_for_its_address_is_told_so_and_others_come_in(
     other = Visitor(gateway.origin, source_address=("127.0.0.3", 0))
     assert second.hear("refusal")["reason"].startswith("1 pages of your address are open")
     assert other.hear()["kind"] == first.hear()["kind"] == "welcome"
-    assert "1 pages without room" in gateway.server.pages.fault_summary()
+    assert "1 page refused for lack of room" in gateway.server.pages.fault_summary()
     for visitor in (first, second, other):
         visitor.close()

@@ -1,4 +1,4 @@
-"""Commands from pages, over real sockets: who may do what, and what reaches the match."""
+"""Commands from pages, over real sockets: rights, and what reaches the match."""
 
 import threading
 from collections.abc import Callable
@@ -14,8 +14,9 @@ from schemas.game import ActionName
 from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.manual import TIMEOUT_S, ManualDrive
 from schemas.side import Side
-
-from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, wait_for
+from support.fake_host import FakeHost
+from support.page_gateway import SOON, TOKENS, Gateway
+from support.visitor import Visitor, wait_for
 
 Visit = Callable[..., Visitor]
 
@@ -105,7 +106,7 @@ def test_an_order_that_makes_no_sense_is_refused_with_the_reason(visit: Visit, h
     assert (reply["accepted"], "no robot of cyan" in reply["reason"]) == (False, True)
 
 
-def test_the_token_counts_in_each_message_and_not_who_the_page_was(visit: Visit) -> None:
+def test_the_token_of_each_message_counts_and_not_the_role_of_the_page(visit: Visit) -> None:
     page = visit("referee")
     assert page.ask("action", action={"action": "stop"})["accepted"]
     assert not page.ask("action", token="", action={"action": "stop"})["accepted"]
@@ -126,7 +127,7 @@ def test_questions_that_wait_hold_up_neither_a_stop_nor_another_role(
         for _ in range(8):
             page.say("parameters", request={"operation": "list"})
         refused = page.ask("parameters", request={"operation": "list"})
-        assert refused["reason"] == "8 questions of this page still wait for their answers"
+        assert refused["reason"] == "8 requests of this page still wait for their replies"
     assert referee.ask("action", action={"action": "stop"})["accepted"]
     assert not slow.is_set()
     slow.set()
@@ -137,7 +138,7 @@ def test_questions_that_wait_hold_up_neither_a_stop_nor_another_role(
 def test_orders_of_one_side_hold_up_none_of_the_other(
     visit: Visit, host: FakeHost, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A coach whose orders take their time keeps nobody else's robots from being stopped."""
+    """A coach with slow orders does not delay a stop of other robots."""
     held, order = threading.Event(), HostClient.order
 
     def slow(self: HostClient, side: Side, **content: Any) -> CoachOrder:

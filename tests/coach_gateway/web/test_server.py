@@ -1,4 +1,4 @@
-"""What pages are told, over real sockets: in which order, to whom, and when hosts and servers come and go."""
+"""Messages to pages, over real sockets: their order, their receivers, and hosts and servers that come and go."""
 
 from collections.abc import Callable
 from typing import Any
@@ -13,13 +13,15 @@ from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.world import RobotTruth
 from schemas.side import Side
 from schemas.topics import EVENT, WORLD
-
-from .conftest import SOON, TOKENS, FakeHost, Gateway, Visitor, event, world
+from support.fake_host import FakeHost
+from support.messages import make_event, make_world
+from support.page_gateway import SOON, TOKENS, Gateway
+from support.visitor import Visitor
 
 Visit = Callable[..., Visitor]
 
 
-def test_a_page_is_welcomed_and_then_told_how_things_stand_in_order(visit: Visit, host: FakeHost) -> None:
+def test_a_page_is_welcomed_and_then_sent_the_state_in_order(visit: Visit, host: FakeHost) -> None:
     watcher = visit()
     host.happen(1, "first")
     host.happen(2, "second")
@@ -37,7 +39,7 @@ def test_a_page_is_welcomed_and_then_told_how_things_stand_in_order(visit: Visit
     assert heard[-1]["world"]["ball"]["x"] == 3
 
 
-def test_everything_that_is_said_is_as_the_protocol_has_it(visit: Visit, host: FakeHost) -> None:
+def test_every_message_of_the_server_is_one_of_the_protocol(visit: Visit, host: FakeHost) -> None:
     page = visit("referee")
     host.play(1)
     host.happen(1, "kick-off")
@@ -77,7 +79,7 @@ def test_in_a_serious_match_a_team_s_beliefs_are_its_own(
     page.close()
 
 
-def test_orders_are_shown_to_their_side_and_to_the_referee_with_who_has_taken_them_in(
+def test_orders_are_shown_to_their_side_and_to_the_referee_with_their_acknowledgements(
     visit: Visit, host: FakeHost
 ) -> None:
     pages = {role: visit(role) for role in ("spectator", "cyan", "magenta", "referee")}
@@ -119,7 +121,7 @@ def test_a_host_that_goes_is_seen_to_go_and_one_that_comes_is_welcomed_without_t
     first.play(100)
     first.happen(100, "of the first match")
     page.hear("event")
-    first.die()
+    first.close()
     page.hear("host", there=False)
     gone = page.ask("action", action={"action": "stop"})
     assert (gone["accepted"], gone["reason"]) == (False, "the host is gone; wait until it is back")
@@ -142,13 +144,13 @@ def test_a_scene_with_other_robots_welcomes_all_pages_anew(visit: Visit, host: F
     standing = RobotTruth(x=0, y=0, z=0, heading=0, vx=0, vy=0, omega=0, holding=False)
     host.play(1)
     page.hear("frame", tick=1)
-    host.put(WORLD, world(2).model_copy(update={"robots": {"cyan1": standing}}))
+    host.put(WORLD, make_world(2).model_copy(update={"robots": {"cyan1": standing}}))
     assert page.hear("welcome")["setup"]["match"] == "friendly"
-    host.put(WORLD, world(3).model_copy(update={"robots": {"cyan1": standing}, "episode": 2}))
+    host.put(WORLD, make_world(3).model_copy(update={"robots": {"cyan1": standing}, "episode": 2}))
     page.hear("welcome")
 
 
-def test_what_is_told_again_when_a_link_comes_back_is_neither_news_nor_another_host(
+def test_messages_repeated_when_a_link_comes_back_are_neither_news_nor_another_host(
     visit: Visit, host: FakeHost, medium: Medium
 ) -> None:
     page = visit()
@@ -156,7 +158,7 @@ def test_what_is_told_again_when_a_link_comes_back_is_neither_news_nor_another_h
     past = host.bus.subscribe(EVENT)
     for tick in range(3):
         host.happen(tick, f"event {tick}")
-    page.hear("event", event=event(2, "event 2").model_dump(mode="json"))
+    page.hear("event", event=make_event(2, "event 2").model_dump(mode="json"))
     for received in iter(past.receive, None):
         for reader in readers:
             reader.deliver(received.key, received)
@@ -202,10 +204,10 @@ def test_a_server_that_is_started_again_has_the_same_tokens_and_all_events(
     again.close()
 
 
-def test_a_replay_tells_all_its_events_at_once_and_none_again(
+def test_a_replay_sends_all_its_events_at_once_and_none_again(
     host_of: Callable[..., FakeHost], gateway_of: Callable[..., Gateway]
 ) -> None:
-    host = host_of(recorded=[event(1, "first"), event(900, "last")])
+    host = host_of(recorded=[make_event(1, "first"), make_event(900, "last")])
     page = Visitor(gateway_of().origin)
     assert page.hear("welcome", live=False)["beliefs"] == ["cyan", "magenta"]
     assert [page.hear("event")["event"]["text"] for _ in range(2)] == ["first", "last"]
@@ -223,7 +225,7 @@ def test_a_replay_tells_all_its_events_at_once_and_none_again(
     page.close()
 
 
-def test_a_referee_box_that_connects_is_told(visit: Visit, host: FakeHost, medium: Any) -> None:
+def test_pages_are_notified_of_a_referee_box_that_connects(visit: Visit, host: FakeHost, medium: Any) -> None:
     page = visit()
     host.bus.declare_alive("refbox", "cyan")
     page.hear("refbox", connected=True, team="cyan")
@@ -235,7 +237,7 @@ def test_a_referee_box_that_connects_is_told(visit: Visit, host: FakeHost, mediu
     page.hear("refbox", connected=False)
 
 
-def test_what_the_server_says_first_has_no_token_where_they_stand_in_a_file(gateway_of: Callable[..., Gateway]) -> None:
+def test_the_first_lines_of_the_server_have_no_token_where_a_file_has_them(gateway_of: Callable[..., Gateway]) -> None:
     gateway = gateway_of()
     said = list(gateway.binding.lines())
     assert said[0] == f"page: {gateway.origin}/"

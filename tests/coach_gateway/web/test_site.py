@@ -11,8 +11,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from coach_gateway.web.listener import free_port, listen
-
-from .conftest import SOON, Gateway
+from support.page_gateway import SOON, Gateway
 
 
 @pytest.fixture
@@ -32,7 +31,13 @@ Get = Callable[..., tuple[HTTPResponse, bytes]]
 
 
 @pytest.mark.parametrize(
-    ("path", "kind"), [("/", "text/html"), ("/main.js", "text/javascript"), ("/page.css", "text/css")]
+    ("path", "kind"),
+    [
+        ("/", "text/html"),
+        ("/main.js", "text/javascript"),
+        ("/shared/pitch.js", "text/javascript"),
+        ("/page.css", "text/css"),
+    ],
 )
 def test_a_file_has_its_type_and_lets_a_browser_load_nothing_from_elsewhere(path: str, kind: str, get: Get) -> None:
     response, body = get(path)

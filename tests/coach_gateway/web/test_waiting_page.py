@@ -1,4 +1,4 @@
-"""A page that is opened before there is a host: it is there, says so, and goes on by itself when one comes."""
+"""A page that is opened before there is a host: it shows that it waits, and continues by itself when one comes."""
 
 import asyncio
 import contextlib
@@ -22,15 +22,12 @@ from coach_gateway.web.settings import WebSettings
 from coach_gateway.web.waiting_page import WaitingPage
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_host
-from schemas.config.match_config import load_match
-from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
-from schemas.messages.host import Setup
+from schemas.config.settings_file import write_settings
 from schemas.process.clock import WallClock
-from schemas.process.settings_file import write_settings
 from schemas.topics import SETUP
-
-from .conftest import SOON, TOKENS, Visitor
+from support.messages import make_setup
+from support.page_gateway import SOON, TOKENS
+from support.visitor import Visitor
 
 
 @contextlib.contextmanager
@@ -63,7 +60,7 @@ def binding(tokens: Path) -> Iterator[PageBinding]:
     binding.listener.close()
 
 
-def test_a_page_that_waits_is_served_and_told_that_nobody_plays(binding: PageBinding) -> None:
+def test_a_waiting_page_is_served_and_shows_that_there_is_no_host(binding: PageBinding) -> None:
     with waiting_page(binding):
         files = http.client.HTTPConnection(*binding.listener.getsockname(), timeout=SOON)
         files.request("GET", "/")
@@ -78,7 +75,7 @@ def test_a_page_that_waits_is_served_and_told_that_nobody_plays(binding: PageBin
         page.say("action", action={"action": "stop"})
         page.send(b"garbage")
         told = [json.loads(page.socket.recv(SOON))["kind"] for _ in range(2)]
-        assert told == ["alive", "alive"]  # nothing else is said there
+        assert told == ["alive", "alive"]  # no other message is sent there
         with pytest.raises(InvalidStatus):
             Visitor(binding.origin, claims="http://evil.example")
     with pytest.raises(ConnectionClosed) as closed:
@@ -86,7 +83,7 @@ def test_a_page_that_waits_is_served_and_told_that_nobody_plays(binding: PageBin
     assert closed.value.rcvd is not None and closed.value.rcvd.code == 1012  # come again
 
 
-def test_whoever_serves_next_takes_the_same_address(binding: PageBinding) -> None:
+def test_the_next_server_has_the_same_address(binding: PageBinding) -> None:
     for _ in range(2):
         with waiting_page(binding):
             page = Visitor(binding.origin)
@@ -114,7 +111,7 @@ def test_a_served_page_waits_for_its_host_and_meets_it(tmp_path: Path) -> None:
             page = Visitor(origin)  # as a page does by itself
             query = setups.receive(SOON)
             assert query is not None
-            query.reply(Setup.of(load_match(None, {}), load_profile("msl"), load_rule_book("friendly")))
+            query.reply(make_setup())
             page.hear_what_is_played()
             page.token = json.loads(tokens.read_text())["referee"]
             assert page.ask("token")["accepted"]
@@ -128,7 +125,7 @@ def test_a_served_page_waits_for_its_host_and_meets_it(tmp_path: Path) -> None:
 
 
 @pytest.mark.processes
-def test_a_page_that_waits_for_a_host_ends_when_it_is_told(tmp_path: Path) -> None:
+def test_a_server_that_waits_for_a_host_ends_on_a_signal(tmp_path: Path) -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
     process = served(GatewaySettings(connect=endpoint, web=WebSettings(port=0)), tmp_path)
     try:

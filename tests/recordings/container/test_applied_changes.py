@@ -6,7 +6,7 @@ import pytest
 
 from recordings.container.applied_changes import changes_in
 from schemas.config.roster import RosterEntry
-from schemas.messages.host import Applied
+from schemas.messages.applied import Applied
 from schemas.protocol.examples import examples
 from schemas.side import Side
 

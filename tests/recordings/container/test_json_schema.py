@@ -4,9 +4,9 @@ import pytest
 from mcap.reader import make_reader
 
 from recordings.container.json_schema import flat_schema, whole_schema
-from schemas.faults import field_names
-from schemas.message import Message
 from schemas.topics import TOPICS
+from schemas.wire.faults import field_names
+from schemas.wire.message import Message
 
 MODELS = {
     topic.message.__name__: topic.message for topic in TOPICS.values() if topic.recorded or topic.key.endswith("sight")

@@ -20,10 +20,10 @@ from recordings.exchange.protobuf.export import export
 from recordings.exchange.protobuf.message_type import message_type
 from recordings.exchange.protobuf.proto_text import proto_text
 from recordings.reading.recording import Recording
-from schemas.message import WireMessage
 from schemas.messages.record_batch import RecordBatch
 from schemas.protocol.examples import examples
 from schemas.topics import TOPICS, WORLD
+from schemas.wire.message import WireMessage
 
 MODELS = list(dict.fromkeys(topic.message for topic in TOPICS.values() if topic.message not in (None, RecordBatch)))
 """All messages but batches, which hold others as they are and stand in no recording."""

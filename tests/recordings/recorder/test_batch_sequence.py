@@ -3,8 +3,8 @@
 import pytest
 
 from recordings.recorder.batch_sequence import BatchSequence, MissingBatches
-from schemas.message import VERSION
 from schemas.messages.record_batch import Batch
+from schemas.wire.message import VERSION
 
 BEGAN_NS = 5
 """Wall time at which the recorder began; batch n is published at time n."""

@@ -15,7 +15,7 @@ import pytest
 from recordings.container.manifest import EndReason
 from recordings.editing.recovery import recover
 from recordings.reading.recording import open_recording
-from recordings.settings import RecorderSettings
+from recordings.recorder.settings import RecorderSettings
 from schemas.bus.contract import Bus
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_client, open_host

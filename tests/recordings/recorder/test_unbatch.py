@@ -7,9 +7,9 @@ from pydantic_core import to_json
 
 from recordings.recorder.unbatch import Unbatcher
 from schemas.bus.contract import ReceivedMessage, Stamp
-from schemas.message import BadMessageError
 from schemas.messages.record_batch import MAX_KEY, RecordBatch, read_batch, read_reply
 from schemas.topics import COMMAND, ORDER, SIGHT, WORLD
+from schemas.wire.message import BadMessageError
 
 KEY = "robot/cyan1/command"
 ENTRY = {"key": KEY, "message": {}, "sequence": 7, "sent_ns": 11, "sim_ns": 13, "arrived_ns": 17}

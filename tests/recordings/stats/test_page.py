@@ -17,11 +17,9 @@ FILLS = {"cyan": (0x28, 0xB9, 0xDC), "magenta": (0xC9, 0x23, 0x7B)}
 
 PIXEL = """([x, y]) => {
     const canvas = document.getElementById("pitch"), context = canvas.getContext("2d");
-    const { pitch } = window.touchline.match;
-    const margin = Math.max(pitch.goal_depth + 0.25, Math.min(pitch.border, 1));
-    const unit = canvas.width / (pitch.length + 2 * margin);
-    const at = [canvas.width / 2 + x * unit, canvas.height / 2 - y * unit];
-    return [...context.getImageData(Math.round(at[0]), Math.round(at[1]), 1, 1).data].slice(0, 3);
+    const { projection } = window.touchline.view;
+    const at = [projection.x(x), projection.y(y)].map((pixel) => Math.round(pixel * projection.density));
+    return [...context.getImageData(...at, 1, 1).data].slice(0, 3);
 }"""
 
 
@@ -73,7 +71,7 @@ class Opened:
         """Whether this robot's colour is drawn beside its number, where the world has it."""
         place = world.robots[robot]
         side = "cyan" if robot.startswith("cyan") else "magenta"
-        around = [(0.24, 0.12), (-0.24, 0.12), (0.24, -0.12), (-0.24, -0.12)]
+        around = [(0.2, 0.1), (-0.2, 0.1), (0.2, -0.1), (-0.2, -0.1)]
         pixels = [self.page.evaluate(PIXEL, [place.x + dx, place.y + dy]) for dx, dy in around]
         return sum(all(abs(a - b) < 12 for a, b in zip(pixel, FILLS[side], strict=True)) for pixel in pixels) >= 2
 

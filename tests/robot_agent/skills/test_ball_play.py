@@ -31,7 +31,7 @@ def test_a_ball_that_rolls_by_is_met_ahead_of_where_it_is(limits):
     assert -1.5 < meeting.y < 2.0
 
 
-def test_a_ball_nobody_reaches_on_its_way_is_met_where_it_ends(limits):
+def test_a_ball_out_of_reach_on_its_path_is_met_where_it_stops(limits):
     ball = Ball(4.0, 0.0, 9.0, 0.0)
     meeting = meet(Body(-9.0, 0.0, 0.0), way_of(ball, 0.5), GAP, limits)
     assert meeting.x == pytest.approx(way_of(ball, 0.5)[-1].x)
@@ -52,7 +52,7 @@ def test_a_robot_comes_to_hold_a_ball_at_rest(plant, limits, setup, start):
 
 
 def test_the_way_to_the_ball_leads_round_a_teammate_that_stands_in_it(plant, limits):
-    """As seen in a match: who chased the ball pushed a teammate that held its place before it for a second."""
+    """As seen in a match: a robot that chased the ball pushed a teammate before it for a second."""
     robot, ball, mate = plant(-3.0, 0.05, 0.0), Ball(1.5, 0.0), (-0.5, 0.0)
     nearest = math.inf
     for _ in range(250):

@@ -11,7 +11,7 @@ from robot_agent.skills.keep_out import MARGIN, Area, keep_out
 
 @pytest.mark.parametrize("end", [1.0, -1.0])
 @pytest.mark.parametrize("start", [(7.0, 0.0), (9.0, 4.0), (10.5, 5.0), (8.5, -3.0)])
-def test_whoever_wants_into_a_goal_area_stops_before_it(setup, plant, limits, end, start):
+def test_a_robot_that_wants_into_a_goal_area_stops_before_it(setup, plant, limits, end, start):
     pitch = setup.pitch
     made = plant(end * start[0], start[1], 0.7)
     for _ in range(300):
@@ -21,7 +21,7 @@ def test_whoever_wants_into_a_goal_area_stops_before_it(setup, plant, limits, en
         assert not (deep and abs(me.y) < 0.5 * pitch.goal_area_width)
 
 
-def test_whoever_is_inside_comes_out_the_front(setup, plant, limits):
+def test_a_robot_inside_comes_out_the_front(setup, plant, limits):
     pitch = setup.pitch
     made = plant(pitch.goal_line - 0.3, 0.5, 1.0)
     for _ in range(100):

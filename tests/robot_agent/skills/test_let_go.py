@@ -16,5 +16,5 @@ def test_not_into_an_opponent_and_not_off_the_pitch(setup, me, opponents):
     assert let_go(me, opponents, setup) is None
 
 
-def test_whoever_is_beside_the_way_is_no_hindrance(setup):
+def test_an_opponent_beside_the_path_is_no_hindrance(setup):
     assert let_go(Body(0.0, 0.0, 0.0), [(0.5 * AHEAD, 1.0)], setup) is not None

@@ -8,9 +8,9 @@ from robot_agent.bodies import Body
 from robot_agent.skills.braking import braking_speed, travel_time
 from robot_agent.skills.go_to import TOLERANCE, drive, go_to
 from robot_agent.skills.turn_to import turn_to
-from schemas.faults import FaultError
 from schemas.frames import from_body, wrap
 from schemas.messages.command import Command, Drive
+from schemas.wire.faults import FaultError
 
 
 @pytest.mark.parametrize("distance", [0.01, 0.3, 2.0, 9.0])

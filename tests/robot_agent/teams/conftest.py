@@ -7,8 +7,9 @@ import pytest
 from msgspec.structs import asdict, replace
 
 from robot_agent.contract import Briefing, load_brain
-from schemas.messages.command import Command, Motion
-from schemas.messages.host import Setup
+from schemas.messages.command import Command
+from schemas.messages.radio import Motion
+from schemas.messages.setup import Setup
 from schemas.messages.sight import ReceivedRadio, Sight
 from schemas.side import Side
 
@@ -16,7 +17,7 @@ BRAINS = {"simple": "robot_agent.teams.simple:Simple", "nubot": "robot_agent.tea
 
 
 class Squad:
-    """One team's brains at fixed or moved poses, with perfect sight; each word is heard a tick later."""
+    """One team's brains at fixed or moved poses, with perfect sight; each radio message arrives a tick later."""
 
     def __init__(self, team: str, setup: Setup, sight_of: Callable[..., Sight], poses: dict[str, tuple[float, ...]]):
         self.setup = setup
@@ -27,12 +28,12 @@ class Squad:
         self.brains = {name: load_brain(BRAINS[team], Briefing.of(name, setup)) for name in poses}
 
     def meet(self) -> None:
-        """Let everybody have heard everybody."""
+        """Deliver the radio messages of all robots to all."""
         for name, (x, y, heading) in self.poses.items():
             self.said[name] = ReceivedRadio(age=0.0, self=Motion(x=x, y=y, heading=heading))
 
     def act(self, **seen: object) -> dict[str, Command]:
-        """One tick: everybody's command."""
+        """One tick: the commands of all robots."""
         commands = {name: brain.act(self.sight(name, **seen)) for name, brain in self.brains.items()}
         for name, heard in self.said.items():
             self.said[name] = replace(heard, age=heard.age + 0.02)
@@ -43,7 +44,7 @@ class Squad:
         return commands
 
     def sight(self, name: str, **seen: object) -> Sight:
-        """What one robot sees of its team: the others as obstacles, and heard."""
+        """The sight of one robot: its teammates as obstacles, and their radio messages."""
         others = {other: pose for other, pose in self.poses.items() if other != name}
         obstacles = tuple((x, y) for x, y, _ in others.values()) + tuple(seen.pop("opponents", ()))
         radio = {other: word for other, word in self.said.items() if other != name}

@@ -22,7 +22,7 @@ SHOOT = order(CoachTest.SHOOT, robot_a="cyan2")
 
 @pytest.mark.parametrize("team", TEAMS)
 @pytest.mark.parametrize("test", [CoachTest.MOVE, CoachTest.CIRCLE, CoachTest.SHOOT, CoachTest.CATCH])
-def test_whom_the_order_does_not_name_stands_still_and_acknowledges(squad, team, test):
+def test_a_robot_that_the_order_does_not_name_stands_still_and_acknowledges(squad, team, test):
     made = squad(team, STARTS)
     given = order(test, robot_a="cyan2", point_a=Point(x=5.0, y=3.0), radius=1.0)
     for _ in range(20):
@@ -34,7 +34,7 @@ def test_whom_the_order_does_not_name_stands_still_and_acknowledges(squad, team,
 
 @pytest.mark.parametrize("team", TEAMS)
 @pytest.mark.parametrize("phase", [TeamPhase.STOPPED, TeamPhase.HALF_TIME, TeamPhase.FULL_TIME])
-def test_in_a_pause_nobody_shows_anything(squad, team, phase):
+def test_in_a_pause_no_test_is_shown(squad, team, phase):
     commands = squad(team, STARTS).act(ball=(4.0, 2.0), phase=phase, running=False, order=SHOOT)
     assert all(command.drive == Drive() and command.kick is None for command in commands.values())
 
@@ -62,7 +62,7 @@ def test_a_kick_that_was_refused_is_tried_again(squad, team):
 
 
 @pytest.mark.parametrize("team", TEAMS)
-def test_who_has_not_charged_yet_does_not_count_as_having_kicked(squad, team):
+def test_a_robot_without_a_charged_kicker_does_not_count_as_having_kicked(squad, team):
     made = squad(team, {**STARTS, 2: (2.0, 0.0, 0.0)})
     for _ in range(10):
         assert made.act(ball=(2.35, 0.0), holding=True, kicker_ready=False, order=SHOOT)["cyan2"].kick is None

@@ -1,4 +1,4 @@
-"""What whole squads do: who plays, how far the others stay, and what coach and referee leave no choice about."""
+"""Behaviour of whole squads: which robot plays, distances of the others, obedience to coach and referee."""
 
 import itertools
 import math
@@ -10,9 +10,10 @@ from robot_agent.contract import Briefing, load_brain
 from robot_agent.teams.player import RADIO_EVERY
 from robot_agent.teams.set_piece import required_distance
 from robot_agent.teams.simple.striker import PATIENCE
-from schemas.game import DisciplinaryRecord, OffField, Point, TeamPhase
+from schemas.game import OffField, Point, TeamPhase
 from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.command import Drive
+from schemas.messages.game import DisciplinaryRecord
 from schemas.side import Side
 
 TEAMS = ("simple", "nubot")
@@ -48,7 +49,7 @@ def test_exactly_one_robot_plays_the_ball(squad, team, ball):
 
 
 @pytest.mark.parametrize("team", TEAMS)
-def test_who_plays_does_not_change_each_tick_with_two_robots_equally_near(squad, team):
+def test_of_two_equally_near_robots_the_same_one_plays_the_ball(squad, team):
     made = squad(team, {1: (-10.5, 0.0, 0.0), 2: (0.0, 2.0, 0.0), 3: (0.0, -2.0, 0.0)})
     seen = set()
     for tick in range(60):
@@ -60,7 +61,7 @@ def test_who_plays_does_not_change_each_tick_with_two_robots_equally_near(squad,
 
 @pytest.mark.parametrize("team", TEAMS)
 @pytest.mark.parametrize("is_held", [False, True])
-def test_a_taker_between_two_receivers_who_are_as_good_turns_to_one_of_them(squad, team, is_held):
+def test_a_taker_between_two_equally_good_receivers_turns_to_one_of_them(squad, team, is_held):
     """As seen in a match: the noise made now one, now the other the better one, and the taker danced for 6 s."""
     poses = {1: (-10.5, 0.0, 0.0), 2: (-7.75, 0.0, 0.0), 3: (-4.0, 3.4, 3.0), 4: (-4.0, -3.4, 3.0)}
     made, turns, spot = squad(team, poses), [], Point(x=-7.4, y=0.0)
@@ -91,7 +92,7 @@ def test_a_striker_in_a_hurry_between_two_receivers_turns_to_one_of_them(squad):
 
 @pytest.mark.parametrize("team", TEAMS)
 @pytest.mark.parametrize("phase", SET_PIECES)
-def test_before_start_everybody_stands_as_far_from_the_ball_as_the_rules_ask(squad, setup, team, phase):
+def test_before_start_all_robots_keep_the_required_distance_from_the_ball(squad, setup, team, phase):
     made = squad(team)
     spot = settle(made, phase)
     radius, asked = setup.robot.radius, required_distance(phase, setup.restarts)
@@ -106,7 +107,7 @@ def test_before_start_everybody_stands_as_far_from_the_ball_as_the_rules_ask(squ
 
 @pytest.mark.parametrize("team", TEAMS)
 @pytest.mark.parametrize("phase", [TeamPhase.OUR_KICK_OFF, TeamPhase.THEIR_KICK_OFF])
-def test_at_a_kick_off_everybody_goes_back_to_the_own_half(squad, setup, team, phase):
+def test_at_a_kick_off_all_robots_return_to_their_own_half(squad, setup, team, phase):
     made = squad(team, {1: (-10.5, 0.0, 0.0), 2: (8.0, 1.0, 0.0), 3: (2.0, -5.0, 0.0), 4: (5.0, 2.0, 0.0)})
     spot = settle(made, phase)
     distances = {name: math.dist(pose[:2], spot) for name, pose in made.poses.items()}
@@ -132,7 +133,7 @@ def test_a_robot_too_near_leaves_the_circle_at_once_and_the_others_go_around_it(
 
 @pytest.mark.parametrize("team", TEAMS)
 @pytest.mark.parametrize("phase", [TeamPhase.STOPPED, TeamPhase.HALF_TIME, TeamPhase.PRE_GAME, TeamPhase.FULL_TIME])
-def test_in_a_pause_everybody_stands_still(squad, team, phase):
+def test_in_a_pause_all_robots_stand_still(squad, team, phase):
     commands = squad(team).act(ball=(0.0, 0.0), phase=phase, running=False)
     assert all(command.drive == Drive() and not command.dribble for command in commands.values())
 
@@ -163,7 +164,7 @@ def test_after_start_the_taker_kicks_the_ball_it_holds_hard_enough_to_be_in_play
 
 
 @pytest.mark.parametrize("team", TEAMS)
-def test_at_their_restart_nobody_goes_for_the_ball_even_after_start(squad, setup, team):
+def test_at_their_restart_no_robot_goes_for_the_ball_even_after_start(squad, setup, team):
     made = squad(team)
     spot = settle(made, TeamPhase.THEIR_THROW_IN, 300, running=True)
     nearest = min(math.dist(pose[:2], spot) for pose in made.poses.values())
@@ -186,7 +187,7 @@ def test_after_a_kick_the_dribbler_lets_go_so_that_a_soft_kick_leaves(squad, tea
 
 
 @pytest.mark.parametrize("team", TEAMS)
-def test_who_cannot_kick_yet_keeps_the_ball_and_kicks_as_soon_as_the_kicker_is_charged(squad, team):
+def test_a_robot_that_cannot_kick_yet_keeps_the_ball_and_kicks_as_soon_as_the_kicker_is_charged(squad, team):
     made = squad(team, {1: (-10.5, 0.0, 0.0), 2: (-0.35, 0.0, 0.0)})
     kick = {"ball": (0.0, 0.0), "phase": TeamPhase.OUR_FREE_KICK, "spot": Point(x=0.0, y=0.0), "holding": True}
     for _ in range(100):
@@ -198,7 +199,7 @@ def test_who_cannot_kick_yet_keeps_the_ball_and_kicks_as_soon_as_the_kicker_is_c
 
 
 @pytest.mark.parametrize("team", TEAMS)
-def test_everybody_speaks_ten_times_a_second_and_not_all_at_once(squad, setup, team):
+def test_all_robots_send_ten_times_a_second_and_not_all_at_once(squad, setup, team):
     made = squad(team)
     spoken = {name: [] for name in made.poses}
     for tick in range(50):
@@ -211,7 +212,7 @@ def test_everybody_speaks_ten_times_a_second_and_not_all_at_once(squad, setup, t
 
 
 @pytest.mark.parametrize("team", TEAMS)
-def test_a_ball_that_nobody_sees_is_looked_for_and_the_keeper_stays(squad, setup, team):
+def test_an_unseen_ball_is_searched_for_and_the_keeper_stays(squad, setup, team):
     made = squad(team)
     for _ in range(290):
         made.move(made.act(ball=None))

@@ -46,7 +46,7 @@ def test_a_small_team_fills_the_first_places():
     assert share_places({}, wanted) == {}
 
 
-def test_who_is_farthest_has_no_place_where_there_are_more_robots_than_places():
+def test_the_farthest_robot_has_no_place_where_there_are_more_robots_than_places():
     """Five robots of a scene without a goalkeeper: one plays the ball, four are left for three places."""
     wanted = [(Role.DEFENDER, (-5.0, 0.0)), (Role.LEFT, (2.0, 3.0)), (Role.RIGHT, (2.0, -3.0))]
     robots = {"a": at(2.0, -2.0), "b": at(-4.0, 0.0), "c": at(1.0, 3.0), "d": at(-9.0, -5.0)}

@@ -4,8 +4,9 @@ import math
 
 import pytest
 
-from schemas.game import DisciplinaryRecord, GameStage, OffField, TeamPhase
+from schemas.game import GameStage, OffField, TeamPhase
 from schemas.messages.command import Drive
+from schemas.messages.game import DisciplinaryRecord
 
 MARK = {"x": 7.4, "y": 0.0}
 SHOOT_OUT = {"stage": GameStage.SHOOT_OUT}
@@ -77,7 +78,7 @@ def test_the_next_on_the_field_takes_it_when_the_first_is_off(squad, team):
 
 
 @TEAMS
-def test_who_is_off_the_field_rests_and_the_others_play_without_it(squad, team):
+def test_a_robot_off_the_field_rests_and_the_others_play_without_it(squad, team):
     """The one nearest to the ball is off: another goes for it."""
     players = squad(team)
     seen = {"ball": (-1.5, 1.0), "game": {"robots": {"cyan2": DisciplinaryRecord(off_field=OffField.REPAIR, left=9.0)}}}

@@ -5,10 +5,10 @@ from typing import Any
 
 import pytest
 
-from schemas.faults import FaultError
 from schemas.game import Point
-from schemas.message import BadMessageError
 from schemas.messages.coach import REQUIRED_FIELDS, CoachMode, CoachOrder, CoachTest
+from schemas.wire.faults import FaultError
+from schemas.wire.message import BadMessageError
 
 WHOLE: dict[str, Any] = {
     "robot_a": "cyan2",

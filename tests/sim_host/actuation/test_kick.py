@@ -128,7 +128,7 @@ def test_a_lob_that_meets_no_goal_line_is_refused_with_its_reason() -> None:
 
 
 def test_a_lob_beyond_the_devices_power_is_refused_with_its_reason() -> None:
-    with pytest.raises(KickRefusedError, match=r"goes the 31\.1 m to the goal with the 20 m/s there are"):
+    with pytest.raises(KickRefusedError, match=r"reaches the goal, 31\.1 m away, with at most 20 m/s"):
         kicked(KickMode.LOB, 12.0, x=-11.0, heading=math.pi / 4)
 
 

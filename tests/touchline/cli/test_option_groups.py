@@ -11,14 +11,14 @@ from pydantic.fields import FieldInfo
 from typer.testing import CliRunner
 
 from coach_gateway.settings import BridgeOptions, GatewaySettings
-from recordings.settings import RecorderSettings
+from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
 from schemas.bus.settings import ClientSettings, ListenSettings
 from schemas.config.match_config import MatchConfig, RecordingConfig
 from schemas.config.settings import CommandLine, RecordOptions, Settings
-from schemas.described import field_docstrings
 from schemas.errors import TouchlineError
-from sim_host.settings import HostSettings
+from schemas.wire.field_docstrings import field_docstrings
+from sim_host.server.settings import HostSettings
 from touchline.__main__ import app as touchline
 from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
 

@@ -1,5 +1,4 @@
 import json
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -8,11 +7,13 @@ from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import Medium
-from schemas.game import ActionName, ActionReply, GameState, Phase, RefereeAction, Score
-from schemas.messages.host import Health, RobotHealth
+from schemas.game import ActionName, Phase, Score
+from schemas.messages.game import ActionReply, GameState, RefereeAction
+from schemas.messages.health import Health, RobotHealth
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
-from schemas.topics import ACTION, HEALTH, STATE
+from schemas.topics import HEALTH, STATE
+from support.fake_host import FakeHost
 from touchline.__main__ import app
 from touchline.commands import coach
 
@@ -27,32 +28,22 @@ class TalkingClock(SteppedClock):
         self.host.speak()
 
 
-class Host:
-    """Accepts `stop` and `corner`, refuses the rest, and says what it is told to say."""
+class Host(FakeHost):
+    """Accepts `stop` and `corner`, refuses the rest, and publishes the same whenever its client waits."""
 
     def __init__(self) -> None:
-        self.medium = Medium()
-        self.asked: list[RefereeAction] = []
+        super().__init__(Medium(), clock=SteppedClock())
         self.says: list[GameState | Health] = []
-        self._bus = self.medium.open_bus("friendly", SteppedClock())
-        self._server = self._bus.serve(ACTION)
-        self._writers = {GameState: self._bus.publisher(STATE), Health: self._bus.publisher(HEALTH)}
-        self._thread = threading.Thread(target=self._answer)
-        self._thread.start()
+        self.answer = self._act
+        self.serve_in_threads()
 
     def speak(self) -> None:
         for message in self.says:
-            self._writers[type(message)].put(message)
+            self.put(STATE if isinstance(message, GameState) else HEALTH, message)
 
-    def close(self) -> None:
-        self._bus.close()
-        self._thread.join()
-
-    def _answer(self) -> None:
-        while (query := self._server.receive(None)) is not None:
-            self.asked.append(query.message())
-            accepted = self.asked[-1].action in (ActionName.STOP, ActionName.CORNER)
-            query.reply(ActionReply(accepted=accepted, reason="" if accepted else "the game is running"))
+    def _act(self, action: RefereeAction) -> ActionReply:
+        accepted = action.action in (ActionName.STOP, ActionName.CORNER)
+        return ActionReply(accepted=accepted, reason="" if accepted else "the game is running")
 
 
 @pytest.fixture
@@ -133,10 +124,10 @@ def test_the_state_of_a_match_that_waits_for_robots_says_how_many_are_there(host
     host.says = [Health(tick=0, time=0.0, pace="lockstep", real_time_factor=0.0, robots=robots)]
     result = touchline("state")
     assert result.exit_code == 1
-    assert result.stderr == 'touchline: match "friendly" has not begun: 1 of 2 robots are there\n'
+    assert result.stderr == 'touchline: match "friendly" has not begun: 1 of 2 robots are connected\n'
 
 
 def test_a_host_that_says_nothing_is_named(host: Host) -> None:
     result = touchline("state")
     assert result.exit_code == 2
-    assert 'match "friendly": the host says nothing of it' in result.stderr
+    assert 'match "friendly": the host publishes no state of it' in result.stderr

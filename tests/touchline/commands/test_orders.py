@@ -1,7 +1,6 @@
 """Orders from the terminal: what was typed in, and who has acknowledged it."""
 
 import json
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -10,45 +9,32 @@ from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import Medium
-from schemas.config.match_config import load_match
-from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
 from schemas.game import Point
-from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
+from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock
-from schemas.topics import ACTIVE_ORDER, ORDER, SETUP
+from schemas.topics import SETUP
+from support.fake_host import FakeHost
 from touchline.__main__ import app
 from touchline.commands import orders
 
 
-class Host:
-    """Takes orders in, and says that all but the deaf robots have acknowledged them."""
+class Host(FakeHost):
+    """All but the deaf robots acknowledge an order as soon as it comes."""
 
     def __init__(self) -> None:
-        self.medium = Medium()
-        self.orders: list[tuple[str, CoachOrder]] = []
         self.deaf: set[str] = set()
-        self._setup = Setup.of(load_match(None, {}), load_profile("msl"), load_rule_book("friendly"))
-        self._bus = self.medium.open_bus("friendly", SteppedClock())
-        self._questions, self._given = self._bus.serve(SETUP), self._bus.subscribe(ORDER)
-        self._thread = threading.Thread(target=self._answer)
-        self._thread.start()
+        self._acknowledged = 0
+        super().__init__(Medium(), answers={SETUP: lambda _: self._acknowledge()}, clock=SteppedClock())
+        self.serve_in_threads()
 
-    def close(self) -> None:
-        self._bus.close()
-        self._thread.join()
-
-    def _answer(self) -> None:
-        while (query := self._questions.receive(None)) is not None:
-            while (received := self._given.receive()) is not None:
-                side, order = received.chunks["side"], received.message()
-                self.orders.append((side, order))
-                robots = {f"{side}{number}": f"{side}{number}" not in self.deaf for number in range(1, 6)}
-                standing = ActiveOrder(tick=1, time=0.02, order=order, acknowledged=robots)
-                self._bus.publisher(ACTIVE_ORDER, side=side).put(standing)
-            query.reply(self._setup)
+    def _acknowledge(self) -> Setup:
+        for side, order in self.given_orders[self._acknowledged :]:
+            names = [f"{side}{number}" for number in range(1, 6)]
+            self.stand(side, order, **{name: name not in self.deaf for name in names})
+            self._acknowledged += 1
+        return self.setup
 
 
 @pytest.fixture
@@ -71,7 +57,7 @@ def coach(*words: str) -> Result:
 
 def test_an_order_is_given_and_says_who_has_acknowledged_it(host: Host) -> None:
     result = coach("order", "cyan", "--mode", "hold", "--max-speed", "1.5")
-    ((side, order),) = host.orders
+    ((side, order),) = host.given_orders
     assert (side, order.mode, order.max_speed) == ("cyan", CoachMode.HOLD, 1.5)
     everyone = "cyan1, cyan2, cyan3, cyan4, cyan5"
     assert result.stdout == f"order {order.sequence} to cyan: hold; acknowledged by {everyone}\n"
@@ -90,7 +76,7 @@ def test_what_became_of_an_order_is_told_to_programs(host: Host) -> None:
     said = json.loads(coach("order", "cyan", "--json").stdout)
     assert said == {
         "side": "cyan",
-        "sequence": host.orders[0][1].sequence,
+        "sequence": host.given_orders[0][1].sequence,
         "status": "active",
         "acknowledged": ["cyan1", "cyan2", "cyan3", "cyan4"],
         "missing": ["cyan5"],
@@ -101,7 +87,7 @@ def test_a_test_is_ordered_in_its_own_words(host: Host) -> None:
     words = ["--robot", "cyan2", "--to", "cyan3", "--point-a", "-2,1.5", "--point-b", "3,-1", "--angle-a", "-0.5"]
     result = coach("test", "cyan", "pass", *words, "--kick-speed", "4", "--avoid")
     assert result.exit_code == 0, result.stderr
-    _, order = host.orders[0]
+    _, order = host.given_orders[0]
     assert order == CoachOrder(
         sequence=order.sequence,
         mode=CoachMode.TEST,
@@ -119,7 +105,7 @@ def test_a_test_is_ordered_in_its_own_words(host: Host) -> None:
 
 def test_an_order_that_names_a_test_is_one(host: Host) -> None:
     coach("order", "cyan", "--test", "shoot", "--robot-a", "cyan2", "--kick-mode", "lob")
-    _, order = host.orders[0]
+    _, order = host.given_orders[0]
     assert (order.mode, order.test, order.kick_mode) == (CoachMode.TEST, CoachTest.SHOOT, KickMode.LOB)
 
 
@@ -143,4 +129,4 @@ def test_what_cannot_be_meant_is_wrong_input_and_reaches_nobody(
     result = coach(*words)
     assert result.exit_code == 2 and len(result.stderr.splitlines()) == 1
     assert reason in result.stderr
-    assert host.orders == []
+    assert host.given_orders == []

@@ -8,14 +8,14 @@ import pytest
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
 from recordings.container.partial_file import PartialFile
-from recordings.settings import RecorderSettings
+from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
 from schemas.config.match_config import load_match
 from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
-from sim_host.settings import HostSettings
+from sim_host.server.settings import HostSettings
 from touchline.launch.processes import (
     PROCESSES,
     MatchPlan,

@@ -6,22 +6,22 @@ import pytest
 from rich.console import Console
 from rich.text import Text
 
-from coach_gateway.match.detailed_follower import DetailedFollower
+from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.orders import OrderBook
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import Medium
-from schemas.config.match_config import load_match
-from schemas.config.profile import load_profile
-from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
-from schemas.game import DisciplinaryRecord, EventKind, GameEvent, GameState, OffField, Phase, Point, Score
+from schemas.game import EventKind, OffField, Phase, Point, Score
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
-from schemas.messages.command import Radio
-from schemas.messages.host import Belief, Health, RobotHealth, Setup
+from schemas.messages.game import DisciplinaryRecord, GameEvent, GameState
+from schemas.messages.health import Health, RobotHealth
+from schemas.messages.radio import Belief, Radio
+from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import BELIEF, EVENT, HEALTH, STATE, WORLD
+from support.messages import make_setup
 from touchline.commands.watch import watch_on
 from touchline.watch.drawing import draw_match
 from touchline.watch.panel import orders, robots
@@ -32,7 +32,7 @@ WIDTH, HEIGHT = 90, 30
 
 @pytest.fixture(scope="module")
 def setup() -> Setup:
-    return Setup.of(load_match(None, {}), load_profile("msl"), load_rule_book("friendly"))
+    return make_setup()
 
 
 def robot(x: float, y: float, heading: float = 0.0, **more: object) -> RobotTruth:
@@ -93,7 +93,7 @@ def test_a_restart_shows_how_far_opponents_stay(setup: Setup) -> None:
 def test_a_picture_fits_its_terminal(setup: Setup, size: tuple[int, int]) -> None:
     medium = Medium()
     host = medium.open_bus("friendly", SteppedClock())
-    seen = DetailedFollower(medium.open_bus("friendly", SteppedClock()))
+    seen = MatchFollower(medium.open_bus("friendly", SteppedClock()), details=True)
     say(host, world(cyan1=robot(-30.0, 2.0), magenta5=robot(3.0, 99.0)), state())
     seen.update()
     rows = draw_match(seen, setup, *size)
@@ -109,7 +109,7 @@ def say(host: Bus, world: World, state: GameState) -> None:
 def test_a_picture_says_score_phase_events_and_how_the_host_is_doing(setup: Setup) -> None:
     medium = Medium()
     host = medium.open_bus("friendly", SteppedClock())
-    seen = DetailedFollower(medium.open_bus("friendly", SteppedClock()))
+    seen = MatchFollower(medium.open_bus("friendly", SteppedClock()), details=True)
     say(host, world(cyan2=robot(1.0, 0.0)), state(Phase.THROW_IN, side=Side.MAGENTA, score=Score(cyan=2, magenta=1)))
     host.publisher(HEALTH).put(Health(tick=5, time=0.1, pace="x2", real_time_factor=1.98, late_ticks=3))
     goal = GameEvent(tick=4, time=0.08, clock=60.5, kind=EventKind.GOAL, rule="goal", text="goal for cyan by cyan3")
@@ -159,7 +159,7 @@ def test_an_order_that_stands_is_shown_with_who_has_not_heard_it() -> None:
     press = CoachOrder(sequence=4, tactic="press")
     book.update(Side.MAGENTA, ActiveOrder(tick=1, time=0.0, order=press, acknowledged={"magenta1": True}))
     assert [row.plain for row in orders(book)] == [
-        " cyan  test pass, cyan2, cyan3  not heard by cyan3",
+        " cyan  test pass, cyan2, cyan3  not acknowledged by cyan3",
         " magenta  play: press",
     ]
 

@@ -1,4 +1,4 @@
-"""Pages, gateways and hosts that come and go: a page says so, and goes on by itself."""
+"""Pages, gateways and hosts that come and go: a page shows it, and recovers by itself."""
 
 
 def test_two_browsers_see_the_same_match_and_what_either_does(match, visit) -> None:
@@ -49,7 +49,7 @@ def test_a_host_that_is_killed_and_started_again_is_waited_for(match, visit) -> 
     tab.button("goal", "cyan").click()
     tab.until("document.getElementById('score').textContent === '1 : 0'")
     match.stop()
-    tab.until("document.getElementById('notice').textContent.includes('The host is gone')")
+    tab.until("document.getElementById('notice').textContent.includes('The host has left')")
     assert tab.button("start").is_disabled()
     match.start()
     match.signal_kick_off()
@@ -60,7 +60,7 @@ def test_a_host_that_is_killed_and_started_again_is_waited_for(match, visit) -> 
 
 
 def test_a_line_that_is_dead_and_was_not_closed_is_noticed_and_tied_anew(match, gateway_of, visit, tunnel_to) -> None:
-    """As of a laptop that changed its network, or slept: nothing comes any more, and nobody says so."""
+    """As with a laptop that changes its network, or sleeps: nothing arrives any more, without any close."""
     tunnel = tunnel_to(gateway_of(match.medium).port)
     tab = visit(f"http://127.0.0.1:{tunnel.port}", "referee")
     tab.ask("window.touchline.connection.patience = 3000")
@@ -71,7 +71,7 @@ def test_a_line_that_is_dead_and_was_not_closed_is_noticed_and_tied_anew(match, 
     tab.until(f"window.touchline.match.frames.newest?.tick > {tick + 20}")
 
 
-def test_a_page_waits_for_its_match_and_keeps_the_token_that_nobody_has_answered(match, gateway_of, browser) -> None:
+def test_a_page_waits_for_its_match_and_keeps_an_unanswered_token(match, gateway_of, browser) -> None:
     waiting_page = gateway_of(None)
     page = browser.new_context().new_page()
     page.goto(f"{waiting_page.origin}/")

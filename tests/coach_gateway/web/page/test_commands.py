@@ -1,12 +1,13 @@
-"""Commands from the page: what is accepted is done, what is refused is said, and nobody does what is not theirs."""
+"""Commands from the page: accepted ones are carried out, refused ones have their reason, and roles are kept."""
 
 import math
 
 import pytest
 
-from schemas.game import DisciplinaryRecord, Phase
+from schemas.game import Phase
 from schemas.messages.coach import CoachMode
 from schemas.messages.command import Kick, KickMode
+from schemas.messages.game import DisciplinaryRecord
 from schemas.process.clock import WallClock
 from schemas.side import Side
 from schemas.topics import MANUAL
@@ -24,7 +25,7 @@ def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> No
         tab.page.keyboard.press("Space")
         match.until(lambda: match.state.phase is Phase.STOPPED)
         tab.wait_for_log("Stop accepted")
-        assert tab.page.locator("#layer-roles").is_checked()  # the focus was there, and nothing else happened to it
+        assert tab.page.locator("#layer-roles").is_checked()  # it had the focus, and was not switched
         tab.open("match")
         tab.button("drop_ball").click()
         tab.wait_for_log("Drop ball accepted")
@@ -32,7 +33,7 @@ def test_the_space_bar_stops_the_match_wherever_the_focus_is(match, visit) -> No
     assert "Corner" not in tab.page.locator("#log").inner_text()
 
 
-def test_buttons_refuse_what_the_referee_refuses_and_say_why(match, visit) -> None:
+def test_buttons_show_why_the_referee_has_refused(match, visit) -> None:
     tab = visit(match, "referee")
     tab.button("enter").page.locator("[data-robot=cyan1] .who").click()
     tab.button("enter").click()
@@ -153,7 +154,7 @@ def test_a_coach_commands_its_own_side_alone(match, visit) -> None:
     match.until(lambda: Side.CYAN in match.host.simulation.orders)
     assert match.host.simulation.orders[Side.CYAN].mode is CoachMode.HOLD
     assert Side.MAGENTA not in match.host.simulation.orders
-    tab.until("document.querySelector('[data-robot=cyan2] [data-is=order]').textContent === 'taken in'")
+    tab.until("document.querySelector('[data-robot=cyan2] [data-is=order]').textContent === 'acknowledged'")
     match.until(lambda: math.hypot(*(match.world["robots"]["cyan2"][axis] for axis in ("vx", "vy"))) < 0.02)
 
 
@@ -170,7 +171,7 @@ def test_a_token_is_taken_from_the_address_kept_and_given_up(match, visit) -> No
     tab.page.locator("#enter-token").click()
     tab.page.locator("#token").fill("nonsense")
     tab.page.keyboard.press("Enter")
-    tab.until("document.getElementById('token-says').textContent.startsWith('refused: nobody has this token')")
+    tab.until("document.getElementById('token-says').textContent.startsWith('refused: unknown token')")
     tab.page.locator("#token").fill("cyans-coach")
     tab.page.keyboard.press("Enter")
     tab.until("window.touchline.match.role === 'cyan'")
@@ -245,7 +246,7 @@ def test_speed_and_noise_are_set_within_their_range_and_reset(match, visit) -> N
     row.wait_for()
     assert "m/s" in row.inner_text()
     before = match.host.simulation.profile.drive.max_speed
-    for wrong, why in (("fast", "refused: fast is no number"), ("1000", "refused: drive.max_speed is 1000")):
+    for wrong, why in (("fast", "refused: fast is not a number"), ("1000", "refused: drive.max_speed is 1000")):
         row.locator("input").fill(wrong)
         row.get_by_role("button", name="Set drive.max_speed", exact=True).click()
         tab.wait_for_log(why)
@@ -303,7 +304,7 @@ def test_a_robot_is_driven_by_keys_in_place_of_its_brain_and_given_back(match, v
     assert [options.nth(number).get_attribute("value") for number in range(options.count())] == ["", "cyan1", "cyan2"]
     tab.page.locator("#drive-robot").select_option("cyan2")
     tab.page.locator("#drive-take").click()
-    match.until(lambda: said(match, "cyan2 is driven manually"))
+    match.until(lambda: said(match, "cyan2 is under manual control"))
     match.until(lambda: abs(match.world["robots"]["cyan2"]["vx"]) < 0.02)
     heading = match.world["robots"]["cyan2"]["heading"]
     tab.page.keyboard.down("w")
@@ -315,7 +316,7 @@ def test_a_robot_is_driven_by_keys_in_place_of_its_brain_and_given_back(match, v
     tab.page.keyboard.up("q")
     tab.page.keyboard.press("Escape")
     match.until(lambda: said(match, "cyan2 is given back to its brain"))
-    assert tab.page.locator("#drive-take").inner_text() == "Take in hand"
+    assert tab.page.locator("#drive-take").inner_text() == "Take over"
 
 
 def test_a_gamepad_drives_kicks_and_dribbles(match, visit) -> None:
@@ -347,7 +348,7 @@ def test_leaving_the_page_gives_the_robot_back(match, visit) -> None:
     tab.open("drive")
     tab.page.locator("#drive-robot").select_option("magenta1")
     tab.page.locator("#drive-take").click()
-    match.until(lambda: said(match, "magenta1 is driven manually"))
+    match.until(lambda: said(match, "magenta1 is under manual control"))
     tab.page.goto("about:blank")
     match.until(lambda: said(match, "magenta1 is given back to its brain"))
 

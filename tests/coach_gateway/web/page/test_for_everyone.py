@@ -1,4 +1,4 @@
-"""The page on a phone, by keyboard, for who sees other colours or none, in light and in dark."""
+"""The page on a phone, by keyboard, with other colour vision, in light and in dark."""
 
 import pytest
 

@@ -51,7 +51,7 @@ def test_a_field_that_is_turned_shows_each_point_on_the_other_side(match, visit)
     tab.until("window.touchline.pitchCanvas.projection.sign === -1")
     turned = tab.ask("[window.touchline.pitchCanvas.projection.x(-3), window.touchline.pitchCanvas.projection.y(-2)]")
     assert turned == pytest.approx(as_it_lies)
-    tab.page.locator("#layer-seenFrom").select_option("magenta")  # who attacks −x in the first half
+    tab.page.locator("#layer-seenFrom").select_option("magenta")  # attacks −x in the first half
     tab.until("window.touchline.pitchCanvas.projection.sign === -1")
     tab.page.locator("#layer-seenFrom").select_option("cyan")
     tab.until("window.touchline.pitchCanvas.projection.sign === 1")
@@ -72,7 +72,7 @@ def test_score_clock_phase_and_half_are_those_of_the_match(match, visit) -> None
     tab.until(f"document.getElementById('clock').textContent !== {before!r}")
 
 
-def test_a_panel_tells_of_each_robot(match, visit) -> None:
+def test_each_robot_has_a_panel(match, visit) -> None:
     tab = visit(match)
     tab.until("document.querySelectorAll('.panel').length === 4")
     panels = tab.page.locator(".panel")
@@ -192,7 +192,7 @@ def speed(match, robot: str) -> tuple[float, float]:
     return truth["vx"], truth["vy"]
 
 
-def test_a_page_that_is_open_for_long_goes_on_telling_events(match, visit) -> None:
+def test_a_page_that_is_open_for_long_still_shows_new_events(match, visit) -> None:
     tab = visit(match)
     tab.page.locator("#all-events").click()
     tab.page.evaluate(

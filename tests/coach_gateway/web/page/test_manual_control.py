@@ -1,4 +1,4 @@
-"""Hands on the page: fingers that drag and drive, keys that stay down, and what nobody may move."""
+"""Dragging and driving on the page by fingers and keys, and what may not be moved."""
 
 import math
 
@@ -30,12 +30,12 @@ def said(match, text: str) -> bool:
 
 
 def take(match, tab, robot: str):
-    """Take a robot in hand; returns what is said of hands from then on."""
+    """Take over a robot; returns a function for the drives that are sent from then on."""
     hands = match.hear(MANUAL)
     tab.open("drive")
     tab.page.locator("#drive-robot").select_option(robot)
     tab.page.locator("#drive-take").click()
-    match.until(lambda: said(match, f"{robot} is driven manually"))
+    match.until(lambda: said(match, f"{robot} is under manual control"))
     return hands
 
 
@@ -49,7 +49,7 @@ def test_a_finger_drags_a_robot_and_a_second_finger_has_no_part_in_it(resting, v
         tab.touch("Move", tuple(a + share * (b - a) for a, b in zip(begin, end, strict=True)))
     tab.touch("Start", end, elsewhere)
     tab.touch("Move", end, (elsewhere[0] + 5, elsewhere[1]))
-    tab.touch("End", end)  # the second finger goes: nothing is set down by that
+    tab.touch("End", end)  # the second finger leaves: that places no body
     assert tab.page.locator("#log li").count() == 1
     tab.touch("End")
     tab.until("document.querySelector('#log li')?.textContent.includes('cyan1 to (')")
@@ -113,7 +113,7 @@ def test_a_page_that_is_no_longer_seen_gives_the_robot_back(match, visit) -> Non
         }"""
     )
     match.until(lambda: said(match, "cyan2 is given back to its brain"))
-    assert tab.page.locator("#drive-take").inner_text() == "Take in hand"
+    assert tab.page.locator("#drive-take").inner_text() == "Take over"
 
 
 def test_a_robot_that_another_page_drives_cannot_be_taken(match, visit) -> None:
@@ -123,7 +123,7 @@ def test_a_robot_that_another_page_drives_cannot_be_taken(match, visit) -> None:
     second.page.locator("#drive-robot").select_option("cyan2")
     second.page.locator("#drive-take").click()
     second.wait_for_log("Drive cyan2 refused: cyan2 is driven from another page")
-    assert second.page.locator("#drive-take").inner_text() == "Take in hand"
+    assert second.page.locator("#drive-take").inner_text() == "Take over"
     assert first.page.locator("#drive-take").inner_text() == "Give cyan2 back"
     first.page.keyboard.press("Escape")
     match.until(lambda: said(match, "cyan2 is given back to its brain"))
@@ -136,12 +136,12 @@ def test_what_a_coach_drags_stays_where_it_is(resting, visit) -> None:
     for body, (x, y) in (("ball", drop(match, referee)), ("robots.cyan1", match.where("cyan1"))):
         tab.until_seen(body, x, y)
         tab.drag((x, y), (3.0, 3.0))
-        tab.wait_for_log("refused: only the referee sets bodies down")
+        tab.wait_for_log("refused: only the referee places bodies")
         tab.until_seen(body, x, y)
     assert tab.ask("window.touchline.selection.dragged") is None
 
 
-def test_the_ball_is_not_dragged_while_a_referee_box_commands_and_the_page_says_who_does(resting, visit) -> None:
+def test_the_ball_is_not_dragged_while_a_referee_box_commands_and_the_page_shows_the_reason(resting, visit) -> None:
     match = resting
     tab, spectator = visit(match, "referee"), visit(match)
     ball = drop(match, tab)

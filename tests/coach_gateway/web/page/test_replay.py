@@ -46,7 +46,7 @@ def test_a_recording_that_is_begun_paused_shows_its_first_picture(replay_of, vis
 
 
 def test_a_replay_is_controlled_when_it_is_known_how_it_stands(replayed, visit, monkeypatch) -> None:
-    """Until then the bar has no length: whoever drew it to its middle would go to the beginning."""
+    """Until then the bar has no length: its middle would be the beginning."""
     ask, told = PageBroadcaster._ask_replay, threading.Event()
 
     def late(broadcaster: PageBroadcaster) -> ReplayReply:

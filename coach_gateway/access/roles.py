@@ -1,0 +1,22 @@
+"""The roles that a page or a program has in a match. Each token stands for one."""
+
+from enum import StrEnum
+
+from schemas.side import Side
+
+
+class Role(StrEnum):
+    """What a token stands for."""
+
+    SPECTATOR = "spectator"
+    """Without a token; watches."""
+    CYAN = "cyan"
+    """The coach of cyan."""
+    MAGENTA = "magenta"
+    """The coach of magenta."""
+    REFEREE = "referee"
+    """The referee, who runs the match and may do everything."""
+
+
+COACHES = {Role.CYAN: Side.CYAN, Role.MAGENTA: Side.MAGENTA}
+"""Coach → its side."""

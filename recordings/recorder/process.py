@@ -1,0 +1,41 @@
+"""The recorder process: one match from its endpoint into files, with the process's signals and garbage collection."""
+
+import gc
+import signal
+import sys
+import threading
+
+from recordings.recorder.record import record
+from recordings.recorder.recorder import RecordingSummary
+from recordings.recorder.settings import RecorderSettings
+from schemas.process.scheduling import use_batch_scheduling
+
+_SELDOM = 100_000
+"""Objects made until Python looks for garbage in cycles: messages come by the thousand, and are in none."""
+
+
+def run(settings: RecorderSettings) -> int:
+    """Record until the host leaves, or SIGINT or SIGTERM comes; the exit status of the process.
+
+    Raises:
+        TouchlineError: no host answers, or the file cannot be written.
+    """
+    use_batch_scheduling()  # what has come waits for it; nobody else has to
+    gc.freeze()
+    gc.set_threshold(_SELDOM)
+    stop = threading.Event()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: stop.set())
+    sys.stdout.write(_sentence(record(settings, stop.is_set)) + "\n")
+    return 0
+
+
+def _sentence(summary: RecordingSummary) -> str:
+    result = summary.result
+    files = f"{summary.files[0]}" + (f" and {len(summary.files) - 1} more" if summary.files[1:] else "")
+    if not summary.files:
+        return "nothing was to be kept"
+    return (
+        f"{files}: {result.messages} messages, {result.tick + 1} ticks, {result.lost} lost, "
+        f"{summary.size} bytes, ended by {result.ended.value}"
+    )

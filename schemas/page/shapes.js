@@ -1,0 +1,46 @@
+// Shapes on the canvas, in metres of the field, through a projection.
+
+export const INK = "#eef4ef";
+export const SIDES = {
+  cyan: { fill: "#28b9dc", edge: "#05303a", ink: "#04222a", line: "#7fe3fa" },
+  magenta: { fill: "#c9237b", edge: "#3d0527", ink: "#ffffff", line: "#ff9fd2" },
+};
+/** Colours of a robot that belongs to neither side. */
+export const NEUTRAL = { fill: "#b9c0bc", edge: "#333a36", ink: "#222222", line: "#e3e8e5" };
+const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif';
+
+export function line(context, projection, from, to) {
+  context.beginPath();
+  context.moveTo(projection.x(from.x), projection.y(from.y));
+  context.lineTo(projection.x(to.x), projection.y(to.y));
+  context.stroke();
+}
+
+export function circle(context, projection, centre, radius) {
+  context.beginPath();
+  context.arc(projection.x(centre.x), projection.y(centre.y), radius * projection.scale, 0, 2 * Math.PI);
+}
+
+export function rectangle(context, projection, x1, y1, x2, y2) {
+  context.beginPath();
+  context.rect(
+    Math.min(projection.x(x1), projection.x(x2)), Math.min(projection.y(y1), projection.y(y2)),
+    Math.abs(x2 - x1) * projection.scale, Math.abs(y2 - y1) * projection.scale,
+  );
+}
+
+/** Writes a text of `size` pixels about a point of the canvas, on a plate of the colour `ground` if one is given. */
+export function write(context, text, left, top, size, { colour = INK, weight = 650, ground = null } = {}) {
+  context.font = `${weight} ${size}px ${FONT}`;
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  if (ground !== null) {
+    const wide = context.measureText(text).width + 0.7 * size;
+    context.fillStyle = ground;
+    context.beginPath();
+    context.roundRect(left - wide / 2, top - 0.65 * size, wide, 1.3 * size, 0.35 * size);
+    context.fill();
+  }
+  context.fillStyle = colour;
+  context.fillText(text, left, top + 0.05 * size);
+}

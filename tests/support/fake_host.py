@@ -1,0 +1,161 @@
+"""A host on the in-process bus that publishes what a test has it publish, and notes what it is asked for."""
+
+import asyncio
+import threading
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from schemas.bus.contract import Bus, Publisher, Query
+from schemas.bus.in_process_bus import Medium
+from schemas.config.match_config import MatchConfig
+from schemas.config.profile import load_profile
+from schemas.config.rule_book import load_rule_book
+from schemas.game import EventKind, Phase
+from schemas.messages.coach import ActiveOrder, CoachOrder
+from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeAction
+from schemas.messages.health import Health
+from schemas.messages.radio import Belief, Radio
+from schemas.messages.setup import Setup
+from schemas.messages.world import BallTruth, World
+from schemas.process.clock import Clock, WallClock
+from schemas.side import Side
+from schemas.topic import Topic
+from schemas.topics import ACTION, ACTIVE_ORDER, BELIEF, EVENT, HEALTH, MANUAL, ORDER, SETUP, STATE, WORLD
+from schemas.wire.message import WireMessage
+from support.messages import make_event, make_robot, make_world
+
+MATCH = "friendly"
+Answer = Callable[[Any], WireMessage]
+
+
+class FakeHost:
+    """Answers its setup, accepts every action, and publishes nothing by itself."""
+
+    def __init__(
+        self,
+        medium: Medium,
+        config: MatchConfig | None = None,
+        answers: Mapping[Topic, Answer] | None = None,
+        *,
+        rules: str = "friendly",
+        clock: Clock | None = None,
+    ) -> None:
+        """`answers` replies to further topics, or otherwise than this host would."""
+        self.medium = medium
+        self.config = config or MatchConfig()
+        self.bus: Bus = medium.open_bus(MATCH, clock or WallClock())
+        self.setup = Setup.of(self.config, load_profile("msl"), load_rule_book(rules))
+        self.state = GameState(tick=0, time=0.0, phase=Phase.PRE_GAME)
+        self.asked: list[Any] = []
+        """Requests, in order, without those for the setup."""
+        self.answer: Callable[[RefereeAction], ActionReply] = lambda _: ActionReply(accepted=True)
+        self.hands, self.orders = self.bus.subscribe(MANUAL), self.bus.subscribe(ORDER)
+        self._given: list[tuple[Side, CoachOrder]] = []
+        self._publishers: dict[str, Publisher] = {}
+        self._answers = {SETUP.key: lambda _: self.setup, ACTION.key: lambda action: self.answer(action)}
+        self._answers |= {topic.key: answer for topic, answer in (answers or {}).items()}
+        self._servers = [self.bus.serve(topic) for topic in {SETUP, ACTION, *(answers or {})}]
+        self._threads: list[threading.Thread] = []
+        self.bus.declare_alive("host", "host")
+
+    def serve_in_threads(self) -> "FakeHost":
+        """Answer requests from now on, each topic in a thread of its own."""
+        self._threads = [threading.Thread(target=self._serve, args=(server,), daemon=True) for server in self._servers]
+        for thread in self._threads:
+            thread.start()
+        return self
+
+    async def serve(self, stop: asyncio.Event) -> None:
+        """Answer requests in an event loop."""
+        while not stop.is_set():
+            for server in self._servers:
+                while (query := server.receive()) is not None:
+                    self._reply(query)
+            await asyncio.sleep(0.002)
+
+    def close(self) -> None:
+        """Leave the match."""
+        self.bus.close()
+        for thread in self._threads:
+            thread.join()
+
+    def _serve(self, server: Any) -> None:
+        while (query := server.receive(None)) is not None:
+            self._reply(query)
+
+    def _reply(self, query: Query) -> None:
+        if query.key == SETUP.key:
+            query.reply(self._answers[query.key](None))
+            return
+        request = query.message()
+        self.asked.append(request)
+        query.reply(self._answers[query.key](request))
+
+    @property
+    def given_orders(self) -> list[tuple[Side, CoachOrder]]:
+        """All orders that were sent, with the side that they are for."""
+        for received in iter(self.orders.receive, None):
+            self._given.append((Side(received.chunks["side"]), received.message()))
+        return self._given
+
+    def put(self, topic: Topic, message: WireMessage, **chunks: str) -> None:
+        """Publish a message."""
+        key = topic.fill(**chunks)
+        if key not in self._publishers:
+            self._publishers[key] = self.bus.publisher(topic, **chunks)
+        self._publishers[key].put(message)
+
+    def say(self, **changes: Any) -> None:
+        """The game goes on to another state."""
+        tick = self.state.tick + 1
+        self.state = self.state.model_copy(update={"tick": tick, "time": tick * 0.02, **changes})
+        self.put(STATE, self.state)
+
+    def tell(self, text: str) -> None:
+        """Something happens."""
+        moment = {"tick": self.state.tick, "time": self.state.time, "clock": 0.0}
+        self.put(EVENT, GameEvent(**moment, kind=EventKind.ACTION, rule="test", text=text))
+
+    def happen(self, tick: int, text: str) -> None:
+        """Something happens in a tick."""
+        self.put(EVENT, make_event(tick, text))
+
+    def show(self, **changes: Any) -> World:
+        """A tick of the world: every robot on a spot of its own, facing its opponents' goal."""
+        robots = {
+            name: make_robot(
+                -side.attack(1) * (1.0 + number),
+                0.5 * number,
+                0.0 if side is Side.CYAN else 3.0,
+                vx=1.0,
+                omega=0.5,
+                holding=name == "cyan2",
+            )
+            for side in Side
+            for number, name in enumerate(self.config.robots(side))
+        }
+        ball = BallTruth(x=2.0, y=-1.0, z=0.11, vx=3.0, vy=0.0, vz=0.0)
+        content = {"tick": self.state.tick, "time": self.state.time, "robots": robots, "ball": ball}
+        world = World(**{**content, **changes})
+        self.put(WORLD, world)
+        return world
+
+    def believe(self, robot: str, radio: Radio) -> None:
+        """Publish a robot's belief."""
+        side = next(side for side in Side if robot in self.config.robots(side))
+        belief = Belief(tick=self.state.tick, time=self.state.time, robot=robot, radio=radio)
+        self.put(BELIEF, belief, side=side.value, robot=robot)
+
+    def play(self, tick: int) -> None:
+        """Publish game, health, beliefs and the world of one tick; a reader of this world has the beliefs already."""
+        at: dict[str, Any] = {"tick": tick, "time": tick * 0.02}
+        self.put(STATE, GameState(**at, phase=Phase.PLAY))
+        self.put(HEALTH, Health(**at, pace="realtime", real_time_factor=1.0))
+        for side in Side:
+            robot = f"{side}1"
+            self.put(BELIEF, Belief(**at, robot=robot, radio=Radio(role="striker")), side=side.value, robot=robot)
+        self.put(WORLD, make_world(tick, (tick, 0.0)))
+
+    def stand(self, side: Side, order: CoachOrder, **acknowledged: bool) -> None:
+        """An order is in force."""
+        self.put(ACTIVE_ORDER, ActiveOrder(tick=1, time=0.02, order=order, acknowledged=acknowledged), side=side.value)

@@ -1,0 +1,69 @@
+"""The gateway's server of pages, in a thread of its own and on a real port of loopback."""
+
+import asyncio
+import json
+import threading
+from pathlib import Path
+
+from coach_gateway.access.tokens import tokens_of
+from coach_gateway.web.binding import bind_page
+from coach_gateway.web.server import WebServer
+from coach_gateway.web.settings import WebSettings
+from coach_gateway.web.waiting_page import WaitingPage
+from schemas.bus.in_process_bus import Medium
+from schemas.process.clock import WallClock
+
+SOON = 20.0
+"""s; more than anything takes here, so that only what never comes fails a test."""
+TOKENS = {"referee": "the-referee", "cyan": "cyans-coach", "magenta": "magentas-coach"}
+
+
+def tokens_in(folder: Path) -> Path:
+    """A file with `TOKENS` in this folder."""
+    tokens = folder / "tokens.json"
+    if not tokens.exists():
+        tokens.touch(0o600)
+        tokens.write_text(json.dumps(TOKENS))
+    return tokens
+
+
+class Gateway:
+    """The page's server in a thread of its own; without a medium it waits for a host that does not come."""
+
+    def __init__(self, medium: Medium | None, settings: WebSettings, tokens: Path | None) -> None:
+        self.said: list[str] = []
+        self.binding = bind_page(settings, tokens_of(tokens), tokens)
+        self.origin = self.binding.origin
+        self.bus = medium.open_bus("friendly", WallClock()) if medium is not None else None
+        self._stop = asyncio.Event()
+        self._thread = threading.Thread(
+            target=self._run,
+        )
+        self._ready = threading.Event()
+        self._thread.start()
+        assert self._ready.wait(SOON)
+
+    def _run(self) -> None:
+        async def main() -> None:
+            self._loop = asyncio.get_running_loop()
+            if self.bus is not None:
+                self.server = WebServer(self.bus, self.binding, self.said.append)
+            waiting = WaitingPage(self.binding, "friendly")
+            self._ready.set()
+            await (waiting if self.bus is None else self.server).serve(self._stop)
+
+        asyncio.run(main())
+
+    @property
+    def port(self) -> int:
+        return int(self.origin.rpartition(":")[2])
+
+    def close(self) -> None:
+        if not self._thread.is_alive():
+            return
+        self._loop.call_soon_threadsafe(self._stop.set)
+        self._thread.join(SOON)
+        assert not self._thread.is_alive()
+        self.binding.listener.close()
+        if self.bus is not None:
+            self.bus.close()

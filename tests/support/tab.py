@@ -1,0 +1,87 @@
+"""The gateway's page in a real browser."""
+
+import json
+import time
+from typing import Any
+
+from playwright.sync_api import BrowserContext, Locator, Page
+
+from support.page_gateway import SOON, TOKENS
+
+
+class Tab:
+    """The page in a browser, and what it complained of."""
+
+    def __init__(self, context: BrowserContext, origin: str, role: str = "spectator") -> None:
+        self.context = context
+        self.page: Page = context.new_page()
+        self.faults: list[str] = []
+        self.requests: list[str] = []
+        self.loses_its_server = False
+        """The browser complains of a server that is not there, and is right."""
+        self.origin = origin
+        self.page.on("pageerror", lambda error: self.faults.append(str(error)))
+        self.page.on("console", lambda said: self._note(said.text) if said.type == "error" else None)
+        self.page.on("dialog", lambda dialog: self.faults.append(dialog.message))
+        self.page.on("request", lambda request: self.requests.append(request.url))
+        self.page.goto(f"{origin}/#token={TOKENS[role]}" if role in TOKENS else f"{origin}/")
+        self.until(f"window.touchline?.match.role === '{role}' && window.touchline.pitchCanvas.world !== null")
+
+    def _note(self, fault: str) -> None:
+        if not (self.loses_its_server and "WebSocket connection to" in fault):
+            self.faults.append(fault)
+
+    def until(self, holds: str) -> None:
+        """Wait for the page; its policy forbids to evaluate a text inside, so it is polled from outside."""
+        deadline = time.monotonic() + SOON
+        while not self.page.evaluate(holds):
+            assert time.monotonic() < deadline, f"never came true: {holds}"
+            self.page.wait_for_timeout(20)
+
+    def until_seen(self, body: str, x: float, y: float) -> None:
+        """Until the page draws a body, `ball` or `robots.cyan1`, at a place."""
+        there = f"window.touchline.pitchCanvas.world.{body}"
+        self.until(f"Math.hypot({there}.x - {x}, {there}.y - {y}) < 0.05")
+
+    def ask(self, what: str) -> Any:
+        return self.page.evaluate(what)
+
+    def open(self, tab: str) -> None:
+        self.page.locator(f"#to-{tab}").click()
+
+    def button(self, action: str, side: str = "") -> Locator:
+        return self.page.locator(f'[data-action="{action}"][data-side="{side}"]')
+
+    def logged(self) -> str:
+        """The newest line of the log, without its time."""
+        line: str = self.page.locator("#log li").first.evaluate("(line) => line.lastChild.textContent.trim()")
+        return line
+
+    def wait_for_log(self, text: str) -> None:
+        """Until the newest line of the log has this text."""
+        self.until(f"document.querySelector('#log li')?.textContent.includes({json.dumps(text)})")
+
+    def at(self, x: float, y: float) -> tuple[float, float]:
+        """Where a point of the field is in the window, in pixels."""
+        left, top = self.ask(
+            f"[window.touchline.pitchCanvas.projection.x({x}), window.touchline.pitchCanvas.projection.y({y})]"
+        )
+        box = self.page.locator("#moving").bounding_box()
+        assert box is not None
+        return box["x"] + left, box["y"] + top
+
+    def drag(self, start: tuple[float, float], end: tuple[float, float]) -> None:
+        """Drag from a point of the field to another."""
+        mouse = self.page.mouse
+        mouse.move(*self.at(*start))
+        mouse.down()
+        for share in (0.3, 0.7, 1.0):
+            mouse.move(*self.at(*(a + share * (b - a) for a, b in zip(start, end, strict=True))))
+        mouse.up()
+
+    def touch(self, kind: str, *fingers: tuple[float, float]) -> None:
+        """Fingers in the window, in pixels: `Start`, `Move` or `End`."""
+        if not hasattr(self, "_touching"):
+            self._touching = self.context.new_cdp_session(self.page)
+        points = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(fingers)]
+        self._touching.send("Input.dispatchTouchEvent", {"type": f"touch{kind}", "touchPoints": points})

@@ -1,0 +1,51 @@
+"""A port whose links lead to another one, and can be blocked."""
+
+import socket
+import threading
+from contextlib import suppress
+
+from support.page_gateway import SOON
+
+
+class Tunnel:
+    """A port that forwards to another one until it is blocked: then it silently drops everything."""
+
+    def __init__(self, port: int) -> None:
+        self._to = port
+        self._listener = socket.create_server(("127.0.0.1", 0))
+        self.port = int(self._listener.getsockname()[1])
+        self._links: list[tuple[socket.socket, socket.socket]] = []
+        self._blocked: list[socket.socket] = []
+        self._threads = [threading.Thread(target=self._accept)]
+        self._threads[0].start()
+
+    def block(self) -> None:
+        """All links that there are; new ones are not."""
+        self._blocked += [end for link in self._links for end in link]
+
+    def close(self) -> None:
+        for end in (self._listener, *(end for link in self._links for end in link)):
+            with suppress(OSError):
+                end.shutdown(socket.SHUT_RDWR)
+        for thread in self._threads:
+            thread.join(SOON)
+        for end in (self._listener, *(end for link in self._links for end in link)):
+            end.close()
+
+    def _accept(self) -> None:
+        with suppress(OSError):
+            while True:
+                near, _ = self._listener.accept()
+                far = socket.create_connection(("127.0.0.1", self._to))
+                self._links.append((near, far))
+                for ends in ((near, far), (far, near)):
+                    self._threads.append(threading.Thread(target=self._pump, args=ends))
+                    self._threads[-1].start()
+
+    def _pump(self, begin: socket.socket, end: socket.socket) -> None:
+        with suppress(OSError):
+            while data := begin.recv(65_536):
+                if begin not in self._blocked:
+                    end.sendall(data)
+            if begin not in self._blocked:
+                end.shutdown(socket.SHUT_WR)

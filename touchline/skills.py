@@ -1,0 +1,61 @@
+"""The skills as users' code calls them: pure functions from a robot's state and a setpoint to a drive or a kick.
+
+All are in the team frame, in m, rad and s. `me` is `sight.self`; `DriveLimits.of(briefing.setup)` are the limits of the
+robot.
+"""
+
+from robot_agent.bodies import Ball, Body, DriveLimits, Moving
+from robot_agent.skills.avoid import circles, free_direction, go_around, is_in_the_way
+from robot_agent.skills.circle import circle
+from robot_agent.skills.dribble_to import dribble_to
+from robot_agent.skills.go_to import drive, go_to
+from robot_agent.skills.intercept import meet, way_of
+from robot_agent.skills.keep_goal import guard_place, keep_goal
+from robot_agent.skills.keep_off import inside, keep_off
+from robot_agent.skills.keep_out import keep_out
+from robot_agent.skills.kick_at import kick_at
+from robot_agent.skills.let_go import let_go
+from robot_agent.skills.line_up import behind, line_up
+from robot_agent.skills.pass_to import best_receiver, is_open, pass_speed, pass_to
+from robot_agent.skills.receive import comes, receive
+from robot_agent.skills.search import search_place
+from robot_agent.skills.shoot import best_place, lane_width
+from robot_agent.skills.take_ball import take_ball
+from robot_agent.skills.turn_to import turn_to
+
+__all__ = [
+    "Ball",
+    "Body",
+    "DriveLimits",
+    "Moving",
+    "behind",
+    "best_place",
+    "best_receiver",
+    "circle",
+    "circles",
+    "comes",
+    "dribble_to",
+    "drive",
+    "free_direction",
+    "go_around",
+    "go_to",
+    "guard_place",
+    "inside",
+    "is_in_the_way",
+    "is_open",
+    "keep_goal",
+    "keep_off",
+    "keep_out",
+    "kick_at",
+    "lane_width",
+    "let_go",
+    "line_up",
+    "meet",
+    "pass_speed",
+    "pass_to",
+    "receive",
+    "search_place",
+    "take_ball",
+    "turn_to",
+    "way_of",
+]
