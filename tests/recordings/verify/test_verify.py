@@ -181,7 +181,7 @@ def test_a_recording_that_sets_in_late_is_compared_from_its_first_kick_off(opera
     assert [one.why for one in verdict.left_out] == [SkipReason.BEFORE, SkipReason.NO_START]
     result = run(late, "--jobs", "1")
     assert result.exit_code == 0
-    assert f"ticks {kick_off - 5} to {kick_off - 1} stand before the first tick" in result.stdout
+    assert f"ticks {kick_off - 5} to {kick_off - 1} are before the first tick" in result.stdout
 
 
 def test_without_the_match_file_the_hosts_setup_is_enough(operated: Path, edited) -> None:
