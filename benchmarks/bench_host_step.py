@@ -11,7 +11,8 @@ import time
 from collections.abc import Callable
 
 from schemas.config.match_config import load_match
-from schemas.messages.command import BallBelief, Command, Drive, Motion, Radio
+from schemas.messages.command import Command, Drive
+from schemas.messages.radio import BallBelief, Motion, Radio
 from schemas.wire.message import VERSION
 from schemas.wire.struct import encode
 from sim_host.match.simulation import Simulation

@@ -22,8 +22,8 @@ from schemas.config.robot_model import RobotModel
 from schemas.config.roster import Placement
 from schemas.config.rule_book import load_rule_book
 from schemas.frames import Pose
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive
-from schemas.messages.host import AppliedInput
 from schemas.side import Side
 from sim_host.match.radio import RadioAir
 from sim_host.match.sights import Sights

@@ -20,7 +20,7 @@ from coach_gateway.web.listener import free_port
 from coach_gateway.web.settings import WebSettings
 from schemas.bus.contract import Subscription
 from schemas.bus.zenoh.bus import open_client
-from schemas.messages.host import Health
+from schemas.messages.health import Health
 from schemas.process.clock import WallClock
 from schemas.topics import HEALTH
 

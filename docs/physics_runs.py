@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from schemas.config.profile import Profile, load_profile
 from schemas.config.robot_model import RobotModel
 from schemas.config.roster import Placement
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive, Kick, KickMode
-from schemas.messages.host import AppliedInput
 from schemas.side import Side
 from sim_host.match.world import World
 from sim_host.sensing.perception import Perception

@@ -3,11 +3,11 @@
 import math
 from typing import NamedTuple, Protocol
 
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 
 class Moving(Protocol):
-    """A robot as skills take it, `Body` or `schemas.messages.command.Motion`: m, rad, m/s, rad/s."""
+    """A robot as skills take it, `Body` or `schemas.messages.radio.Motion`: m, rad, m/s, rad/s."""
 
     @property
     def x(self) -> float: ...

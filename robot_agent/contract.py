@@ -13,7 +13,7 @@ from typing import Any, Protocol
 
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.command import Command
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.side import Side
 

@@ -10,7 +10,7 @@ from robot_agent.bodies import Body
 from robot_agent.skills.take_ball import HAS_IT
 from robot_agent.world_model import WorldBelief
 from schemas.game import TeamPhase
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 Point = tuple[float, float]
 

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from robot_agent import run
 from robot_agent.settings import AgentSettings
-from schemas.process.settings_file import exit_status
+from schemas.config.settings_file import exit_status
 
 PRELOAD = ("robot_agent.process", "robot_agent.forked")
 """Modules that every robot needs, this one among them."""

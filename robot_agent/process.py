@@ -8,7 +8,7 @@ from robot_agent.runner import serve
 from robot_agent.settings import AgentSettings
 from schemas.bus.zenoh.bus import open_client
 from schemas.config.match_config import LOCKSTEP
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.process.clock import WallClock
 from schemas.process.scheduling import use_batch_scheduling
 

@@ -10,7 +10,7 @@ from schemas.bus.contract import Bus, NoReplyError, PresenceKind
 from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
-from schemas.messages.host import Setup, SetupRequest
+from schemas.messages.setup import Setup, SetupRequest
 from schemas.messages.sight import Sight
 from schemas.topics import COMMAND, SETUP, SIGHT
 from schemas.wire.message import BadMessageError

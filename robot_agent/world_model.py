@@ -13,8 +13,8 @@ from robot_agent.bodies import Ball, Body
 from robot_agent.contract import Briefing
 from robot_agent.opponents import Opponents
 from schemas.frames import wrap
-from schemas.game import GameView
-from schemas.messages.command import Motion
+from schemas.messages.game import GameView
+from schemas.messages.radio import Motion
 from schemas.messages.sight import BallSight, ReceivedRadio, Sight
 
 FRESH = 0.2

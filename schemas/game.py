@@ -1,16 +1,14 @@
-"""The state of the game: phases, score, events, and the actions that change it."""
+"""The vocabulary of the game: phases, cards, score, events and actions."""
 
 from enum import StrEnum
 from typing import Annotated
 
-import msgspec
-from msgspec import Meta
 from pydantic import Field
 
 from schemas.side import Side
-from schemas.wire.message import Message, Name, Part, Source
+from schemas.wire.message import Part
 from schemas.wire.struct import Struct
-from schemas.wire.units import Metres, Seconds
+from schemas.wire.units import Metres
 
 
 class Phase(StrEnum):
@@ -67,7 +65,6 @@ class OffField(StrEnum):
 
 SIDED = frozenset({Phase.KICK_OFF, Phase.FREE_KICK, Phase.GOAL_KICK, Phase.THROW_IN, Phase.CORNER, Phase.PENALTY})
 """Restarts that one side takes."""
-
 RESTARTS = SIDED | {Phase.DROP_BALL}
 """All restarts."""
 
@@ -140,88 +137,6 @@ class Score(Part):
         return Score(**{other.value: self.of(other) for other in Side} | added)
 
 
-class DisciplinaryRecord(Struct, frozen=True, kw_only=True):
-    """The cards of one robot, and whether it is off the field."""
-
-    yellow: Annotated[int, Meta(ge=0)] = 0
-    """Yellow cards that count toward the next punishment."""
-    red: Annotated[int, Meta(ge=0)] = 0
-    """Red cards."""
-    off_field: OffField | None = None
-    """Why the robot does not take part; None while it does."""
-    left: Seconds | None = None
-    """Time until the robot may return, at the next stoppage, in s; None on the field, and where it may not return."""
-
-
-class GameState(Message):
-    """The state of the game, in the field frame."""
-
-    tick: int
-    """Control ticks since the match began."""
-    time: float
-    """Simulated time in s: tick × control tick."""
-    phase: Phase
-    """What is being played; a restart belongs to `side`."""
-    side: Side | None = None
-    """The side that takes the restart; None where no side does."""
-    running: bool = False
-    """START was given; before that, robots take their positions and may not play the ball."""
-    half: Annotated[int, Field(ge=1)] = 1
-    """The half that is being played; counts on through extra time."""
-    stage: GameStage = GameStage.REGULAR
-    """Regular time, extra time, or the penalty shoot-out."""
-    clock: float = 0.0
-    """Game clock in s: playing time of this half and those before it."""
-    effective: float = 0.0
-    """Effective playing time in s: how long the ball has been in play."""
-    score: Score = Score()
-    """Goals without those of a penalty shoot-out."""
-    shoot_out: Score | None = None
-    """Goals of the penalty shoot-out, during and after it; None without one."""
-    cyan_attacks: Annotated[int, Field(ge=-1, le=1)] = 1
-    """Sign of the x direction that cyan attacks."""
-    spot: Point | None = None
-    """Where the ball is placed for the restart, in the field frame; None where the referee has set no spot."""
-    left: float | None = None
-    """Time in s until the limit of the current phase (START, ball in play, end of a break or of a shoot-out's attempt);
-    None without one."""
-    robots: dict[Name, DisciplinaryRecord] = Field(default_factory=dict)
-    """Robot → its cards, and why it is off the field; robots without either are left out."""
-    proposal: str | None = None
-    """Mixed officiating: what the referee has proposed and not yet carried out; None without a proposal."""
-    episode: int = 1
-    """Counts the starts of the world: the match's own, each scene that is loaded, each reset."""
-
-
-class GameView(Struct, frozen=True, kw_only=True):
-    """The state of the game from one team's point of view."""
-
-    phase: TeamPhase
-    """What is being played, and whose restart it is."""
-    running: bool
-    """START was given; before that, robots take their positions and may not play the ball."""
-    half: int = 1
-    """The half that is being played; counts on through extra time."""
-    clock: Seconds
-    """Game clock in s: playing time of this half and those before it."""
-    our_score: int
-    """Our goals, without those of a penalty shoot-out."""
-    their_score: int
-    """Their goals, without those of a penalty shoot-out."""
-    spot: Point | None = None
-    """Where the ball is placed for the restart, in the team frame; None where the referee has set no spot."""
-    stage: GameStage = GameStage.REGULAR
-    """Regular time, extra time, or the penalty shoot-out."""
-    left: Seconds | None = None
-    """Time in s until the limit of the current phase (START, ball in play, end of a break or of a shoot-out's attempt);
-    None without one."""
-    robots: dict[Name, DisciplinaryRecord] = msgspec.field(default_factory=dict)
-    """Our robot → its cards, and why it is off the field; robots without either are left out."""
-    episode: int = 1
-    """Counts the starts of the world. When the number changes, the world was set up anew, and earlier beliefs are
-    void."""
-
-
 class EventKind(StrEnum):
     """What happened."""
 
@@ -247,41 +162,6 @@ class EventKind(StrEnum):
     AGENT = "agent"
     PARAMETERS = "parameters"
     SCENE = "scene"
-
-
-class GameEvent(Message):
-    """Something that happened, with its rule, place, robots and measured quantity."""
-
-    tick: int
-    """Control ticks since the match began."""
-    time: float
-    """Simulated time in s: tick × control tick."""
-    clock: float
-    """Game clock in s."""
-    kind: EventKind
-    """What happened."""
-    rule: str
-    """Name of the rule or action that caused it."""
-    side: Side | None = None
-    """The side that it concerns; None where it concerns neither or both."""
-    robot: Name | None = None
-    """The robot that caused it: the scorer, the last to touch the ball, the offender."""
-    robots: list[Name] = Field(default_factory=list)
-    """All robots that it concerns, where there is more than one."""
-    place: Point | None = None
-    """Where it happened, in the field frame; None where it has no place."""
-    score: Score | None = None
-    """The score after it; None where the score did not change."""
-    measured: float | None = None
-    """The measured quantity, in `unit`; None where the rule measures none."""
-    limit: float | None = None
-    """The limit that the rule sets for it, in `unit`; None where the rule measures none."""
-    unit: str = ""
-    """Unit of `measured` and `limit`; empty without them."""
-    card: Card | None = None
-    """The card that was shown; None without one."""
-    text: str
-    """One sentence for display, with the measured quantity where there is one."""
 
 
 class ActionName(StrEnum):
@@ -314,30 +194,3 @@ class ActionName(StrEnum):
 
 REFBOX = "refbox"
 """The source of requests from a league's referee box, and the kind of its liveliness token."""
-
-
-class RefereeAction(Message):
-    """A request to the referee; accepted, or refused with the reason."""
-
-    action: ActionName
-    """The requested action."""
-    side: Side | None = None
-    """The side that it concerns; None for actions without a side."""
-    robot: Name | None = None
-    """The scorer of a goal; the robot that a card, a repair, a substitution or an entry concerns."""
-    place: Point | None = None
-    """Place of the action in the field frame, from which a restart takes its spot; by default where the ball lies."""
-    source: Source = "coach"
-    """Name of the sender, for display."""
-
-
-class ActionReply(Message):
-    """The referee's reply to an action."""
-
-    accepted: bool
-    """The action was carried out."""
-    reason: str = ""
-    """Why it was refused; empty where it was accepted."""
-    tick: int | None = None
-    """Tick in which the referee judged the action; the state of that tick is published before the reply. None where
-    the request did not reach the referee."""

@@ -4,16 +4,19 @@ Access rules, the recorder, `docs/protocol.md` and the tests are derived from th
 All keys are below `touchline/{match}/`.
 """
 
-from schemas.config.scene import SceneReply, SceneRequest
-from schemas.game import ActionReply, GameEvent, GameState, RefereeAction
+from schemas.messages.applied import Applied
 from schemas.messages.coach import ActiveOrder, CoachOrder
 from schemas.messages.command import Command
-from schemas.messages.host import Applied, Belief, Health, Invalid, RecorderProgress, Setup, SetupRequest
+from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeAction
+from schemas.messages.health import Health, Invalid
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParametersReply, ParametersRequest
+from schemas.messages.radio import Belief
 from schemas.messages.record_batch import RecordBatch, RecordBatchesReply, RecordBatchesRequest
-from schemas.messages.recorder import RecorderReply, RecorderRequest
+from schemas.messages.recorder import RecorderProgress, RecorderReply, RecorderRequest
 from schemas.messages.replay import ReplayReply, ReplayRequest
+from schemas.messages.scene import SceneReply, SceneRequest
+from schemas.messages.setup import Setup, SetupRequest
 from schemas.messages.sight import Sight
 from schemas.messages.world import BallFrame, RobotFrame, World
 from schemas.recovery_window import BATCH_S, BATCH_TICKS, KEPT_BATCHES

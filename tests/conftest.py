@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, settings
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_host
 from schemas.config.match_config import MatchConfig
-from schemas.messages.host import Applied, chained_part_of
+from schemas.messages.applied import Applied, chained_part_of
 from schemas.process.clock import WallClock
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.resimulation import Conditions, Resimulation

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from robot_agent.contract import Brain, Briefing
     from schemas.config.match_config import MatchConfig, load_match
-    from schemas.messages.command import BallBelief, Command, Drive, Kick, KickMode, Motion, Radio
+    from schemas.messages.command import Command, Drive, Kick, KickMode
+    from schemas.messages.radio import BallBelief, Motion, Radio
     from schemas.messages.sight import Sight
     from touchline import skills
     from touchline.play import MatchOutcome, play_match

@@ -9,8 +9,9 @@ from dataclasses import dataclass, field
 
 from robot_agent.contract import Brain, Briefing, load_brain
 from schemas.config.match_config import MatchConfig
-from schemas.game import GameEvent, RefereeAction, Score
+from schemas.game import Score
 from schemas.messages.command import Command
+from schemas.messages.game import GameEvent, RefereeAction
 from schemas.messages.sight import Sight
 from schemas.side import Side
 from sim_host.match.simulation import Simulation, TickResult

@@ -1,4 +1,4 @@
-"""The script `touchline`, as it is installed: every robot that is forked imports it again, so it loads nothing else."""
+"""The installed script `touchline`. Every forked robot imports it again, so it imports no other module."""
 
 
 def main() -> None:

@@ -7,8 +7,8 @@ from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import event_line, state_line
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.errors import TouchlineError
-from schemas.game import GameEvent, GameState
-from schemas.messages.host import Health
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.health import Health
 
 _POLL = 0.05
 """s of wall time between looks."""

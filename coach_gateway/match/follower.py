@@ -12,9 +12,11 @@ from coach_gateway.match.host_change import HostChangeDetector
 from coach_gateway.match.orders import OrderBook, OrderFollower
 from schemas.bus.contract import Bus, PresenceKind, PresenceWatch, ReceivedMessage, Subscription
 from schemas.bus.host_watch import HostWatch
-from schemas.game import GameEvent, GameState, Phase
-from schemas.messages.command import Radio
-from schemas.messages.host import Belief, Health, RecorderProgress
+from schemas.game import Phase
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.health import Health
+from schemas.messages.radio import Belief, Radio
+from schemas.messages.recorder import RecorderProgress
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import BELIEF, EVENT, HEALTH, RECORDER_PROGRESS, STATE, WORLD

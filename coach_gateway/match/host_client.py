@@ -4,13 +4,13 @@ from typing import Any
 
 from coach_gateway.match.orders import OrderFollower, Receipt
 from schemas.bus.contract import Bus, NoReplyError, Publisher
-from schemas.config.scene import SceneReply, SceneRequest
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.game import ActionReply, RefereeAction
 from schemas.messages.coach import CoachOrder
-from schemas.messages.host import Setup, SetupRequest
+from schemas.messages.game import ActionReply, RefereeAction
 from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.messages.replay import ReplayReply, ReplayRequest
+from schemas.messages.scene import SceneReply, SceneRequest
+from schemas.messages.setup import Setup, SetupRequest
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import ACTION, ORDER, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP

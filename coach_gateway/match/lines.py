@@ -1,6 +1,7 @@
 """The match in plain words: one line for a state, one for an event."""
 
-from schemas.game import SIDED, GameEvent, GameStage, GameState
+from schemas.game import SIDED, GameStage
+from schemas.messages.game import GameEvent, GameState
 
 
 def printable(text: str) -> str:

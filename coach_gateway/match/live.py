@@ -14,9 +14,11 @@ from coach_gateway.match.orders import OrderBook
 from coach_gateway.service import pause
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.errors import TouchlineError
-from schemas.game import REFBOX, ActionName, ActionReply, GameEvent, GameState, RefereeAction
+from schemas.game import REFBOX, ActionName
 from schemas.messages.coach import CoachOrder
-from schemas.messages.host import Belief, Setup
+from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeAction
+from schemas.messages.radio import Belief
+from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
 

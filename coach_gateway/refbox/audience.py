@@ -3,9 +3,10 @@
 from collections.abc import Mapping
 from typing import Any
 
-from schemas.game import DisciplinaryRecord, GameStage, GameState, OffField, Phase
+from schemas.game import GameStage, OffField, Phase
 from schemas.league.calls import Call
-from schemas.messages.host import Setup
+from schemas.messages.game import DisciplinaryRecord, GameState
+from schemas.messages.setup import Setup
 from schemas.side import Side
 
 VERSION = "1.2.0"

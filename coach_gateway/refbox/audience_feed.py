@@ -13,8 +13,8 @@ from coach_gateway.refbox.own_world_state import own_world_state
 from coach_gateway.refbox.team_world_state import TeamWorldState
 from coach_gateway.service import pause
 from schemas.errors import TouchlineError
-from schemas.game import GameState
 from schemas.league.robot_numbers import numbers_of
+from schemas.messages.game import GameState
 from schemas.side import Side
 
 EVERY_S = 0.05

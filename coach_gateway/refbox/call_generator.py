@@ -2,9 +2,10 @@
 
 from collections.abc import Mapping
 
-from schemas.game import EventKind, GameState
+from schemas.game import EventKind
 from schemas.league.calls import Call, calls
 from schemas.league.signals import BY_NAME
+from schemas.messages.game import GameState
 from schemas.side import Side
 
 _HELD = (EventKind.CARD, EventKind.OFF_FIELD, EventKind.ON_FIELD)

@@ -19,10 +19,11 @@ from coach_gateway.refbox.framing import BoxProtocol, Framer
 from coach_gateway.refbox.own_world_state import own_world_state
 from coach_gateway.service import pause
 from schemas.errors import TouchlineError
-from schemas.game import OfficiatingMode, RefereeAction
+from schemas.game import OfficiatingMode
 from schemas.league.robot_numbers import numbers_of
 from schemas.league.signals import Signal
 from schemas.messages.coach import CoachMode
+from schemas.messages.game import RefereeAction
 from schemas.side import Side
 
 UPLOAD_S = 0.05

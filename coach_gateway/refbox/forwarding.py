@@ -7,9 +7,10 @@ those for both.
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
-from schemas.game import REFBOX, RESTARTS, ActionName, EventKind, GameStage, GameState, Phase, RefereeAction
+from schemas.game import REFBOX, RESTARTS, ActionName, EventKind, GameStage, Phase
 from schemas.league.signals import SIGNALS, Signal
 from schemas.messages.coach import CoachMode
+from schemas.messages.game import GameState, RefereeAction
 from schemas.side import Side
 
 BREAKS = (Phase.HALF_TIME, Phase.PARKING)

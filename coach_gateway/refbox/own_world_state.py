@@ -8,11 +8,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from schemas.frames import Pose
-from schemas.game import GameState
 from schemas.league.robot_numbers import numbers_of
 from schemas.league.world_state import BallSeen, ObstacleSeen, RobotSeen, world_state
-from schemas.messages.command import Radio
-from schemas.messages.host import Belief, Setup
+from schemas.messages.game import GameState
+from schemas.messages.radio import Belief, Radio
+from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 

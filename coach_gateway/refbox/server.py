@@ -18,10 +18,10 @@ from coach_gateway.refbox.commands import BoxCommand
 from coach_gateway.refbox.framing import BoxProtocol, Framer
 from coach_gateway.refbox.identity import Identity, UnknownTeamError, identify, targets
 from coach_gateway.refbox.team_world_state import TeamWorldState
-from schemas.game import GameState
 from schemas.league.calls import Call
 from schemas.league.robot_numbers import numbers_of
 from schemas.league.signals import BY_NAME, START, STOP
+from schemas.messages.game import GameState
 from schemas.side import Side
 
 MOST = 16

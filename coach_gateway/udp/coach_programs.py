@@ -26,8 +26,9 @@ from coach_gateway.udp.protocol import (
     ProgramRequest,
 )
 from coach_gateway.udp.session import AT_ONCE, PER_SECOND, SequenceStatus, Session
-from schemas.game import ActionName, RefereeAction
+from schemas.game import ActionName
 from schemas.messages.coach import CoachMode
+from schemas.messages.game import RefereeAction
 from schemas.side import Side
 from schemas.wire.faults import fault_of
 

@@ -11,8 +11,8 @@ from pydantic import Field, StringConstraints, TypeAdapter
 from coach_gateway.access.roles import Role
 from coach_gateway.match.orders import OrderContent
 from coach_gateway.udp.coach_record import MatchMode
-from schemas.game import GameEvent, GameState, RefereeAction
-from schemas.messages.host import Belief
+from schemas.messages.game import GameEvent, GameState, RefereeAction
+from schemas.messages.radio import Belief
 from schemas.side import Side
 from schemas.wire.message import Name, Part
 

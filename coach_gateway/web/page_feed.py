@@ -8,8 +8,8 @@ from collections.abc import Iterable
 from coach_gateway.match.follower import MatchFollower, MatchNews
 from coach_gateway.web.protocol import EventUpdate, OrdersUpdate, RefBoxUpdate, SideOrders
 from schemas.bus.contract import Bus
-from schemas.game import GameEvent
-from schemas.messages.host import Setup
+from schemas.messages.game import GameEvent
+from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import BELIEF, HEALTH, STATE, WORLD

@@ -14,13 +14,15 @@ from pydantic import Field, StringConstraints, TypeAdapter
 
 from coach_gateway.access.roles import Role
 from coach_gateway.match.orders import OrderContent
-from schemas.config.scene import SceneRequest
-from schemas.game import GameEvent, GameState, RefereeAction
 from schemas.messages.coach import CoachOrder
-from schemas.messages.host import Belief, Health, Setup
+from schemas.messages.game import GameEvent, GameState, RefereeAction
+from schemas.messages.health import Health
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import ParametersRequest
+from schemas.messages.radio import Belief
 from schemas.messages.replay import ReplayReply, ReplayRequest
+from schemas.messages.scene import SceneRequest
+from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.wire.message import Name, Part

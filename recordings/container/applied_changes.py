@@ -6,7 +6,7 @@ import msgspec
 
 
 class Changes(msgspec.Struct, frozen=True, gc=False):
-    """The fields of `schemas.messages.host.Applied` that stay in force in all later ticks."""
+    """The fields of `schemas.messages.applied.Applied` that stay in force in all later ticks."""
 
     robots: list[Any] | None = None
     obstacles: list[Any] | None = None

@@ -4,10 +4,9 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Self
 
-from schemas.config.goalkeeper import goalkeeper_of
 from schemas.config.profile import STANDARD
-from schemas.config.roster import RosterEntry
-from schemas.messages.host import Setup
+from schemas.config.roster import RosterEntry, goalkeeper_of
+from schemas.messages.setup import Setup
 from schemas.side import Side
 
 

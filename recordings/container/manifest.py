@@ -11,7 +11,7 @@ from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.container.scene_by_name import with_scene
 from schemas.config.match_config import MatchConfig
 from schemas.game import Phase, Score
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.process.clock import Clock
 from schemas.topics import EVENT
 from schemas.wire.message import VERSION, Name, Part

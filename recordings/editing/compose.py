@@ -10,7 +10,8 @@ from recordings.recorder.recording_writer import RecordingWriter
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.sequence_tracker import SequenceTracker
 from schemas.bus.contract import ReceivedMessage, Stamp
-from schemas.game import GameState, Phase
+from schemas.game import Phase
+from schemas.messages.game import GameState
 from schemas.messages.world import World
 from schemas.process.clock import WallClock
 from schemas.topic import Topic

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 from recordings.exchange.atomic_output import ExportSummary, atomic_output
 from recordings.exchange.robot_sides import sides_of
 from recordings.reading.recording import RecordedMessage, Recording
-from schemas.game import GameEvent, GameState
 from schemas.messages.command import Command
+from schemas.messages.game import GameEvent, GameState
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import COMMAND, EVENT, STATE, WORLD

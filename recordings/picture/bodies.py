@@ -13,7 +13,7 @@ from matplotlib.transforms import Affine2D
 
 from schemas.config.obstacle import Shape
 from schemas.config.sections import RobotBody
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.messages.world import ObstacleTruth, World
 from schemas.side import Side
 

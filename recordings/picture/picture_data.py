@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 from recordings.reading.recording import RecordedMessage, open_recording
 from schemas.errors import TouchlineError
-from schemas.game import EventKind, GameEvent, GameState, Phase, Score
-from schemas.messages.host import Setup
+from schemas.game import EventKind, Phase, Score
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import EVENT, STATE, WORLD

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 from pydantic_core import from_json
 
 from recordings.reading.recording import RecordedMessage
+from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.command import Command
-from schemas.messages.host import Applied, AppliedInput
 from schemas.wire.message import BadMessageError
 
 _KEPT = 1000

@@ -9,8 +9,9 @@ from recordings.container.manifest import KeyCount
 from recordings.reading.command_check import CommandCheck
 from recordings.reading.recording import RecordedMessage, Recording
 from recordings.reading.tick_index import Segment
-from schemas.game import EventKind, GameEvent
-from schemas.messages.host import Applied
+from schemas.game import EventKind
+from schemas.messages.applied import Applied
+from schemas.messages.game import GameEvent
 from schemas.topics import APPLIED, COMMAND, EVENT, WORLD
 from schemas.wire.message import BadMessageError
 

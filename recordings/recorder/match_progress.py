@@ -7,8 +7,9 @@ from typing import Any
 from recordings.container.applied_changes import changes_in
 from schemas.bus.contract import ReceivedMessage
 from schemas.config.roster import RosterEntry
-from schemas.game import EventKind, GameEvent, GameState, Phase
-from schemas.messages.host import Applied
+from schemas.game import EventKind, Phase
+from schemas.messages.applied import Applied
+from schemas.messages.game import GameEvent, GameState
 from schemas.topics import APPLIED, EVENT, STATE
 from schemas.wire.message import BadMessageError
 

@@ -22,8 +22,9 @@ from recordings.recorder.unbatch import Unbatcher
 from schemas.bus.contract import Bus, NoReplyError, PendingReply, PresenceKind
 from schemas.bus.host_watch import RECONNECT_S, HostWatch
 from schemas.config.match_config import MatchConfig
-from schemas.messages.host import RecorderProgress, Setup, SetupRequest
 from schemas.messages.record_batch import Batch
+from schemas.messages.recorder import RecorderProgress
+from schemas.messages.setup import Setup, SetupRequest
 from schemas.process.idle_time import run_in_idle_time
 from schemas.recovery_window import REPORT_TICKS
 from schemas.topics import EVENT, RECORD_BATCH, RECORDER_PROGRESS, SETUP

@@ -2,7 +2,7 @@
 
 from recordings.container.lineup import Lineup
 from schemas.config.roster import RosterEntry
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 
 class RosterMetadata:

@@ -10,7 +10,8 @@ from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.recording_writer import RecordingWriter
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.sink import FileLimits, MakeHeader, MakeResult
-from schemas.game import EventKind, GameEvent
+from schemas.game import EventKind
+from schemas.messages.game import GameEvent
 from schemas.process.clock import Clock
 from schemas.topics import EVENT
 from schemas.wire.message import BadMessageError

@@ -9,11 +9,11 @@ from recordings.replay.listeners import Listeners
 from recordings.replay.player import Player
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, PresenceKind, Publisher, ReceivedMessage, Server, Stamp
-from schemas.config.scene import SceneReply
-from schemas.game import ActionReply
-from schemas.messages.host import Setup
+from schemas.messages.game import ActionReply
 from schemas.messages.parameters import ParametersReply
 from schemas.messages.replay import ReplayReply, ReplayRequest
+from schemas.messages.scene import SceneReply
+from schemas.messages.setup import Setup
 from schemas.recovery_window import PARTING_S
 from schemas.topic import Party, Topic
 from schemas.topics import ACTION, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP

@@ -15,8 +15,8 @@ from recordings.replay.player import Player
 from recordings.viz.drawing import SCHEMAS, Drawing
 from recordings.viz.foxglove import descriptors
 from schemas.errors import TouchlineError
-from schemas.messages.host import Setup
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
+from schemas.messages.setup import Setup
 from schemas.topics import WORLD
 
 if TYPE_CHECKING:

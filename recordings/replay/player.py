@@ -13,7 +13,7 @@ from recordings.reading.recording import RecordedMessage
 from recordings.reading.split_cursor import SplitCursor
 from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE, PlaybackClock
 from schemas.errors import TouchlineError
-from schemas.game import GameEvent
+from schemas.messages.game import GameEvent
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.process.clock import Clock
 from schemas.topic import Topic

@@ -11,7 +11,7 @@ from recordings.replay.playback_clock import AS_FAST_AS_POSSIBLE
 from recordings.replay.player import PlaybackRange, Player
 from recordings.replay.seek_targets import SeekTarget, seek_targets_of, time_of
 from schemas.errors import TouchlineError, did_you_mean
-from schemas.game import GameEvent
+from schemas.messages.game import GameEvent
 from schemas.process.clock import Clock
 from schemas.topics import EVENT
 

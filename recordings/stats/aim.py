@@ -3,7 +3,7 @@
 import math
 from enum import Enum, auto
 
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth
 
 GRAVITY = 9.81

@@ -12,8 +12,9 @@ from recordings.stats.kicks import ON_GOAL, PASSES, SHOTS, KickOutcome, KickReco
 from recordings.stats.momentum import Momentum
 from recordings.stats.motion import MotionStats, MotionTracker
 from recordings.stats.referee_calls import Goal, RefereeCalls
-from schemas.game import Card, GameEvent
-from schemas.messages.host import Setup
+from schemas.game import Card
+from schemas.messages.game import GameEvent
+from schemas.messages.setup import Setup
 from schemas.side import Side
 
 

@@ -13,7 +13,7 @@ from recordings.stats.aim import Aim, aim
 from recordings.stats.match_tick import MatchTick
 from schemas.game import EventKind
 from schemas.messages.command import KickMode
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth
 from schemas.side import Side
 

@@ -13,7 +13,7 @@ from recordings.stats.momentum import Momentum
 from recordings.stats.motion import MotionTracker
 from recordings.stats.referee_calls import RefereeCalls
 from schemas.errors import TouchlineError
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.topics import WORLD
 

@@ -7,9 +7,11 @@ from operator import itemgetter
 from typing import Any
 
 from recordings.container.lineup import Lineup
-from schemas.game import GameEvent, GameState, Phase
+from schemas.game import Phase
+from schemas.messages.applied import Applied
 from schemas.messages.command import Kick
-from schemas.messages.host import Applied, Setup
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import APPLIED, EVENT, STATE, WORLD

@@ -4,7 +4,8 @@ from collections import Counter
 from dataclasses import dataclass
 
 from recordings.stats.match_tick import MatchTick
-from schemas.game import RESTARTS, Card, EventKind, GameEvent, GameState, Phase, Score
+from schemas.game import RESTARTS, Card, EventKind, Phase, Score
+from schemas.messages.game import GameEvent, GameState
 from schemas.side import Side
 
 

@@ -4,7 +4,7 @@ import math
 from array import array
 
 from recordings.stats.match_tick import MatchTick
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.messages.world import World
 
 MAX_RATE = 25.0

@@ -16,8 +16,9 @@ from recordings.viz.primitives import encode_scene, scene_update
 from recordings.viz.robots import RobotAppearance, ball_entities, robot_entity
 from recordings.viz.transforms import Transforms
 from schemas.bus.contract import ReceivedMessage
-from schemas.game import GameEvent, GameState
-from schemas.messages.host import Applied, Setup
+from schemas.messages.applied import Applied
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.setup import Setup
 from schemas.messages.world import ObstacleTruth
 from schemas.topics import APPLIED, EVENT, STATE, WORLD
 from schemas.wire.message import BadMessageError

@@ -6,8 +6,9 @@ from recordings.viz.colours import INK, TEAM_TEXT
 from recordings.viz.foxglove import set_time
 from recordings.viz.primitives import encode_scene, entity, scene_update, text
 from recordings.viz.transforms import MAP
-from schemas.game import EventKind, GameEvent, GameState
-from schemas.messages.host import Setup
+from schemas.game import EventKind
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.setup import Setup
 from schemas.side import Side
 
 _BOARD_GAP, _BOARD_Z = 0.8, 0.8

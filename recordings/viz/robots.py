@@ -13,7 +13,7 @@ from recordings.viz.transforms import BALL as BALL_FRAME
 from recordings.viz.transforms import BALL_SHADOW, base
 from schemas.config.profile import STANDARD
 from schemas.config.sections import RobotBody
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.side import Side
 
 _PLATE = 0.02

@@ -9,7 +9,7 @@ from recordings.container.mcap_file import DERIVED
 from recordings.viz.drawing import SCHEMAS, Drawing
 from recordings.viz.foxglove import descriptors
 from schemas.bus.contract import ReceivedMessage
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 
 class VizChannels:

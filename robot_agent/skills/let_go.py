@@ -7,7 +7,7 @@ from robot_agent.bodies import Moving
 from robot_agent.skills.keep_off import inside
 from robot_agent.skills.shoot import lane_width
 from schemas.messages.command import Kick, KickMode
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 Point = tuple[float, float]
 

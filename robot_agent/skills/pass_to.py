@@ -8,7 +8,7 @@ from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.shoot import lane_width
 from schemas.frames import wrap
 from schemas.messages.command import Drive, Kick
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 Point = tuple[float, float]
 

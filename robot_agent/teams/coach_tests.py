@@ -25,7 +25,7 @@ from schemas.frames import wrap
 from schemas.game import Point
 from schemas.messages.coach import CoachOrder, CoachTest
 from schemas.messages.command import Drive, KickMode
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 ROLE = "test"
 ARRIVED = 0.1

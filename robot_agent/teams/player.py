@@ -16,10 +16,12 @@ from robot_agent.teams import coach_tests, shoot_out
 from robot_agent.teams.action import Action
 from robot_agent.teams.set_piece import PENALTIES
 from robot_agent.world_model import WorldBelief, WorldModel
-from schemas.config.goalkeeper import goalkeeper_of
-from schemas.game import GameStage, GameView, TeamPhase
+from schemas.config.roster import goalkeeper_of
+from schemas.game import GameStage, TeamPhase
 from schemas.messages.coach import CoachMode, CoachOrder
-from schemas.messages.command import BallBelief, Command, Drive, Motion, Radio
+from schemas.messages.command import Command, Drive
+from schemas.messages.game import GameView
+from schemas.messages.radio import BallBelief, Motion, Radio
 from schemas.messages.sight import Sight
 
 RADIO_EVERY = 5

@@ -10,9 +10,10 @@ from robot_agent.skills.keep_off import inside, keep_off
 from robot_agent.skills.line_up import line_up
 from robot_agent.skills.turn_to import turn_rate
 from schemas.config.rule_book import Restarts
-from schemas.game import GameView, TeamPhase
+from schemas.game import TeamPhase
 from schemas.messages.command import Drive
-from schemas.messages.host import Setup
+from schemas.messages.game import GameView
+from schemas.messages.setup import Setup
 
 MARGIN = 0.2
 """m beyond the required distance, for the noise of positions."""

@@ -13,9 +13,10 @@ from robot_agent.skills.kick_at import kick_at
 from robot_agent.teams.set_piece import step_in
 from robot_agent.world_model import WorldBelief
 from schemas.config.sections import Pitch
-from schemas.game import GameView, TeamPhase
+from schemas.game import TeamPhase
 from schemas.messages.command import Drive, Kick
-from schemas.messages.host import Setup
+from schemas.messages.game import GameView
+from schemas.messages.setup import Setup
 
 WAITS = 0.7
 """m before the halfway line where the kicker waits, in the centre circle."""

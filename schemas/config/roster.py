@@ -1,4 +1,6 @@
-"""The roster of a match: which robots take part, and where bodies are placed."""
+"""The roster of a match: which robots take part, which keeps the goal, and where bodies are placed."""
+
+from collections.abc import Container, Sequence
 
 from schemas.side import Side
 from schemas.wire.message import Name, Part
@@ -48,3 +50,13 @@ class Placement(Part):
     """Velocity of the ball upward, in m/s."""
     omega: float = 0.0
     """Turn rate of a robot, in rad/s."""
+
+
+def goalkeeper_of(robots: Sequence[str], off_field: Container[str]) -> str | None:
+    """The goalkeeper of a side that plays with one; None while all its robots are off the field.
+
+    Args:
+        robots: the robots of the side, its goalkeeper first.
+        off_field: robots that are off the field: sent off, in repair, or waiting as substitutes.
+    """
+    return next((name for name in robots if name not in off_field), None)

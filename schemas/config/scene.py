@@ -4,7 +4,6 @@ Everything is in the field frame: m, rad, m/s, rad/s. A scene begins in the firs
 """
 
 import tomllib
-from enum import StrEnum
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any
@@ -17,14 +16,12 @@ from schemas.config.toml_file import validate_tables
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.game import RESTARTS, SIDED, Phase, Score
 from schemas.side import Side
-from schemas.wire.message import Message, Name, Part, Source
+from schemas.wire.message import Name, Part
 
 Speed = Annotated[float, Field(ge=-40, le=40)]
 """m/s or rad/s."""
-
 PHASES = frozenset({Phase.PRE_GAME, Phase.STOPPED, Phase.PLAY}) | RESTARTS
 """The phases in which a scene may begin."""
-
 REMEDIES = {
     "description": "one sentence with the purpose of the scene",
     "robots.side": "write cyan or magenta",
@@ -171,50 +168,6 @@ def check_sides(entries: "list[SceneRobot] | list[RosterEntry]") -> None:
         keepers = [entry.name for entry in mine if entry.keeper]
         if len(keepers) > 1:
             raise ValueError(f"{' and '.join(keepers)} are goalkeepers of {side}; a side has at most one")
-
-
-class SceneOperation(StrEnum):
-    """What to do with the scene of a running match."""
-
-    LOAD = "load"
-    PLACE = "place"
-    ADD = "add"
-    REMOVE = "remove"
-    RESET = "reset"
-
-
-class SceneRequest(Message):
-    """A request to place, add or remove bodies, load a scene, or reset the world; all or nothing."""
-
-    operation: SceneOperation
-    """What to do."""
-    load: str | None = None
-    """For `load`: the name of a shipped scene."""
-    scene: Scene | None = None
-    """For `load`: the scene itself, in place of a name."""
-    place: Annotated[list[Placement], Field(max_length=100)] = Field(default_factory=list)
-    """For `place`: placements of robots or the ball."""
-    robots: Annotated[list[SceneRobot], Field(max_length=2 * MAX_ROBOTS)] = Field(default_factory=list)
-    """For `add`: robots that are added."""
-    obstacles: Annotated[list[StaticObstacle], Field(max_length=100)] = Field(default_factory=list)
-    """For `add`: obstacles that are added."""
-    remove: Annotated[list[Name], Field(max_length=100)] = Field(default_factory=list)
-    """For `remove`: names of robots and obstacles."""
-    to_match: bool = False
-    """For `reset`: to the start of the match instead of the scene that was loaded last."""
-    source: Source = "operator"
-    """Name of the sender, for display."""
-
-
-class SceneReply(Message):
-    """The host's reply."""
-
-    accepted: bool
-    """The request was carried out."""
-    reason: str = ""
-    """Why it was refused; then nothing was changed."""
-    episode: int
-    """The episode from the next tick on; loading a scene and resetting begin a new one."""
 
 
 def shipped_scenes() -> list[str]:

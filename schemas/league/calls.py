@@ -3,8 +3,9 @@
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from schemas.game import DisciplinaryRecord, GameStage, GameState, OffField, Phase
+from schemas.game import GameStage, OffField, Phase
 from schemas.league.signals import BY_NAME, HALF_OF, RESTART_OF, START, STOP, Signal
+from schemas.messages.game import DisciplinaryRecord, GameState
 from schemas.side import Side
 
 _PHASES: Mapping[Phase, Signal] = {

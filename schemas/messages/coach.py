@@ -7,9 +7,9 @@ from typing import Annotated
 from msgspec import Meta
 
 from schemas.game import Point
-from schemas.messages.command import KickMode, KickSpeed, ShortText
+from schemas.messages.command import KickMode, KickSpeed
 from schemas.wire.faults import Fault, FaultError, FaultKind
-from schemas.wire.message import Message, Name
+from schemas.wire.message import Message, Name, ShortText
 from schemas.wire.struct import StructMessage, check
 
 MAX_SEQUENCE = 2**53 - 1

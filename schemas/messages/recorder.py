@@ -1,6 +1,8 @@
-"""Control of a recorder while it records."""
+"""Progress and control of a recorder while it records."""
 
 from enum import StrEnum
+
+from pydantic import Field
 
 from schemas.wire.message import Message, Name, Source
 
@@ -46,3 +48,22 @@ class RecorderReply(Message):
     """Messages known to be missing so far."""
     tick: int
     """The newest tick that it has received; −1 before the first."""
+
+
+class RecorderProgress(Message):
+    """Progress of a recorder; a lockstep host limits its lead over it."""
+
+    tick: int
+    """The newest tick of which the recorder has everything; −1 before the first."""
+    messages: int
+    """Messages received so far."""
+    lost: int
+    """Messages known to be missing so far."""
+    losses: dict[str, int] = Field(default_factory=dict)
+    """Key → messages known to be missing; keys without losses are left out."""
+    sights: bool = False
+    """The recorder also records sights: the host adds them to its batches."""
+    paused: bool = False
+    """The recorder is paused and leaves out what arrives."""
+    leaving: bool = False
+    """This is the recorder's last message: the host no longer waits for it."""

@@ -5,7 +5,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import Field
 
-from schemas.game import GameEvent
+from schemas.messages.game import GameEvent
 from schemas.wire.message import Message
 
 

@@ -2,9 +2,9 @@
 
 from msgspec import field
 
-from schemas.game import GameView
 from schemas.messages.coach import CoachOrder
-from schemas.messages.command import BallBelief, Motion, RadioContent
+from schemas.messages.game import GameView
+from schemas.messages.radio import BallBelief, Motion, RadioContent
 from schemas.side import Side
 from schemas.wire.message import Name
 from schemas.wire.struct import Struct, StructMessage

@@ -3,38 +3,20 @@
 from schemas.config.match_config import MatchConfig
 from schemas.config.roster import Placement
 from schemas.config.rule_book import load_rule_book
-from schemas.config.scene import SceneOperation, SceneReply, SceneRequest
-from schemas.game import (
-    ActionName,
-    ActionReply,
-    EventKind,
-    GameEvent,
-    GameState,
-    GameView,
-    Phase,
-    Point,
-    RefereeAction,
-    Score,
-    TeamPhase,
-)
+from schemas.game import ActionName, EventKind, Phase, Point, Score, TeamPhase
+from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
-from schemas.messages.command import BallBelief, Command, Drive, Kick, KickMode, Motion, Radio
-from schemas.messages.host import (
-    Applied,
-    AppliedInput,
-    Belief,
-    Health,
-    Invalid,
-    RecorderProgress,
-    RobotHealth,
-    Setup,
-    SetupRequest,
-)
+from schemas.messages.command import Command, Drive, Kick, KickMode
+from schemas.messages.game import ActionReply, GameEvent, GameState, GameView, RefereeAction
+from schemas.messages.health import Health, Invalid, RobotHealth
 from schemas.messages.manual import ManualDrive
 from schemas.messages.parameters import Parameter, ParameterOperation, ParametersReply, ParametersRequest
+from schemas.messages.radio import BallBelief, Belief, Motion, Radio
 from schemas.messages.record_batch import BatchEntry, RecordBatch, RecordBatchesReply, RecordBatchesRequest
-from schemas.messages.recorder import RecorderOperation, RecorderReply, RecorderRequest
+from schemas.messages.recorder import RecorderOperation, RecorderProgress, RecorderReply, RecorderRequest
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
+from schemas.messages.scene import SceneOperation, SceneReply, SceneRequest
+from schemas.messages.setup import Setup, SetupRequest
 from schemas.messages.sight import BallSight, Obstacle, Outcome, ReceivedRadio, Sight
 from schemas.messages.world import BallFrame, BallTruth, RobotFrame, RobotTruth, World
 from schemas.side import Side

@@ -19,7 +19,6 @@ from schemas.wire.json_schema import with_definitions
 
 VERSION = "2.0"
 """Version of the protocol that this package implements, "major.minor"."""
-
 Name = Annotated[
     str,
     StringConstraints(pattern=r"^[a-z][a-z0-9_]*$", max_length=32),
@@ -30,10 +29,9 @@ Name = Annotated[
     ),
 ]
 """A key chunk: the name of a robot, a match or a process."""
-
 Source = Annotated[str, StringConstraints(pattern=r"^[^\x00-\x1f\x7f-\x9f]*$", max_length=80)]
 """Name of the sender of a request, for display: one line without control characters, which a terminal would obey."""
-
+ShortText = Annotated[str, Meta(max_length=80)]
 M = TypeVar("M", bound="WireMessage")
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from schemas.config.profile import Profile
 from schemas.config.robot_model import RobotModel
-from schemas.messages.host import AppliedInput
+from schemas.messages.applied import AppliedInput
 from sim_host.actuation.carrying import METHODS, HeldBall
 from sim_host.actuation.kick import KickRefusedError, Launch, PlannedKick, launch
 from sim_host.actuation.kickers import Kickers

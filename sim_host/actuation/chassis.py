@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from schemas.config.robot_model import RobotModel
 from schemas.config.sections import TimeSteps
-from schemas.messages.host import AppliedInput
+from schemas.messages.applied import AppliedInput
 from sim_host.actuation.omni_drive import OmniDrive
 from sim_host.actuation.stuck_detector import StuckDetector
 from sim_host.actuation.velocity_drive import VelocityDrive

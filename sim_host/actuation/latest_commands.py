@@ -2,8 +2,8 @@
 
 from collections.abc import Container, Mapping
 
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Command, Drive
-from schemas.messages.host import AppliedInput
 
 _AT_REST = AppliedInput(Drive(), dribble=False)
 

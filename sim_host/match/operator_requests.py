@@ -3,10 +3,11 @@
 from dataclasses import replace
 
 from schemas.config.roster import Placement
-from schemas.config.scene import Scene, SceneReply, SceneRequest
+from schemas.config.scene import Scene
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, Phase
 from schemas.messages.parameters import ParameterOperation, ParametersReply, ParametersRequest, Setting
+from schemas.messages.scene import SceneReply, SceneRequest
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.pending_changes import PendingChanges
 from sim_host.match.subsystems import Subsystems

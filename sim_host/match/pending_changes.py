@@ -34,7 +34,7 @@ class PendingChanges:
         self.checkpoint = True
 
     def applied_fields(self) -> dict[str, Any]:
-        """The fields of a `schemas.messages.host.Applied` on these changes, without those that have their default."""
+        """The fields of a `schemas.messages.applied.Applied` on these changes, without those at their default."""
         fields: dict[str, Any] = {"placements": self.placements, "checkpoint": self.checkpoint}
         if self.rebuild_world:
             fields["remade"] = True

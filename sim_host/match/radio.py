@@ -10,7 +10,7 @@ from msgspec.structs import asdict, replace
 from numpy.typing import NDArray
 
 from schemas.config.sections import RadioChannel
-from schemas.messages.command import Radio
+from schemas.messages.radio import Radio
 from schemas.messages.sight import ReceivedRadio
 from schemas.side import Side
 from schemas.wire.struct import encode

@@ -1,6 +1,6 @@
 """Simulates the world of a recorded match again, without brains, referee or sensors.
 
-Each `schemas.messages.host.Applied` holds everything that moved the world in its tick: the robots' inputs, placements,
+Each `schemas.messages.applied.Applied` holds everything that moved the world in its tick: inputs, placements,
 and changes of parameters, robots and obstacles. A resimulation begins at tick 0, or at any checkpoint, from poses and
 velocities alone: at a checkpoint no robot holds the ball, the ball rolls, every kicker is charged, and wheels turn as
 their robot moves.
@@ -15,7 +15,8 @@ from schemas.config.robot_model import RobotModel
 from schemas.config.roster import RosterEntry
 from schemas.config.sections import TYPE_SECTIONS
 from schemas.errors import TouchlineError
-from schemas.messages.host import Applied, Setup
+from schemas.messages.applied import Applied
+from schemas.messages.setup import Setup
 from schemas.messages.world import World as WorldMessage
 from sim_host.match.live_parameters import LiveParameters
 from sim_host.match.world import World

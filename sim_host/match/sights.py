@@ -6,7 +6,8 @@ Ten sights a tick are most of what a host publishes.
 from collections.abc import Callable, Mapping, Sequence
 
 from schemas.messages.coach import CoachOrder
-from schemas.messages.command import Command, Motion
+from schemas.messages.command import Command
+from schemas.messages.radio import Motion
 from schemas.messages.sight import BallSight, Outcome, Sight
 from schemas.side import Side
 from sim_host.match.radio import RadioAir

@@ -12,12 +12,14 @@ from msgspec import Raw
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.rule_book import RuleBook, load_rule_book
-from schemas.config.scene import SceneReply, SceneRequest
-from schemas.game import ActionReply, GameEvent, Phase, RefereeAction
+from schemas.game import Phase
+from schemas.messages.applied import AppliedInput, chained_part
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
-from schemas.messages.host import AppliedInput, Setup, TeamSetup, chained_part
+from schemas.messages.game import ActionReply, GameEvent, RefereeAction
 from schemas.messages.parameters import ParametersReply, ParametersRequest
+from schemas.messages.scene import SceneReply, SceneRequest
+from schemas.messages.setup import Setup, TeamSetup
 from schemas.side import Side
 from schemas.wire.message import VERSION
 from schemas.wire.struct import encode
@@ -45,11 +47,11 @@ class TickResult:
     sights: dict[str, bytes]
     """Robot → `schemas.messages.sight.Sight`, encoded."""
     applied: Fields
-    """`schemas.messages.host.Applied`."""
+    """`schemas.messages.applied.Applied`."""
     applied_encoded: bytes
     """The same as it is published, and as it enters the hash chain."""
     beliefs: Sequence[tuple[Side, str, bytes]] = ()
-    """Side, robot and encoded `schemas.messages.host.Belief` of each radio message sent."""
+    """Side, robot and encoded `schemas.messages.radio.Belief` of each radio message sent."""
     events: tuple[GameEvent, ...] = ()
     replies: tuple[ActionReply, ...] = ()
     """One for each action, in order."""

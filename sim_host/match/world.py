@@ -7,7 +7,7 @@ from hashlib import blake2b
 from schemas.config.obstacle import StaticObstacle
 from schemas.config.profile import Profile
 from schemas.config.roster import Placement
-from schemas.messages.host import AppliedInput
+from schemas.messages.applied import AppliedInput
 from sim_host.actuation.ball_handling import BallHandling, BallReport
 from sim_host.actuation.chassis import Chassis
 from sim_host.physics.collision_candidates import CollisionCandidates

@@ -8,7 +8,8 @@ from schemas.config.rule_book import RuleBook
 from schemas.config.scene import SceneGame
 from schemas.config.sections import Ball, Pitch
 from schemas.frames import Pose
-from schemas.game import RESTARTS, ActionReply, GameEvent, OfficiatingMode, Phase, RefereeAction
+from schemas.game import RESTARTS, OfficiatingMode, Phase
+from schemas.messages.game import ActionReply, GameEvent, RefereeAction
 from schemas.side import Side
 from sim_host.referee.actions import execute
 from sim_host.referee.authority import is_due, judge

@@ -1,6 +1,7 @@
 """The game as each team sees it, which both teams receive in every tick."""
 
-from schemas.game import GameView, Phase, Point, TeamPhase
+from schemas.game import Phase, Point, TeamPhase
+from schemas.messages.game import GameView
 from schemas.side import Side
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.snapshot import Roster

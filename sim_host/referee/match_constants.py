@@ -3,7 +3,7 @@
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
-from schemas.config.goalkeeper import goalkeeper_of
+from schemas.config.roster import goalkeeper_of
 from schemas.config.rule_book import RuleBook
 from schemas.config.sections import Ball, Pitch
 from schemas.errors import TouchlineError

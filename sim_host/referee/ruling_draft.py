@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 from schemas.config.roster import Placement
 from schemas.config.rule_book import RuleBook
 from schemas.frames import Pose
-from schemas.game import Card, EventKind, GameEvent, Score
+from schemas.game import Card, EventKind, Score
+from schemas.messages.game import GameEvent
 from schemas.side import Side
 from sim_host.referee.game.referee_state import RefereeState, point
 from sim_host.referee.game.restart import Spot

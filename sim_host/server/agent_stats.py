@@ -4,7 +4,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from statistics import median
 
-from schemas.messages.host import RobotHealth
+from schemas.messages.health import RobotHealth
 
 SILENT_TICKS = 3
 """A robot that has missed this many ticks in a row is not waited for until it sends a valid message."""

@@ -2,7 +2,7 @@
 
 from collections import deque
 
-from schemas.messages.host import Health
+from schemas.messages.health import Health
 from schemas.process.clock import Clock
 from sim_host.server.inbox import Inbox
 from sim_host.server.presence_tracker import PresenceTracker

@@ -6,7 +6,8 @@ from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import HEARTBEAT_S, Bus, PresenceKind
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
-from schemas.game import EventKind, GameEvent
+from schemas.game import EventKind
+from schemas.messages.game import GameEvent
 from schemas.recovery_window import PARTING_S
 from sim_host.match.simulation import Simulation, TickResult
 from sim_host.server.active_order_publisher import ActiveOrderPublisher

@@ -2,7 +2,7 @@
 
 from collections import deque
 
-from schemas.messages.host import Invalid
+from schemas.messages.health import Invalid
 
 _CAPACITY = 100
 """Entries that wait to be published; the oldest are dropped first."""

@@ -4,8 +4,8 @@ from typing import Any
 
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Publisher
-from schemas.game import GameEvent
-from schemas.messages.host import Health, Invalid
+from schemas.messages.game import GameEvent
+from schemas.messages.health import Health, Invalid
 from schemas.side import Side
 from schemas.topics import APPLIED, BELIEF, EVENT, HEALTH, INVALID, SIGHT, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
 from sim_host.match.simulation import TickResult

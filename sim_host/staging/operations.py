@@ -5,8 +5,9 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from schemas.config.roster import Placement
-from schemas.config.scene import Scene, SceneOperation, SceneRequest, load_scene
+from schemas.config.scene import Scene, load_scene
 from schemas.errors import TouchlineError, did_you_mean
+from schemas.messages.scene import SceneOperation, SceneRequest
 from sim_host.snapshot import BALL
 from sim_host.staging.layout import (
     Layout,

@@ -8,7 +8,7 @@ import pytest
 
 from schemas.bus.endpoint import with_free_port
 from schemas.config.settings import Settings
-from schemas.process.settings_file import write_settings
+from schemas.config.settings_file import write_settings
 from support.process_story import Listener, Program, is_running
 
 NO_PYBULLET = """

@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 
 from schemas.config.match_config import load_match
-from schemas.config.scene import SceneOperation, SceneRequest
 from schemas.frames import wrap
 from schemas.game import EventKind, Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
+from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.side import Side
 from sim_host.match.simulation import TickResult
 from touchline.play import InProcessMatch

@@ -173,7 +173,7 @@ def test_ctrl_c_ends_everything_soon_with_status_130_and_leaves_nobody(story, is
 def test_ctrl_c_leaves_a_finished_recording_and_says_where(recording, story, folder):
     assert recording.complete
     assert recording.result.ended in (EndReason.HOST_GONE, EndReason.STOPPED)
-    assert "touchline: match ended by hand; m.mcap is what it left" in story.program.err
+    assert "touchline: match interrupted; see m.mcap" in story.program.err
     assert not (folder / "m.mcap.part").exists()
 
 

@@ -74,7 +74,7 @@ class Story:
     def host_paused(self):
         """As on a machine that is busy with something else: the host gets no core for a while."""
         self.before_pause = self.heard.healths[-1]
-        host = self.program.child("sim_host")
+        host = self.program.process("host")
         os.kill(host, signal.SIGSTOP)
         time.sleep(PAUSE_S)
         os.kill(host, signal.SIGCONT)

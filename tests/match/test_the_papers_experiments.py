@@ -23,9 +23,11 @@ from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
 from schemas.bus.contract import Bus, PendingReply
 from schemas.bus.in_process_bus import Medium
 from schemas.config.match_config import load_match
-from schemas.config.scene import Scene, SceneOperation, SceneRequest, load_scene
-from schemas.game import ActionName, Phase, RefereeAction, TeamPhase
+from schemas.config.scene import Scene, load_scene
+from schemas.game import ActionName, Phase, TeamPhase
 from schemas.messages.coach import CoachMode, CoachTest
+from schemas.messages.game import RefereeAction
+from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.sight import Sight
 from schemas.process.clock import SteppedClock
 from schemas.side import Side

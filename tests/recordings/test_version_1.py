@@ -7,7 +7,7 @@ runs, a ball placed by an operator, and a goal given by a coach.
 from pathlib import Path
 
 import pytest
-from recordings.editing.copying import filter_recording
+from recordings.editing.filtering import filter_recording
 from typer.testing import CliRunner
 
 from recordings.reading.cursor import Cursor
@@ -16,7 +16,7 @@ from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from recordings.viz.drawing import READS, Drawing
 from schemas.bus.in_process_bus import InProcessBus, Medium
-from schemas.messages.host import Setup, SetupRequest
+from schemas.messages.setup import Setup, SetupRequest
 from schemas.process.clock import SteppedClock
 from schemas.topics import BELIEF, COMMAND, EVENT, SETUP, STATE, WORLD
 from schemas.wire.message import VERSION, BadMessageError

@@ -9,7 +9,7 @@ from robot_agent.bodies import Body, DriveLimits
 from robot_agent.contract import Briefing
 from schemas.frames import from_body, wrap
 from schemas.messages.command import Drive
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from support.messages import make_setup, make_sight
 

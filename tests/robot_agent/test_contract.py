@@ -8,7 +8,7 @@ from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.side import Side
 
 STUDENT = """

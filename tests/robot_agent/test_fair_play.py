@@ -12,8 +12,9 @@ from robot_agent.world_model import SeenBall, Teammate, WorldBelief
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
-from schemas.game import GameView, TeamPhase
-from schemas.messages.host import Setup
+from schemas.game import TeamPhase
+from schemas.messages.game import GameView
+from schemas.messages.setup import Setup
 from schemas.messages.sight import Motion, ReceivedRadio
 
 AT, NOBODYS = Body(-3.0, 0.0, 0.0), Possession()

@@ -9,8 +9,8 @@ import pytest
 from robot_agent.settings import AgentSettings
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_host
+from schemas.config.settings_file import write_settings
 from schemas.process.clock import WallClock
-from schemas.process.settings_file import write_settings
 from schemas.topics import COMMAND, SETUP, SIGHT
 
 BRAIN = "robot_agent.teams.nubot:NuBot"

@@ -8,7 +8,7 @@ from robot_agent.bodies import Ball
 from robot_agent.opponents import REMEMBERED
 from robot_agent.world_model import LOST, STALE, WorldModel
 from schemas.game import Point, TeamPhase
-from schemas.messages.command import BallBelief
+from schemas.messages.radio import BallBelief
 from schemas.messages.sight import BallSight, Motion, ReceivedRadio
 
 

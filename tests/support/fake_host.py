@@ -10,10 +10,12 @@ from schemas.bus.in_process_bus import Medium
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
-from schemas.game import ActionReply, EventKind, GameEvent, GameState, Phase, RefereeAction
+from schemas.game import EventKind, Phase
 from schemas.messages.coach import ActiveOrder, CoachOrder
-from schemas.messages.command import Radio
-from schemas.messages.host import Belief, Health, Setup
+from schemas.messages.game import ActionReply, GameEvent, GameState, RefereeAction
+from schemas.messages.health import Health
+from schemas.messages.radio import Belief, Radio
+from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, World
 from schemas.process.clock import Clock, WallClock
 from schemas.side import Side

@@ -11,7 +11,8 @@ from robot_agent.runner import Runner
 from schemas.bus.in_process_bus import Medium
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.messages.coach import CoachOrder
-from schemas.messages.command import Command, Radio
+from schemas.messages.command import Command
+from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
 from schemas.process.clock import SteppedClock, WallClock
 from schemas.side import Side

@@ -9,8 +9,10 @@ from robot_agent.runner import Runner
 from schemas.bus.contract import Bus, ReceivedMessage
 from schemas.config.match_config import MatchConfig
 from schemas.game import EventKind
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Command, Drive
-from schemas.messages.host import AppliedInput, Health, RecorderProgress
+from schemas.messages.health import Health
+from schemas.messages.recorder import RecorderProgress
 from schemas.messages.sight import Sight
 from schemas.process.clock import SteppedClock
 from schemas.side import Side

@@ -14,9 +14,11 @@ from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.roster import Placement, RosterEntry
 from schemas.config.rule_book import load_rule_book
-from schemas.game import EventKind, GameEvent, GameState, Phase, Score
+from schemas.game import EventKind, Phase, Score
+from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.command import Drive, Kick, KickMode
-from schemas.messages.host import Applied, AppliedInput, Setup
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.side import Side
 

@@ -9,8 +9,9 @@ from robot_agent.contract import Briefing, load_brain
 from robot_agent.runner import Runner
 from schemas.bus.in_process_bus import Medium
 from schemas.config.match_config import MatchConfig
-from schemas.game import ActionName, GameEvent, GameState, RefereeAction
+from schemas.game import ActionName
 from schemas.messages.command import Command
+from schemas.messages.game import GameEvent, GameState, RefereeAction
 from schemas.messages.sight import Sight
 from schemas.process.clock import WallClock
 from schemas.side import Side

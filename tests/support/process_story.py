@@ -13,7 +13,8 @@ from typing import Any
 from recordings.reading.recording import RecordedMessage
 from schemas.bus.contract import ReceivedMessage, Subscription
 from schemas.bus.zenoh.bus import ZenohBus, open_client
-from schemas.messages.host import Applied, Health, Invalid, RobotHealth
+from schemas.messages.applied import Applied
+from schemas.messages.health import Health, Invalid, RobotHealth
 from schemas.messages.world import World
 from schemas.process.clock import WallClock
 from schemas.topics import APPLIED, EVENT, HEALTH, INVALID, STATE, WORLD

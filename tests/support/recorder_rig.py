@@ -8,14 +8,16 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.recorder.recorder import Recorder, RecordingSummary
 from recordings.recorder.sink import Sink
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus, Publisher
+from schemas.bus.contract import Bus, Publisher, Server
 from schemas.bus.in_process_bus import InProcessBus, Medium
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
-from schemas.game import EventKind, GameEvent, GameState, Phase, Score
+from schemas.game import EventKind, Phase, Score
+from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.command import Command, Drive
-from schemas.messages.host import Applied, AppliedInput, Setup
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.side import Side
 from schemas.topic import Topic
@@ -62,6 +64,9 @@ class PublisherLog(InProcessBus):
     def publisher(self, topic: Topic, **chunks: str) -> Publisher:
         made = self.made[topic.fill(**chunks)] = self._bus.publisher(topic, **chunks)
         return made
+
+    def serve(self, topic: Topic, **chunks: str) -> Server:
+        return self._bus.serve(topic, **chunks)
 
 
 @dataclass

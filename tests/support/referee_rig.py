@@ -8,7 +8,8 @@ from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.frames import Pose
-from schemas.game import ActionName, EventKind, GameEvent, Phase, Point, RefereeAction
+from schemas.game import ActionName, EventKind, Phase, Point
+from schemas.messages.game import GameEvent, RefereeAction
 from schemas.side import Side
 from sim_host.referee.core import Referee, Ruling
 from sim_host.referee.match_constants import MatchConstants

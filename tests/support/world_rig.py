@@ -7,8 +7,8 @@ import pybullet
 from schemas.config.match_config import load_match
 from schemas.config.profile import Profile
 from schemas.config.roster import Placement
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive, Kick, KickMode
-from schemas.messages.host import AppliedInput
 from sim_host.match.world import World, WorldTick
 from sim_host.physics.engine import Engine
 from sim_host.physics.vectors import Vector

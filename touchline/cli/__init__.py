@@ -1,1 +1,1 @@
-"""What the commands share: groups of options, errors, the console, keys of a terminal, a client of the bus."""
+"""Shared parts of the commands: option groups, errors, the console, terminal keys, a bus client."""

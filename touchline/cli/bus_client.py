@@ -1,4 +1,4 @@
-"""A client on the bus of a running match, for the length of one command."""
+"""A client on the bus of a running match, for the duration of one command."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -8,12 +8,12 @@ if TYPE_CHECKING:
     from schemas.bus.contract import Bus
 
 PATIENCE = 3.0
-"""s of wall time to find a host that should be there."""
+"""Wall time to wait for a running host, s."""
 
 
 @contextmanager
 def bus_client(connect: str, match: str) -> "Iterator[Bus]":
-    """A client of the match at an endpoint, for as long as the block lasts.
+    """A client of the match at an endpoint, within the block.
 
     Raises:
         TouchlineError: no host answers there.

@@ -1,4 +1,4 @@
-"""The console that commands print on: what people and programs have named or written is shown as it is."""
+"""The console of the commands: names and texts from users and programs are printed verbatim."""
 
 from typing import TextIO
 
@@ -6,5 +6,5 @@ from rich.console import Console
 
 
 def console(file: TextIO | None = None) -> Console:
-    """One that takes no word for markup, number or emoji: a team may be called [b], and a coach may ask as `:cat:`."""
+    """A console without markup, highlighting and emoji: a team may have the name [b], and a coach the name `:cat:`."""
     return Console(file=file, highlight=False, markup=False, emoji=False)

@@ -1,4 +1,4 @@
-"""The command group that turns every expected failure into one line on stderr and an exit status."""
+"""The command group that prints every expected failure as one line on stderr and sets the exit status."""
 
 import sys
 from typing import Any
@@ -10,13 +10,13 @@ from schemas.errors import MatchFailedError, TouchlineError
 
 PREFIX = "touchline: "
 FAILED = 1
-"""The thing asked for failed."""
+"""The requested operation failed."""
 WRONG = 2
 """Wrong usage or input."""
 
 
 class CommandGroup(TyperGroup):
-    """A group whose errors are sentences; anything unexpected still shows its traceback."""
+    """A group that prints errors as sentences; unexpected exceptions keep their traceback."""
 
     def main(self, *args: Any, **settings: Any) -> Any:
         """Run the command line and exit with its status."""
@@ -24,7 +24,7 @@ class CommandGroup(TyperGroup):
         try:
             status = super().main(*args, **settings)
         except typer.TyperException as error:
-            sentence = error.format_message()  # empty where the help itself was the answer
+            sentence = error.format_message()  # empty if the help was printed
             sys.exit(_say(_placed(sentence, error), WRONG) if sentence else WRONG)
         except TouchlineError as error:
             sys.exit(_say(str(error), WRONG))
@@ -36,10 +36,10 @@ class CommandGroup(TyperGroup):
 
 
 def _placed(sentence: str, error: typer.TyperException) -> str:
-    """What is wrong, and where the right words stand."""
+    """The error in one line, with a pointer to the help."""
     context = getattr(error, "ctx", None)
     command = context.command_path if context is not None else "touchline"
-    return f"{' '.join(sentence.replace('Value error, ', '').split())} ({command} --help lists what is there)"
+    return f"{' '.join(sentence.replace('Value error, ', '').split())} (see {command} --help)"
 
 
 def _say(sentence: str, status: int) -> int:

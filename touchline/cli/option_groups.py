@@ -1,9 +1,9 @@
-"""Options that are defined once, as the fields of a class, and taken whole by each command that has them.
+"""Option groups: options that are defined once, as the fields of a class, and shared by several commands.
 
-A parameter of a command whose type is a model of settings or a dataclass becomes one option for each of its fields, and
-the command is given the model or the dataclass. Options of a model are made from the field alone: its name, type,
-default, limits, and its docstring as help. A parameter of type `Annotated[dict[str, Any], FieldsOf(Model, "a", "b")]`
-stands for some fields of a model; the command is given those whose options were used.
+A parameter of a command whose type is a settings model or a dataclass becomes one option per field, and the command
+receives the model or the dataclass. An option of a model is made from its field: name, type, default, limits, and the
+docstring as help. A parameter of type `Annotated[dict[str, Any], FieldsOf(Model, "a", "b")]` stands for some fields of
+a model; the command receives those whose options were used.
 """
 
 from collections.abc import Callable
@@ -26,10 +26,10 @@ T = TypeVar("T")
 
 
 class FieldsOf:
-    """Some fields of a model as options; the command is given a dictionary of those that were used."""
+    """Some fields of a model as options; the command receives a dictionary of the options that were used."""
 
     def __init__(self, model: type[BaseModel], *names: str, **options: str | tuple[str, ...]) -> None:
-        """Take these fields, by default all; `options` gives a field's option another name, or several."""
+        """The fields `names`, by default all; `options` renames a field's option, or gives it several names."""
         self.model = model
         self.options: dict[str, tuple[str, ...]] = {
             name: (name,) for name in names or (() if options else model.model_fields)
@@ -38,7 +38,7 @@ class FieldsOf:
 
 
 def with_option_groups(command: Callable[..., None]) -> Callable[..., None]:
-    """The command as the command line sees it: without groups, each option by itself."""
+    """The command with its groups expanded to single options, for the command-line parser."""
     hints = get_type_hints(command, include_extras=True)
     plain: list[Parameter] = []
     groups: dict[str, _Group] = {}
@@ -60,10 +60,10 @@ def with_option_groups(command: Callable[..., None]) -> Callable[..., None]:
 
 
 def from_options(model: type[T], **content: object) -> T:
-    """The model or struct with the values of these options.
+    """The model or struct with these option values.
 
     Raises:
-        TouchlineError: a value that it may not have, named by its option, or two that do not agree.
+        TouchlineError: a value is invalid, or two values contradict each other; the message names the option.
     """
     try:
         return validated(model, content)
@@ -75,7 +75,7 @@ def from_options(model: type[T], **content: object) -> T:
 
 
 class _Group(NamedTuple):
-    """The parameters that stand for a group, and how the group is made from their values."""
+    """The parameters of a group, and a function that makes the group from their values."""
 
     parameters: list[Parameter]
     build: Callable[[dict[str, Any]], Any]
@@ -86,7 +86,7 @@ def _taken(values: dict[str, Any], group: _Group) -> dict[str, Any]:
 
 
 def _group_of(annotation: Any) -> _Group | None:
-    """The group that a parameter of this type is; None for an option by itself."""
+    """The group of a parameter of this type; None for a single option."""
     for extra in getattr(annotation, "__metadata__", ()):
         if isinstance(extra, FieldsOf):
             return _group_of_fields(extra)
@@ -145,9 +145,9 @@ def _group_of_dataclass(cls: Any) -> _Group:
 
 
 def _parameter(model: type[BaseModel], field_name: str, *names: str, is_override: bool) -> Parameter:
-    """The option of a field; an override has no default of its own."""
+    """The option of a field; an override has no default."""
     field = model.model_fields[field_name]
-    limits = _limits(field) if issubclass(model, Settings) else {}  # a match file explains its limits itself
+    limits = _limits(field) if issubclass(model, Settings) else {}  # a match file reports its limits itself
     default = field.get_default(call_default_factory=True)
     kind = _without_none(field.annotation)
     words = [name.replace("_", "-") for name in names]
@@ -168,26 +168,26 @@ def _parameter(model: type[BaseModel], field_name: str, *names: str, is_override
 
 
 def _part_of(field: FieldInfo) -> type[BaseModel] | None:
-    """The model that a field is of, or may be of; None for a plain value."""
+    """The model type of a field, optional or not; None for a plain value."""
     kind = _without_none(field.annotation)
     return kind if isinstance(kind, type) and issubclass(kind, BaseModel) else None
 
 
 def _without_none(annotation: Any) -> Any:
-    """The type of a field, without None and without what an annotation within it adds."""
+    """The type of a field, without None and without annotations."""
     if get_origin(annotation) in (Union, UnionType):
         (annotation,) = (one for one in get_args(annotation) if one is not NoneType)
     return get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
 
 
 def _limits(field: FieldInfo) -> dict[str, Any]:
-    """The limits that a value may reach, as the command line knows them; the model itself checks all of its limits."""
+    """The inclusive limits of a value, for the command line; the model itself checks all of its limits."""
     known = (("min", "ge"), ("max", "le"))
     return {word: getattr(one, limit) for one in field.metadata for word, limit in known if hasattr(one, limit)}
 
 
 def _shown(default: Any) -> str | bool:
-    """A default as the help shows it; None, an empty list and a switch are not shown."""
+    """A default as shown in the help; None, an empty list and a switch are not shown."""
     if default is None or isinstance(default, bool | list):
         return False
     return str(default.value if isinstance(default, Enum) else default)
@@ -198,7 +198,7 @@ def _is_given(value: Any) -> bool:
 
 
 def _option_of(model: Any, path: Path) -> tuple[str | None, Path]:
-    """The option of a field that is wrong, and the path below it; None where fields do not agree with each other."""
+    """The option of an invalid field, and the path below it; None if fields contradict each other."""
     for number, step in enumerate(path):
         fields_known = getattr(model, "model_fields", {})
         part = _part_of(fields_known[str(step)]) if str(step) in fields_known else None

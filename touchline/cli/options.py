@@ -1,4 +1,4 @@
-"""Options that several commands share, and groups of them."""
+"""Options shared by several commands, and groups of them."""
 
 import importlib.util
 import socket
@@ -34,10 +34,10 @@ Profile = Annotated[
 Rules = Annotated[str | None, typer.Option(help=f"Rule book: {', '.join(RULE_BOOKS)}.")]
 Include = Annotated[
     list[str] | None,
-    typer.Option(help="Take these keys alone, as robot/*/command or team/**; may be given several times."),
+    typer.Option(help="Include these keys only, such as robot/*/command or team/**; repeatable."),
 ]
-Exclude = Annotated[list[str] | None, typer.Option(help="Leave these keys out; may be given several times.")]
-Web = Annotated[bool, typer.Option("--web", help="Serve a page to watch and command from, and say where.")]
+Exclude = Annotated[list[str] | None, typer.Option(help="Leave these keys out; repeatable.")]
+Web = Annotated[bool, typer.Option("--web", help="Serve a page to watch and command from, and print its address.")]
 PageOptions = Annotated[dict[str, Any], FieldsOf(WebSettings, "listen_web", port="web_port")]
 ForSide = Annotated[Side, typer.Argument(help="cyan or magenta")]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")]
@@ -47,7 +47,7 @@ NO_PYBULLET = "the simulation needs PyBullet, which is not installed; pip instal
 
 @dataclass(frozen=True)
 class MatchOptions:
-    """Which match a command plays, and how: a file, and what replaces its keys."""
+    """The match of a command: a match file, and the options that replace its keys."""
 
     changes: Annotated[dict[str, Any], FieldsOf(MatchConfig, "seed", "pace", "duration", name=("match", "name"))]
     officiating: Annotated[dict[str, Any], FieldsOf(OfficiatingConfig, mode="referee")]
@@ -58,7 +58,7 @@ class MatchOptions:
     rules: Rules = None
 
     def read(self, **flags: Any) -> MatchConfig:
-        """The match, with more flags than these; as `read_match`.
+        """The match, with further flags; see `read_match`.
 
         Raises:
             TouchlineError: one line on what is wrong or missing.
@@ -68,7 +68,7 @@ class MatchOptions:
         return read_match(self.file, **named, **self.changes, **officiating, **flags)
 
     def endpoint(self) -> str:
-        """The endpoint of its host; as `endpoint_of`.
+        """The endpoint of the host; see `endpoint_of`.
 
         Raises:
             TouchlineError: open to other machines without `--insecure`, or in use.
@@ -77,9 +77,9 @@ class MatchOptions:
 
 
 def read_match(file: Path | None, **flags: Any) -> MatchConfig:
-    """The match of a file with the given flags laid over it (`record__sights` is the key `record.sights`).
+    """The match of a file, with flags that override its keys (`record__sights` is the key `record.sights`).
 
-    Everything that a simulation on this machine needs is checked here, before anything is launched.
+    All requirements of a simulation on this machine are checked here, before any process is launched.
 
     Raises:
         TouchlineError: one line on what is wrong or missing.
@@ -97,20 +97,20 @@ def read_match(file: Path | None, **flags: Any) -> MatchConfig:
 
 
 def need_pybullet() -> None:
-    """Make sure that this machine can simulate.
+    """Check that this machine can simulate.
 
     Raises:
-        TouchlineError: with the line that brings what is missing.
+        TouchlineError: a package is missing; the message has the command that installs it.
     """
     if importlib.util.find_spec("pybullet") is None:
         raise TouchlineError(NO_PYBULLET)
 
 
 def selection(include: list[str] | None, exclude: list[str] | None) -> "KeySelection":
-    """The keys that are meant.
+    """The selection for these key expressions.
 
     Raises:
-        TouchlineError: an expression that is none.
+        TouchlineError: an expression is invalid.
     """
     from recordings.container.key_selection import KeySelection
 
@@ -118,7 +118,7 @@ def selection(include: list[str] | None, exclude: list[str] | None) -> "KeySelec
 
 
 def endpoint_of(settings: ListenSettings) -> str:
-    """The endpoint to listen on, with a real port, after making sure that it may be and can be used.
+    """The endpoint to listen on, with a real port, after a check that it is allowed and free.
 
     Raises:
         TouchlineError: open to other machines without `--insecure`, or in use.
@@ -126,8 +126,8 @@ def endpoint_of(settings: ListenSettings) -> str:
     listen = settings.listen
     if not settings.insecure and not is_loopback(listen):
         raise TouchlineError(
-            f"--listen {listen} is open to other machines and asks nobody for a password; "
-            "add --insecure if that is meant, or listen on tcp/127.0.0.1:7447"
+            f"--listen {listen} is open to other machines, without authentication; "
+            "add --insecure to allow that, or listen on tcp/127.0.0.1:7447"
         )
     try:
         endpoint = with_free_port(listen)
@@ -147,5 +147,5 @@ def _probe(endpoint: str) -> None:
     kind = socket.SOCK_DGRAM if protocol in ("udp", "quic") else socket.SOCK_STREAM
     with socket.socket(family, kind) as probe:
         if kind == socket.SOCK_STREAM:
-            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # an old connection's remains do not count
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # connections in TIME_WAIT do not count
         probe.bind((host, port))

@@ -1,4 +1,4 @@
-"""Keys of a terminal: each as soon as it is pressed, arrows by name."""
+"""Keys of a terminal, read one by one without waiting for Enter, arrows by name."""
 
 import os
 import re
@@ -14,25 +14,25 @@ _ARROWS = {"A": UP, "B": DOWN, "C": RIGHT, "D": LEFT}
 _KEY = re.compile(r"\x1b[\[O]([A-D])|\x1b[\[O][\d;]*.?|(.)", re.DOTALL)
 
 KeyReader = Callable[[float], str]
-"""What was typed, waiting up to so many s for it."""
+"""Returns the typed characters; waits up to the given time, s."""
 
 
 def parse_keys(text: str) -> list[str]:
-    """The keys that a terminal sent; other keys than arrows that send several characters are left out."""
+    """The keys in a terminal's input; escape sequences other than arrows are left out."""
     found = [_ARROWS[arrow] if arrow else plain for arrow, plain in _KEY.findall(text)]
     return [key for key in found if key]
 
 
 @contextmanager
 def terminal(command: str) -> Iterator[KeyReader]:
-    """The keys of the terminal that a command runs in.
+    """The keys of the terminal of a command.
 
     Raises:
-        TouchlineError: stdin is no terminal.
+        TouchlineError: stdin is not a terminal.
     """
     if not sys.stdin.isatty():
         raise TouchlineError(
-            f"{command} reads keys from a terminal, and stdin is none; run it in a terminal of its own"
+            f"{command} reads keys from a terminal, but stdin is not a terminal; run it in a separate terminal"
         )
     import termios
     import tty

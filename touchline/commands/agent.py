@@ -1,4 +1,4 @@
-"""`touchline agent`: one robot's brain, on this machine or another."""
+"""`touchline agent`: one robot's brain, on the host's machine or another."""
 
 import typer
 

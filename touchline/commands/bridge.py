@@ -19,7 +19,7 @@ def bridge(
 ) -> None:
     """Join coach programs, a league's referee box or team software to a running match, until Ctrl-C.
 
-    While a league's box is connected, everybody else may only stop the game; the match's referee is best `manual`.
+    While a league's box is connected, other clients may only stop the game. Run the match with a `manual` referee.
 
     Example: touchline coach bridge --refbox 192.168.1.2 --team cyan
     """

@@ -10,7 +10,8 @@ from coach_gateway import run
 from coach_gateway.settings import GatewaySettings
 from schemas.bus.settings import ClientSettings
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.game import ActionName, RefereeAction
+from schemas.game import ActionName
+from schemas.messages.game import RefereeAction
 from touchline.cli import options
 from touchline.cli.bus_client import PATIENCE, bus_client
 from touchline.cli.option_groups import from_options, with_option_groups
@@ -20,32 +21,33 @@ from touchline.commands.serve import serve
 
 app = typer.Typer(
     no_args_is_help=True,
-    help="Ask the referee of a running match, order a side, or watch.\n\nExample: touchline coach kickoff magenta",
+    help="Send requests to the referee of a running match, order a side, or watch.\n\n"
+    "Example: touchline coach kickoff magenta",
 )
 
 
 @dataclass(frozen=True)
 class NoTarget:
-    """An action that is about the game."""
+    """An action on the game as a whole."""
 
 
 @dataclass(frozen=True)
 class SideTarget:
-    """An action that is for a side."""
+    """An action on a side."""
 
     side: options.ForSide
 
 
 @dataclass(frozen=True)
 class RobotTarget:
-    """An action that is about a robot."""
+    """An action on a robot."""
 
     robot: Annotated[str, typer.Argument(metavar="ROBOT", help="The robot's name.")]
 
 
 @dataclass(frozen=True)
 class PlaceTarget:
-    """An action that is about a point of the field."""
+    """An action on a point of the field."""
 
     x: Annotated[float, typer.Argument(help="m, field frame")]
     y: Annotated[float, typer.Argument(help="m, field frame")]
@@ -55,17 +57,17 @@ Target = NoTarget | SideTarget | RobotTarget | PlaceTarget
 
 
 class RefereeCommand(NamedTuple):
-    """One word of the referee box."""
+    """One command of the referee box."""
 
     action: ActionName
     target: type[Target]
-    says: str
+    help: str
     example: str = ""
-    """What stands behind the word."""
+    """Arguments of the example in the help."""
 
 
 REFEREE_COMMANDS: dict[str, RefereeCommand] = {
-    "start": RefereeCommand(ActionName.START, NoTarget, "Give START: begin the match, or let a restart be taken."),
+    "start": RefereeCommand(ActionName.START, NoTarget, "Give START: begin the match, or allow a restart."),
     "stop": RefereeCommand(ActionName.STOP, NoTarget, "Stop play."),
     "kickoff": RefereeCommand(ActionName.KICK_OFF, SideTarget, "Stop play and give a side the kick-off.", "cyan"),
     "freekick": RefereeCommand(ActionName.FREE_KICK, SideTarget, "Stop play and give a side a free kick.", "cyan"),
@@ -79,29 +81,29 @@ REFEREE_COMMANDS: dict[str, RefereeCommand] = {
     ),
     "goal": RefereeCommand(ActionName.GOAL, SideTarget, "Count a goal for a side.", "cyan"),
     "cancel-goal": RefereeCommand(
-        ActionName.CANCEL_GOAL, SideTarget, "Take a goal from a side's score; the game goes on as it does.", "cyan"
+        ActionName.CANCEL_GOAL, SideTarget, "Subtract a goal from a side's score; the game continues.", "cyan"
     ),
     "yellow-card": RefereeCommand(ActionName.YELLOW_CARD, RobotTarget, "Show a robot the yellow card.", "cyan3"),
     "red-card": RefereeCommand(
         ActionName.RED_CARD, RobotTarget, "Show a robot the red card: it leaves the field.", "cyan3"
     ),
     "repair": RefereeCommand(
-        ActionName.REPAIR, RobotTarget, "Take a robot out for repair; it comes back at a stoppage.", "cyan3"
+        ActionName.REPAIR, RobotTarget, "Take a robot off for repair; it returns at a stoppage.", "cyan3"
     ),
-    "substitute": RefereeCommand(ActionName.SUBSTITUTE, RobotTarget, "Replace a robot, in a stoppage.", "cyan3"),
+    "substitute": RefereeCommand(ActionName.SUBSTITUTE, RobotTarget, "Replace a robot during a stoppage.", "cyan3"),
     "park": RefereeCommand(
-        ActionName.PARK, RobotTarget, "Take a robot off the field until it is told to enter.", "cyan3"
+        ActionName.PARK, RobotTarget, "Take a robot off the field until `enter` brings it back.", "cyan3"
     ),
-    "enter": RefereeCommand(ActionName.ENTER, RobotTarget, "Have a robot come back that is off the field.", "cyan3"),
-    "confirm": RefereeCommand(ActionName.CONFIRM, NoTarget, "Decide at once what the referee proposes."),
-    "overrule": RefereeCommand(ActionName.OVERRULE, NoTarget, "Let what the referee proposes not be decided."),
+    "enter": RefereeCommand(ActionName.ENTER, RobotTarget, "Bring a robot back that is off the field.", "cyan3"),
+    "confirm": RefereeCommand(ActionName.CONFIRM, NoTarget, "Confirm the referee's proposal at once."),
+    "overrule": RefereeCommand(ActionName.OVERRULE, NoTarget, "Reject the referee's proposal."),
     "undo": RefereeCommand(
-        ActionName.UNDO, NoTarget, "Take the last decision back; score and cards are as before, the clock goes on."
+        ActionName.UNDO, NoTarget, "Undo the last decision: restore score and cards; the clock keeps running."
     ),
     "end-half": RefereeCommand(ActionName.END_HALF, NoTarget, "End this half."),
     "end-game": RefereeCommand(ActionName.END_GAME, NoTarget, "End the match."),
 }
-"""Command → what it asks the referee for."""
+"""Command → the action requested from the referee."""
 
 
 def _command(row: RefereeCommand) -> Callable[..., None]:
@@ -118,8 +120,8 @@ def _command(row: RefereeCommand) -> Callable[..., None]:
 for _word, _row in REFEREE_COMMANDS.items():
     app.command(
         _word,
-        help=f"{_row.says}\n\nExample: touchline coach {_word} {_row.example}".rstrip(),
-        context_settings={"ignore_unknown_options": _row.target is PlaceTarget},  # a negative number is none
+        help=f"{_row.help}\n\nExample: touchline coach {_word} {_row.example}".rstrip(),
+        context_settings={"ignore_unknown_options": _row.target is PlaceTarget},  # a negative number is no option
     )(_command(_row))
 
 
@@ -130,7 +132,7 @@ app.command("test")(orders.test)
 @app.command("state")
 @with_option_groups
 def state(connection: ClientSettings, json: options.Json = False) -> None:
-    """Show once how the match stands.
+    """Print the current state of the match once.
 
     Example: touchline coach state --json | jq .score
     """
@@ -143,11 +145,11 @@ def state(connection: ClientSettings, json: options.Json = False) -> None:
     if found is None and follower.health is not None:
         there = sum(robot.alive for robot in follower.health.robots.values())
         raise MatchFailedError(
-            f'match "{connection.match}" has not begun: {there} of {len(follower.health.robots)} robots are there'
+            f'match "{connection.match}" has not begun: {there} of {len(follower.health.robots)} robots are connected'
         )
     if found is None:
         raise TouchlineError(
-            f'match "{connection.match}": the host says nothing of it; name the match it plays with --match'
+            f'match "{connection.match}": the host publishes no state of it; name its match with --match'
         )
     typer.echo(found.model_dump_json(exclude={"version"}) if json else state_line(found))
 
@@ -159,7 +161,7 @@ app.command("bridge")(bridge)
 @app.command("watch")
 @with_option_groups
 def watch(connection: ClientSettings) -> None:
-    """Show the match as plain lines until its host goes, or until Ctrl-C.
+    """Print the match as plain lines until the host ends, or until Ctrl-C.
 
     Example: touchline coach watch --connect tcp/192.168.1.5:7447
     """

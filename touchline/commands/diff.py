@@ -1,4 +1,4 @@
-"""`touchline diff`: where two recordings differ first."""
+"""`touchline diff`: the first difference between two recordings."""
 
 import json as json_text
 from pathlib import Path
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
 
 def diff(
     first: Annotated[Path, typer.Argument(metavar="A", help="A recording, *.mcap.")],
-    second: Annotated[Path, typer.Argument(metavar="B", help="Another one.")],
+    second: Annotated[Path, typer.Argument(metavar="B", help="The recording to compare with A.")],
     include: options.Include = None,
     exclude: options.Exclude = None,
     everything: Annotated[
-        bool, typer.Option("--all", help="Compare what depends on wall time, too: host/health, repeated answers.")
+        bool, typer.Option("--all", help="Include messages that depend on wall time: host/health, repeated answers.")
     ] = False,
     json: options.Json = False,
 ) -> None:
@@ -44,7 +44,7 @@ def _sentence(found: "Comparison", first: Path, second: Path) -> str:
     if difference is None:
         return f"identical: {found.messages} messages on {found.keys} keys"
     where = f"{difference.key}, message {difference.number} at {difference.time:.3f} s"
-    before = f"{found.messages} messages are equal before and beside it"
+    before = f"{found.messages} messages are equal before it and on other keys"
     if difference.missing_in:
         path = first if difference.missing_in == "first" else second
         return f"different: {where} is missing in {path}; {before}"

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from schemas.bus.contract import Bus
 
 _PERIOD = 0.05
-"""s of wall time between two words to the host."""
+"""Wall time between two drive requests to the host, s."""
 
 _USUAL = Speeds()
 
@@ -33,7 +33,7 @@ def drive(
     *,
     connection: ClientSettings,
 ) -> None:
-    """Drive one robot of a running match by keys; Ctrl-C gives it back to its brain.
+    """Drive one robot of a running match by keys; Ctrl-C returns it to its brain.
 
     Arrows move, comma and period turn, z switches the dribbler, x the kind of kick, and space kicks.
 
@@ -45,7 +45,7 @@ def drive(
 
 
 def drive_by_keys(bus: "Bus", robot: str, keys: KeyReader, speeds: Speeds, log: Callable[[str], None]) -> None:
-    """Drive until the keys are interrupted; the robot is given back in any case.
+    """Drive until the keys are interrupted; the robot is always returned to its brain.
 
     Raises:
         TouchlineError: no robot of the match has that name.
@@ -55,7 +55,7 @@ def drive_by_keys(bus: "Bus", robot: str, keys: KeyReader, speeds: Speeds, log: 
 
     names = [name for team in HostClient(bus).setup().teams.values() for name in team.robots]
     if robot not in names:
-        raise TouchlineError(f'robot is "{robot}", who does not play; {did_you_mean(robot, names)}')
+        raise TouchlineError(f'robot is "{robot}", which does not play; {did_you_mean(robot, names)}')
     publisher, state, clock = bus.publisher(MANUAL, robot=robot), KeyState(), bus.clock
     log(status(state))
     try:
@@ -66,7 +66,7 @@ def drive_by_keys(bus: "Bus", robot: str, keys: KeyReader, speeds: Speeds, log: 
             if status(state) != status(before):
                 log(status(state))
     except KeyboardInterrupt:
-        log(f"{robot} is given back")
+        log(f"{robot} is returned to its brain")
         return
     finally:
         publisher.put(ManualDrive(release=True))

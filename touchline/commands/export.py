@@ -14,7 +14,7 @@ def export(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
     to: Annotated[str, typer.Option(help="The format: csv, msl-log, protobuf or ros2.")],
     out: Annotated[
-        Path | None, typer.Option(help="What to write, file or folder; by default beside the recording.")
+        Path | None, typer.Option(help="The file or folder to write; by default beside the recording.")
     ] = None,
     json: options.Json = False,
 ) -> None:
@@ -30,7 +30,7 @@ def export(
     exporter = EXPORTERS[to]
     recording = open_recording(file)
     if not recording.complete:
-        typer.echo(f"{file}: cut off; what stands before the cut is exported", err=True)
+        typer.echo(f"{file}: truncated; exporting the messages before the end", err=True)
     exported = exporter.export(recording, out or file.with_name(file.stem + exporter.suffix))
     if json:
         fields = {"out": str(exported.out), "written": exported.written, "unreadable": exported.unreadable}
@@ -39,5 +39,5 @@ def export(
     for name, count in exported.written.items():
         typer.echo(f"{count:>9}  {name}")
     for key, count in exported.unreadable.items():
-        typer.echo(f"{count:>9}  messages of {key} are not valid and were left out")
+        typer.echo(f"{count:>9}  invalid messages of {key} were left out")
     typer.echo(str(exported.out))

@@ -1,4 +1,4 @@
-"""`touchline filter`: a part of a recording."""
+"""`touchline filter`: copies a part of a recording."""
 
 from pathlib import Path
 from typing import Annotated
@@ -13,10 +13,10 @@ def filter(
     out: Annotated[Path, typer.Option(help="The file to write, *.mcap.")],
     include: options.Include = None,
     exclude: options.Exclude = None,
-    start: Annotated[float | None, typer.Option("--from", help="Simulated s that the copy begins at.")] = None,
-    end: Annotated[float | None, typer.Option("--to", help="Simulated s that it ends before.")] = None,
+    start: Annotated[float | None, typer.Option("--from", help="Start of the copy, simulated s.")] = None,
+    end: Annotated[float | None, typer.Option("--to", help="End of the copy, simulated s, exclusive.")] = None,
 ) -> None:
-    """Copy a part of a recording: some keys, some seconds. Every message keeps its bytes, times and number.
+    """Copy a part of a recording, selected by key and time. Messages keep their bytes, times and numbers.
 
     Example: touchline filter match.mcap --out commands.mcap --include "robot/*/command" --from 10 --to 20
     """

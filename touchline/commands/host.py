@@ -12,7 +12,7 @@ from touchline.cli.option_groups import with_option_groups
 def host(match: options.MatchOptions) -> None:
     """Run the simulation host of a match; robots join with `touchline agent`.
 
-    It ends when the match is over, or at Ctrl-C.
+    The host ends when the match is over, or at Ctrl-C.
 
     Example: touchline host cup.toml --pace realtime --listen tcp/192.168.1.5:7447 --insecure
     """

@@ -1,4 +1,4 @@
-"""`touchline import`: a foreign log as a recording."""
+"""`touchline import`: converts a foreign log to a recording."""
 
 import json as json_text
 from pathlib import Path
@@ -12,13 +12,13 @@ from touchline.cli import options
 def import_log(
     log: Annotated[list[Path], typer.Argument(metavar="LOG...", help="A zip, a folder, or the log's files.")],
     out: Annotated[Path | None, typer.Option(help="The recording, *.mcap; by default beside the log.")] = None,
-    profile: Annotated[str, typer.Option(help="Whose pitch it was: msl for 22 × 14 m, paper for 18 × 12 m.")] = "msl",
+    profile: Annotated[str, typer.Option(help="Profile of the pitch: msl for 22 × 14 m, paper for 18 × 12 m.")] = "msl",
     team_a: Annotated[
-        str | None, typer.Option("--team-a", help="What the referee's signals call team A, where that is an address.")
+        str | None, typer.Option("--team-a", help="Name of team A in the referee's signals, if that is an address.")
     ] = None,
     json: options.Json = False,
 ) -> None:
-    """Make a recording of a log of the league's referee box, so that it can be replayed and measured.
+    """Convert a log of the league's referee box to a recording that can be replayed and measured.
 
     Example: touchline import 20160703_120000.TeamA-TeamB.zip --out final.mcap
     """
@@ -30,8 +30,8 @@ def import_log(
         return
     for side, team in imported.teams.items():
         typer.echo(f"{side.value}: {team.team or 'no name'}, {team.read} of {team.records} records read")
-    typer.echo(f"{imported.signals} signals of the referee read, {imported.kicks} kicks inferred")
-    for heading, findings in (("could not be read", imported.lost), ("not as the schema says", imported.coped)):
+    typer.echo(f"{imported.signals} referee signals read, {imported.kicks} kicks inferred")
+    for heading, findings in (("could not be read", imported.lost), ("not valid by the schema", imported.coped)):
         if findings:
             typer.echo(f"{heading}:")
         for finding in findings:

@@ -1,4 +1,4 @@
-"""`touchline info`: what is in a recording."""
+"""`touchline info`: the contents of a recording."""
 
 import json as json_text
 from pathlib import Path
@@ -13,7 +13,7 @@ def info(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
     json: options.Json = False,
 ) -> None:
-    """Show what is in a recording: match, result, keys and losses.
+    """Show the contents of a recording: match, result, keys and lost messages.
 
     Example: touchline info runs/friendly-20260101T120000Z-seed1/match.mcap
     """

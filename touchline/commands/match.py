@@ -26,10 +26,8 @@ if TYPE_CHECKING:
 
 @with_option_groups
 def match(
-    record: Annotated[
-        Path | None, typer.Option(help="Where the recording goes; by default into the run's folder.")
-    ] = None,
-    no_record: Annotated[bool, typer.Option("--no-record", help="Leave no recording.")] = False,
+    record: Annotated[Path | None, typer.Option(help="The recording to write; by default in the run's folder.")] = None,
+    no_record: Annotated[bool, typer.Option("--no-record", help="Do not record the match.")] = False,
     ghost: Annotated[
         list[str] | None, typer.Option(help="A side played by its recorded commands: magenta=RECORDING.mcap.")
     ] = None,
@@ -41,12 +39,12 @@ def match(
     page: options.PageOptions,
     bridges: BridgeOptions,
 ) -> None:
-    """Play a match: launch host, recorder and robots, show it, and leave a recording and a result.
+    """Play a match: launch host, recorder and robots, show the match, and write a recording and a result.
 
-    Logs and recording go to ./runs/. Ctrl-C ends everything; the recording stays readable.
-    With --web people watch and command in their browsers; with --udp, --refbox and --refbox-server coach programs,
-    league's boxes and team software take part. Such a match is played in real time unless --pace says else, and one by
-    a league's box with a referee that leaves it to the box unless --referee says else.
+    Logs and recording are written under ./runs/. Ctrl-C ends all processes; the recording stays readable.
+    --web serves a page to watch and command the match in a browser. --udp, --refbox and --refbox-server connect coach
+    programs, league boxes and team software. With any of these the default of --pace is realtime. With --refbox the
+    default of --referee is manual, because the league's box decides.
 
     Example: touchline match --seed 7 --duration 60 --pace realtime
     """
@@ -90,7 +88,7 @@ def match(
         console().print(result.render())
 
 
-# What a plain match has no use for is imported when it is asked for: nothing is launched before the imports are done.
+# Modules that a plain match does not need are imported on use: no process is launched before the imports are done.
 
 
 def _teams_of(ghosts: list[str]) -> dict[str, dict[str, Any]]:
@@ -126,7 +124,7 @@ def _try_ports(bridges: BridgeOptions) -> None:
 
 
 def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> "MatchResult":
-    """Play it on the screen that suits: stdout is kept for the result when that is for programs."""
+    """Play the match on a screen for the output; with `quiet` stdout is reserved for the JSON result."""
     from touchline.launch.match_run import InterruptedMatchError, MatchRun
     from touchline.watch.screen import screen_for
 
@@ -135,14 +133,12 @@ def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> "MatchResult":
             return MatchRun(plan, screen, clock, _losses, _recorded).play()
     except InterruptedMatchError as stopped:
         left = plan.recording is not None and plan.recording.exists()
-        typer.echo(
-            f"touchline: match ended by hand; {plan.recording if left else plan.folder} is what it left", err=True
-        )
+        typer.echo(f"touchline: match interrupted; see {plan.recording if left else plan.folder}", err=True)
         raise typer.Exit(128 + stopped.number) from None
 
 
 def _recorded(plan: "MatchPlan") -> "Iterator[ReceivedMessage]":
-    """Events and states of the game as the recording has them; nothing where it is of some seconds alone, or lost."""
+    """Recorded events and states of the game; empty if the recording is lost or consists of snapshots."""
     if plan.config.record.snapshot is not None:
         return
     from recordings.reading.recording import open_recording
@@ -150,12 +146,12 @@ def _recorded(plan: "MatchPlan") -> "Iterator[ReceivedMessage]":
     from schemas.topics import EVENT, STATE
 
     for file in plan.recording_files:
-        with suppress(TouchlineError):  # a recording that cannot be read tells no more
+        with suppress(TouchlineError):  # an unreadable recording yields no more messages
             yield from (recorded.received() for recorded in open_recording(file).messages(EVENT.key, STATE.key))
 
 
 def _losses(plan: "MatchPlan") -> dict[str, int]:
-    """Key → messages that the recording lacks; those without loss are left out."""
+    """Key → number of messages missing in the recording; keys without loss are left out."""
     if plan.recording is None:
         return {}
     from recordings.inspection.recording_facts import facts_of

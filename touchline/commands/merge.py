@@ -1,4 +1,4 @@
-"""`touchline merge`: several recordings of one match in one."""
+"""`touchline merge`: merges several recordings of one match."""
 
 from pathlib import Path
 from typing import Annotated
@@ -10,9 +10,9 @@ def merge(
     files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings of one match, *.mcap.")],
     out: Annotated[Path, typer.Option(help="The file to write, *.mcap.")],
 ) -> None:
-    """Write several recordings of one match into one: the files of a split one, or those of two recorders.
+    """Merge recordings of one match: the files of a split recording, or those of two recorders.
 
-    A message that several of them have is written once.
+    Duplicate messages are written once.
 
     Example: touchline merge final.0001.mcap final.0002.mcap --out final.mcap
     """
@@ -20,4 +20,4 @@ def merge(
     from recordings.reading.recording import open_recording
 
     copied = merge_recordings([open_recording(file) for file in files], out)
-    typer.echo(f"{copied.path}: {copied.messages} messages; {copied.dropped} that several files have are in it once")
+    typer.echo(f"{copied.path}: {copied.messages} messages; {copied.dropped} duplicates dropped")

@@ -1,4 +1,4 @@
-"""`touchline coach order` and `touchline coach test`: what a side shall do, and which of its robots have heard."""
+"""`touchline coach order` and `touchline coach test`: send orders to a side and report the acknowledgements."""
 
 import json as json_text
 from dataclasses import dataclass, fields
@@ -20,17 +20,17 @@ if TYPE_CHECKING:
     from coach_gateway.match.orders import Receipt
 
 ORDER_WAIT = 2.0
-"""s of wall time; how long a coach who is asked for nothing else waits for the robots."""
+"""Default wall time to wait for the robots' acknowledgements, s."""
 
 
-def _point(words: str) -> Point:
+def _point(text: str) -> Point:
     """`2,-1.5` as a point."""
     try:
-        x, y = (float(word) for word in words.split(","))
+        x, y = (float(part) for part in text.split(","))
         point = Point(x=x, y=y)
         check(point)
     except ValueError:
-        raise typer.BadParameter(f"{words} is no point; write x and y in m, like 2,-1.5") from None
+        raise typer.BadParameter(f"{text} is no point; write x and y in m, like 2,-1.5") from None
     return point
 
 
@@ -40,32 +40,32 @@ AngleOption = Annotated[float | None, typer.Option(help="rad, team frame.")]
 
 @dataclass(frozen=True)
 class OrderOptions:
-    """What an order says of points, robots, kicks and limits; whatever the test is, it reads them from here."""
+    """Points, robots, kicks and limits of an order; every test reads its arguments from here."""
 
     robot_a: Annotated[
-        str | None, typer.Option("--robot-a", "--robot", metavar="ROBOT", help="Who acts: a robot of that side.")
+        str | None, typer.Option("--robot-a", "--robot", metavar="ROBOT", help="The acting robot, of that side.")
     ] = None
     robot_b: Annotated[
-        str | None, typer.Option("--robot-b", "--to", metavar="ROBOT", help="Who receives: a robot of that side.")
+        str | None, typer.Option("--robot-b", "--to", metavar="ROBOT", help="The receiving robot, of that side.")
     ] = None
     point_a: PointOption = None
     point_b: PointOption = None
     angle_a: AngleOption = None
     angle_b: AngleOption = None
-    radius: Annotated[float | None, typer.Option(help="m, of a circle; above 0 to 20.")] = None
-    with_ball: Annotated[bool, typer.Option("--with-ball", help="Get the ball first, and bring it along.")] = False
-    avoid: Annotated[bool, typer.Option("--avoid", help="Go around whatever is in the way.")] = False
-    kick_speed: Annotated[float | None, typer.Option(help="m/s, above 0 to 40.")] = None
-    kick_mode: Annotated[KickMode, typer.Option(help="How a test shoots.")] = KickMode.GROUND
-    max_speed: Annotated[float | None, typer.Option(help="m/s, above 0 to 20.")] = None
-    max_turn_rate: Annotated[float | None, typer.Option(help="rad/s, above 0 to 50.")] = None
+    radius: Annotated[float | None, typer.Option(help="Radius of a circle, m; above 0, at most 20.")] = None
+    with_ball: Annotated[bool, typer.Option("--with-ball", help="Get the ball first and carry it along.")] = False
+    avoid: Annotated[bool, typer.Option("--avoid", help="Drive around obstacles.")] = False
+    kick_speed: Annotated[float | None, typer.Option(help="m/s; above 0, at most 40.")] = None
+    kick_mode: Annotated[KickMode, typer.Option(help="Kick mode of a test.")] = KickMode.GROUND
+    max_speed: Annotated[float | None, typer.Option(help="m/s; above 0, at most 20.")] = None
+    max_turn_rate: Annotated[float | None, typer.Option(help="rad/s; above 0, at most 50.")] = None
 
 
 @dataclass(frozen=True)
 class AcknowledgementOptions:
-    """How long the robots are given to acknowledge, and how that is shown."""
+    """How long to wait for acknowledgements, and how to print them."""
 
-    wait: Annotated[float, typer.Option(min=0.0, help="s to wait for the robots to acknowledge it.")] = ORDER_WAIT
+    wait: Annotated[float, typer.Option(min=0.0, help="Time to wait for acknowledgements, s.")] = ORDER_WAIT
     json: options.Json = False
 
 
@@ -73,16 +73,16 @@ class AcknowledgementOptions:
 def order(
     side: options.ForSide,
     mode: Annotated[
-        CoachMode | None, typer.Option(help="What the team shall do while the game allows it; otherwise play.")
+        CoachMode | None, typer.Option(help="The team's mode while play allows it; by default play.")
     ] = None,
-    test: Annotated[CoachTest | None, typer.Option(help="What a test shows; the mode is test.")] = None,
-    tactic: Annotated[str, typer.Option(help="A word that the team's own code understands.")] = "",
+    test: Annotated[CoachTest | None, typer.Option(help="The test to run; implies the mode test.")] = None,
+    tactic: Annotated[str, typer.Option(help="A tactic that the team's own code defines.")] = "",
     *,
     order_options: OrderOptions,
     acknowledgement: AcknowledgementOptions,
     connection: ClientSettings,
 ) -> None:
-    """Give a side its new standing order, and say which robots have acknowledged it.
+    """Send a new standing order to a side and report which robots acknowledged it.
 
     Example: touchline coach order cyan --mode hold --max-speed 1.5
     """
@@ -93,14 +93,14 @@ def order(
 @with_option_groups
 def test(
     side: options.ForSide,
-    test: Annotated[CoachTest, typer.Argument(help="What the named robot shows; the others stand still.")],
+    test: Annotated[CoachTest, typer.Argument(help="The test for the named robot; the other robots stand still.")],
     order_options: OrderOptions,
     acknowledgement: AcknowledgementOptions,
     connection: ClientSettings,
 ) -> None:
-    """Have robots of a side show one thing: drive to a point, circle, pass, catch, shoot.
+    """Run one test with robots of a side: drive to a point, circle, pass, catch, shoot.
 
-    `touchline coach order SIDE` lets them play again.
+    `touchline coach order SIDE` ends the test; the robots play again.
 
     Example: touchline coach test cyan move --robot cyan2 --point-a 2,1 --avoid
     """
@@ -120,7 +120,7 @@ def _order(
     from_options(CoachOrder, sequence=1, **content)
     with bus_client(connection.connect, connection.match) as bus:
         client = HostClient(bus)
-        client.orders.update()  # so that what the host says of the order is heard from the first word
+        client.orders.update()  # subscribe first, so that no status of the order is missed
         given = client.order(side, **content)
         receipt = client.wait_for_robots(side, given, acknowledgement.wait)
     typer.echo(_as_json(side, given, receipt) if acknowledgement.json else _in_words(side, given, receipt))

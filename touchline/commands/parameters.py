@@ -1,4 +1,4 @@
-"""`touchline parameters`: the numbers of a running match, read and changed."""
+"""`touchline parameters`: reads and changes the parameters of a running match."""
 
 import json as json_text
 import math
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 app = typer.Typer(
     no_args_is_help=True,
-    help="Read and change the numbers of a running match: ball, limits, noise, radio.\n\n"
+    help="Read and change the parameters of a running match: ball, limits, noise, radio.\n\n"
     "Example: touchline parameters set ball.rolling_deceleration=1.2",
 )
 
@@ -31,7 +31,7 @@ def list_all(
     *,
     connection: ClientSettings,
 ) -> None:
-    """List every parameter: value, unit, range, what it means, and whether it can be changed.
+    """List every parameter: value, unit, range, description, and whether it can be changed.
 
     Example: touchline parameters list --json | jq '.[] | select(.live).name'
     """
@@ -48,7 +48,7 @@ def get(
     *,
     connection: ClientSettings,
 ) -> None:
-    """Show some parameters, or whole sections.
+    """Show parameters or whole sections.
 
     Example: touchline parameters get ball radio.loss
     """
@@ -65,7 +65,7 @@ def set_values(
     *,
     connection: ClientSettings,
 ) -> None:
-    """Change parameters between two ticks: all that are named, or none.
+    """Change parameters between two ticks: either all of them, or none if one is refused.
 
     Example: touchline parameters set radio.loss=0.3 noise.preset=perfect
     """
@@ -80,13 +80,13 @@ def set_values(
 @with_option_groups
 def reset(
     names: Annotated[
-        list[str] | None, typer.Argument(metavar="[NAME...]", help="Parameters or sections; none for all.")
+        list[str] | None, typer.Argument(metavar="[NAME...]", help="Parameters or sections; by default all.")
     ] = None,
     json: options.Json = False,
     *,
     connection: ClientSettings,
 ) -> None:
-    """Bring parameters back to what the match began with.
+    """Reset parameters to their values at the start of the match.
 
     Example: touchline parameters reset ball
     """
@@ -95,15 +95,15 @@ def reset(
     _show(_query(connection, _request(operation=ParameterOperation.RESET, names=names or [])), json=json)
 
 
-def _setting(word: str) -> "tuple[str, Value]":
-    name, equals, text = word.partition("=")
+def _setting(argument: str) -> "tuple[str, Value]":
+    name, equals, text = argument.partition("=")
     if not equals:
-        raise TouchlineError(f'"{word}" sets nothing; write it as NAME=VALUE, like ball.rolling_deceleration=1.2')
+        raise TouchlineError(f'"{argument}" has no value; write NAME=VALUE, like ball.rolling_deceleration=1.2')
     return name.strip(), _value(text.strip())
 
 
 def _value(text: str) -> "Value":
-    """A number or a list of numbers where the text is one, else the word itself."""
+    """A finite number or a list of them if the text is one, else the text itself."""
     try:
         value = json_text.loads(text)
     except ValueError:
@@ -121,7 +121,7 @@ def _request(**content: object) -> "ParametersRequest":
         return validated(ParametersRequest, content)
     except FaultError as error:
         raise TouchlineError(
-            f"{error.fault.value!r} is no name of a parameter; touchline parameters list shows them"
+            f"{error.fault.value!r} is no parameter; touchline parameters list shows all of them"
         ) from None
 
 
@@ -148,7 +148,7 @@ def _show(reply: "ParametersReply", *, json: bool) -> None:
 
 
 def _line(parameter: "Parameter") -> tuple[str, str, str, str, str]:
-    """Name, value with unit, range, what it was, what it means."""
+    """Name, value with unit, range, initial value if changed, description."""
     unit = "" if parameter.unit in ("", "1") else f" {parameter.unit}"
     limits = (
         ", ".join(parameter.options) if parameter.options else f"{_bound(parameter.low)} to {_bound(parameter.high)}"

@@ -1,4 +1,4 @@
-"""`touchline player`: a running replay is told to go on, stop, or go elsewhere."""
+"""`touchline player`: controls a running replay: pause, resume, seek, rate."""
 
 import json as json_text
 from typing import Annotated
@@ -14,16 +14,16 @@ from touchline.cli.option_groups import with_option_groups
 
 @with_option_groups
 def player(
-    operation: Annotated[ReplayOperation, typer.Argument(help="What to do.")] = ReplayOperation.STATUS,
+    operation: Annotated[ReplayOperation, typer.Argument(help="The operation.")] = ReplayOperation.STATUS,
     value: Annotated[
         str | None,
-        typer.Argument(help="seek: seconds or an event, or +5 and -5 from here; rate: a number, or fast; step: ticks."),
+        typer.Argument(help="seek: seconds, an event, or an offset (+5, -5); rate: a number, or fast; step: ticks."),
     ] = None,
     *,
     connection: ClientSettings,
     json: options.Json = False,
 ) -> None:
-    """Control a running replay, on this machine or another.
+    """Control a running replay, local or remote.
 
     Example: touchline player seek goal:1-5
     """
@@ -45,10 +45,10 @@ def player(
 
 
 def request_of(operation: ReplayOperation, value: str | None) -> ReplayRequest:
-    """What is asked for by an operation and its value.
+    """The request for an operation and its value.
 
     Raises:
-        TouchlineError: a value that is missing, surplus or of the wrong kind.
+        TouchlineError: the value is missing, unexpected or of the wrong type.
     """
     wanted = {ReplayOperation.SEEK: "seconds or an event", ReplayOperation.RATE: "a number or fast"}
     if value is None:

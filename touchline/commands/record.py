@@ -1,4 +1,4 @@
-"""`touchline record`: records a running match, on this machine or another."""
+"""`touchline record`: records a running match, local or remote."""
 
 import typer
 
@@ -9,10 +9,10 @@ from touchline.cli.option_groups import with_option_groups
 
 @with_option_groups
 def record(settings: RecorderSettings) -> None:
-    """Record a match until its host leaves, or until Ctrl-C.
+    """Record a match until its host ends, or until Ctrl-C.
 
     With --split-size, --split-duration or --snapshot the files are numbered: final.0001.mcap, final.0002.mcap.
-    Each is whole in itself. `touchline recorder` controls it meanwhile.
+    Each file is a complete recording. `touchline recorder` controls the running recorder.
 
     Example: touchline record --connect tcp/192.168.1.5:7447 --out final.mcap --split-duration 300 --keep 4
     """

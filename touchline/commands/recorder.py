@@ -1,4 +1,4 @@
-"""`touchline recorder`: pause, resume, split, snapshot and status of a recorder that is running."""
+"""`touchline recorder`: controls a running recorder: pause, resume, split, snapshot, status."""
 
 import json as json_text
 from collections.abc import Callable
@@ -20,26 +20,26 @@ app = typer.Typer(
 )
 
 COMMANDS: dict[RecorderOperation, tuple[str, str]] = {
-    RecorderOperation.STATUS: ("Say how the recorder is doing.", "--match friendly"),
-    RecorderOperation.PAUSE: ("Leave out what comes from now on; it is counted in the file.", ""),
-    RecorderOperation.RESUME: ("Record again.", ""),
-    RecorderOperation.SPLIT: ("Finish the file that is being written, and go on in the next one.", ""),
+    RecorderOperation.STATUS: ("Print the state of the recorder.", "--match friendly"),
+    RecorderOperation.PAUSE: ("Stop recording messages; the file counts those left out.", ""),
+    RecorderOperation.RESUME: ("Resume recording.", ""),
+    RecorderOperation.SPLIT: ("Finish the current file and continue in the next one.", ""),
     RecorderOperation.SNAPSHOT: (
-        "Have a recorder that was started with --snapshot write the last seconds to a file.",
+        "Write the last seconds to a file; the recorder must run with --snapshot.",
         "--match friendly",
     ),
 }
-"""Deed, which is also the word of its command → its help, and the options of its example."""
+"""Operation, which is also the command's name → its help, and the options of its example."""
 
 _ANSWER_S = 5.0
-"""s of wall time that a recorder is given to answer; a snapshot has to be written first."""
+"""Wall time to wait for a recorder's reply, s; a snapshot is written before the reply."""
 
 
 @dataclass(frozen=True)
 class RecorderChoice:
-    """Which recorder is meant, and how its answer is shown."""
+    """Which recorder to control, and how to print its reply."""
 
-    name: Annotated[str, typer.Option(help="What the recorder is called.")] = "recorder"
+    name: Annotated[str, typer.Option(help="The recorder's name.")] = "recorder"
     json: options.Json = False
 
 
@@ -57,7 +57,7 @@ for _operation, (_help, _example) in COMMANDS.items():
 
 
 def _query(operation: RecorderOperation, connection: ClientSettings, chosen: RecorderChoice) -> None:
-    """Ask, print the answer; exit status 1 where it is a refusal."""
+    """Send the request and print the reply; exit status 1 if it is a refusal."""
     from schemas.bus.contract import NoReplyError
     from schemas.errors import MatchFailedError
     from schemas.messages.recorder import RecorderReply, RecorderRequest
@@ -70,7 +70,7 @@ def _query(operation: RecorderOperation, connection: ClientSettings, chosen: Rec
             reply: RecorderReply = answer.result(_ANSWER_S + 0.5)
         except NoReplyError as error:
             raise MatchFailedError(
-                f"no recorder named {chosen.name} answers ({error}); --name says which one is meant"
+                f"no recorder named {chosen.name} answers ({error}); name another one with --name"
             ) from None
     if chosen.json:
         typer.echo(json_text.dumps(reply.model_dump(mode="json", exclude={"version"})))

@@ -17,9 +17,9 @@ def recover(
     files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings: *.mcap or *.mcap.part.")],
     json: options.Json = False,
 ) -> None:
-    """Repair recordings in place: those that were cut off, and those that are damaged.
+    """Repair truncated or damaged recordings in place.
 
-    All that is whole stays as it is. A *.mcap.part loses its suffix when it is repaired.
+    Intact recordings are not changed. A repaired *.mcap.part loses the suffix .part.
 
     Example: touchline recover final.mcap.part
     """
@@ -29,7 +29,7 @@ def recover(
     done = []
     for file in files:
         done.append(recover(file))
-        open_recording(done[-1].path)  # says so when what is left is no recording
+        open_recording(done[-1].path)  # raises if the rest is not a recording
         if not json:
             typer.echo(_sentence(done[-1]))
     if json:
@@ -39,10 +39,10 @@ def recover(
 
 def _sentence(done: "RecoverySummary") -> str:
     if not done.repaired:
-        return f"{done.path}: is whole, {done.messages} messages"
-    parts = [f"{done.path}: repaired, {done.messages} messages", f"{done.cut} bytes cut off at the end"]
+        return f"{done.path}: intact, {done.messages} messages"
+    parts = [f"{done.path}: repaired, {done.messages} messages", f"{done.cut} bytes removed from the end"]
     if done.damaged:
         parts.append(f"{done.damaged} damaged records left out")
     if done.rest is not None:
-        parts.append(f"what was cut off is in {done.rest}")
+        parts.append(f"the removed bytes are in {done.rest}")
     return ", ".join(parts)

@@ -31,49 +31,51 @@ if TYPE_CHECKING:
 def replay(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
     rate: Annotated[float, typer.Option(min=0.001, help="Simulated seconds per second.")] = 1.0,
-    fast: Annotated[bool, typer.Option("--fast", help="As fast as possible; recorders are waited for.")] = False,
+    fast: Annotated[bool, typer.Option("--fast", help="Replay as fast as possible; waits for recorders.")] = False,
     start: Annotated[
-        str | None, typer.Option("--from", help="Where to begin: seconds, or an event as in goal:2 or goal:2-5.")
+        str | None, typer.Option("--from", help="Start: seconds, or an event such as goal:2 or goal:2-5.")
     ] = None,
-    end: Annotated[str | None, typer.Option("--to", help="Where to end, likewise; that moment is played.")] = None,
-    loop: Annotated[bool, typer.Option("--loop", help="Begin again at the end.")] = False,
-    paused: Annotated[bool, typer.Option("--paused", help="Stand still at the beginning.")] = False,
-    stay: Annotated[bool, typer.Option("--stay", help="Stand still at the end instead of leaving.")] = False,
+    end: Annotated[
+        str | None, typer.Option("--to", help="End, inclusive: seconds, or an event such as goal:2.")
+    ] = None,
+    loop: Annotated[bool, typer.Option("--loop", help="Start again at the end.")] = False,
+    paused: Annotated[bool, typer.Option("--paused", help="Start paused.")] = False,
+    stay: Annotated[bool, typer.Option("--stay", help="Pause at the end instead of exiting.")] = False,
     include: Annotated[
         list[str] | None, typer.Option(help="Keys to play, as key expressions: world, robot/*/command, team/**.")
     ] = None,
-    exclude: Annotated[list[str] | None, typer.Option(help="Keys to leave out, likewise.")] = None,
+    exclude: Annotated[list[str] | None, typer.Option(help="Keys to leave out, as key expressions.")] = None,
     follow: Annotated[
-        bool, typer.Option("--follow", help="The file is still being written: go on with what is added.")
+        bool, typer.Option("--follow", help="The file is still being written: continue with appended messages.")
     ] = False,
     behind: Annotated[
-        float, typer.Option(min=0.0, help="With --follow: s of simulated time behind to begin at.")
+        float, typer.Option(min=0.0, help="With --follow: start this far behind the end of the file, simulated s.")
     ] = 5.0,
     connect: Annotated[
-        str | None, typer.Option(help="Endpoint of a running host to replay beside it, in place of --listen.")
+        str | None, typer.Option(help="Endpoint of a running host to replay beside, instead of --listen.")
     ] = None,
     match: Annotated[
         str | None, typer.Option("--match", "--name", help="Name of the match on the bus; by default the recorded one.")
     ] = None,
-    prefix: Annotated[str, typer.Option(help="Put before the name of the match: replay_.")] = "",
+    prefix: Annotated[str, typer.Option(help="Prefix of the match name, such as replay_.")] = "",
     agent: Annotated[
-        str | None, typer.Option(help="Show a brain what a robot saw, and compare: cyan2=module:Class; no bus.")
+        str | None, typer.Option(help="Feed a robot's sights to a brain and compare: cyan2=module:Class; no bus.")
     ] = None,
     web: options.Web = False,
     foxglove: Annotated[
-        bool, typer.Option("--foxglove", help="Serve a live view for Foxglove and Lichtblick, and say where.")
+        bool, typer.Option("--foxglove", help="Serve a live view for Foxglove and Lichtblick and print its address.")
     ] = False,
-    foxglove_port: Annotated[int, typer.Option(help="Port of the live view; 0 takes a free one.")] = 8765,
+    foxglove_port: Annotated[int, typer.Option(help="Port of the live view; 0 selects a free port.")] = 8765,
     json: options.Json = False,
     *,
     listening: ListenSettings,
     page: options.PageOptions,
 ) -> None:
-    """Replay a recording on the bus, with the keys, order and spacing of the match.
+    """Replay a recording on the bus, with the keys, order and timing of the match.
 
-    Space pauses, "." steps, arrows wind and change the rate, n and b go from event to event, q leaves; from elsewhere,
-    `touchline player` does the same. With --web a page in the browser does, with --foxglove
-    these viewers do, and the replay stays at its end.
+    Keys: space pauses, "." steps, left and right seek, up and down change the rate, n and b go to the next and previous
+    event, q exits. `touchline player` controls the replay from another terminal, --web from a browser, --foxglove from
+    these viewers. With --web or --foxglove the replay stays at its end.
 
     Example: touchline replay runs/friendly-20260101T120000Z-seed1/match.mcap --from goal:1-5 --rate 2
     """
@@ -105,7 +107,7 @@ def replay(
     endpoint = connect or options.endpoint_of(listening)
     with ExitStack() as stack:
         bus = stack.enter_context(_open_bus(name, clock, endpoint, is_host=connect is None))
-        stop = stack.enter_context(StopSignals())  # from before it is told where to look at it
+        stop = stack.enter_context(StopSignals())  # before any address is printed
         look_after: Callable[[], list[Notice]] = list
         if web_settings is not None:
             log = partial(typer.echo, err=True)
@@ -123,7 +125,7 @@ def replay(
 
 
 def _compare(file: Path, agent: str, *, json: bool) -> None:
-    """Say where a brain's commands differ from the recorded ones; exit status 1 where they do."""
+    """Print how a brain's commands differ from the recorded ones; exit status 1 if they do."""
     robot, _, brain = agent.partition("=")
     if not brain:
         raise TouchlineError(f'--agent is "{agent}"; write it as cyan2=module:Class')
@@ -148,7 +150,7 @@ def _open_bus(match: str, clock: "Clock", endpoint: str, *, is_host: bool) -> "I
 
 
 def _live_view(opened: "Replay", port: int) -> "LiveView":
-    """A view of the whole recording; of one that grows it cannot be said how far that goes."""
+    """A view of the whole recording; the extent of a growing recording is unknown."""
     from recordings.replay.live_view import LiveView
 
     manifest = opened.recording.manifest
@@ -168,7 +170,7 @@ def _play(
     *,
     quiet: bool,
 ) -> "Player":
-    """Play it on the screen that suits, by keys where there is a terminal, until its end or a signal to stop."""
+    """Play until the end or a signal, on a screen for the output, with keys if stdin is a terminal."""
     from recordings.replay.host import ReplayHost
     from schemas.messages.replay import ReplayOperation, ReplayRequest
     from touchline.cli.terminal import terminal
@@ -206,15 +208,13 @@ def _play(
 
         host.run(meanwhile)
     if host.unknown_keys:
-        typer.echo(
-            f"touchline: {host.unknown_keys} messages on keys that their topics do not have were left out", err=True
-        )
+        typer.echo(f"touchline: {host.unknown_keys} messages on unknown keys were left out", err=True)
     if stop.received is not None:
         raise typer.Exit(128 + stop.received)
     return host.player
 
 
 def _no_keys(timeout: float) -> str:
-    """Nobody types."""
+    """A key reader without a terminal: always empty."""
     del timeout
     return ""

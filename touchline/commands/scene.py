@@ -12,16 +12,16 @@ from touchline.cli.bus_client import bus_client
 from touchline.cli.option_groups import with_option_groups
 
 if TYPE_CHECKING:
-    from schemas.config.scene import SceneRequest
+    from schemas.messages.scene import SceneRequest
 
 app = typer.Typer(
     no_args_is_help=True,
-    help="Set up the pitch of a running match: load a scene, place, add or remove bodies, begin anew.\n\n"
+    help="Set up the pitch of a running match: load a scene, place, add or remove bodies, reset.\n\n"
     "Example: touchline scene load penalty",
 )
 
 _NUMBERS: Any = {"ignore_unknown_options": True}
-"""A negative number is no option."""
+"""A negative number is an argument, not an option."""
 
 X = Annotated[float, typer.Argument(help="m, field frame")]
 Y = Annotated[float, typer.Argument(help="m, field frame")]
@@ -34,10 +34,10 @@ Omega = Annotated[float, typer.Option(help="rad/s; of a robot.")]
 @app.command("load")
 @with_option_groups
 def load(
-    name: Annotated[str, typer.Argument(help="A scene that ships, or the path of a .toml file.")],
+    name: Annotated[str, typer.Argument(help="A built-in scene, or the path of a .toml file.")],
     connection: ClientSettings,
 ) -> None:
-    """Begin another episode with a scene: its robots, its ball, its game.
+    """Start a new episode from a scene: its robots, ball and game state.
 
     Example: touchline scene load two_on_one
     """
@@ -62,7 +62,7 @@ def place(
     *,
     connection: ClientSettings,
 ) -> None:
-    """Set a robot or the ball down, at rest or moving.
+    """Place a robot or the ball, at rest or moving.
 
     Example: touchline scene place ball -3.5 2 --vx 4
     """
@@ -79,11 +79,11 @@ def add(
     y: Y,
     heading: Heading = 0.0,
     type_: Annotated[str, typer.Option("--type", help="Type of robot, as the profile names it.")] = "standard",
-    still: Annotated[bool, typer.Option("--still", help="It stands still, and needs no agent.")] = False,
+    still: Annotated[bool, typer.Option("--still", help="The robot stands still and needs no agent.")] = False,
     *,
     connection: ClientSettings,
 ) -> None:
-    """Add a robot; an agent that connects later moves it, and until then it rests.
+    """Add a robot; it rests until its agent connects.
 
     Example: touchline scene add magenta6 magenta 5 -2 --type slow
     """
@@ -104,7 +104,7 @@ def add_obstacle(
     *,
     connection: ClientSettings,
 ) -> None:
-    """Put up a cylinder or a box that nothing moves.
+    """Add an immovable cylinder or box.
 
     Example: touchline scene add-obstacle wall 3 -2 --size 0.2 2 0.5
     """
@@ -121,7 +121,7 @@ def remove(
     names: Annotated[list[str], typer.Argument(metavar="NAME...", help="Robots and obstacles.")],
     connection: ClientSettings,
 ) -> None:
-    """Take robots or obstacles off the pitch; a robot's agent gets no sights until it is put back.
+    """Take robots or obstacles off the pitch; a removed robot's agent receives no sights until it is back.
 
     Example: touchline scene remove cyan4 magenta4
     """
@@ -131,11 +131,13 @@ def remove(
 @app.command("reset")
 @with_option_groups
 def reset(
-    to_start: Annotated[bool, typer.Option("--to-start", help="To the start of the match, not of the scene.")] = False,
+    to_start: Annotated[
+        bool, typer.Option("--to-start", help="Go to the start of the match, not of the scene.")
+    ] = False,
     *,
     connection: ClientSettings,
 ) -> None:
-    """Begin another episode: the scene that was loaded last, or the match, from its start.
+    """Start a new episode: the last loaded scene, or the match, from its start.
 
     Example: touchline scene reset
     """
@@ -154,12 +156,13 @@ def _send(connection: ClientSettings, **content: Any) -> None:
 
 
 def _request(**content: Any) -> "SceneRequest":
-    """The message of what was typed in.
+    """The request for these command-line values.
 
     Raises:
-        TouchlineError: a value that it may not have.
+        TouchlineError: a value is invalid.
     """
-    from schemas.config.scene import REMEDIES, SceneRequest
+    from schemas.config.scene import REMEDIES
     from schemas.config.toml_file import validate_tables
+    from schemas.messages.scene import SceneRequest
 
     return validate_tables(SceneRequest, content, f"scene {content['operation']}", REMEDIES)

@@ -1,4 +1,4 @@
-"""`touchline scenes`: the scenes that ship, or one of them."""
+"""`touchline scenes`: lists the built-in scenes, or shows one."""
 
 import json as json_text
 from typing import Annotated
@@ -10,7 +10,7 @@ from touchline.cli import options
 
 def scenes(
     name: Annotated[
-        str | None, typer.Argument(metavar="[NAME]", help="A scene that ships, or the path of a file.")
+        str | None, typer.Argument(metavar="[NAME]", help="A built-in scene, or the path of a file.")
     ] = None,
     json: options.Json = False,
 ) -> None:
@@ -26,8 +26,8 @@ def scenes(
             typer.echo(json_text.dumps(found, ensure_ascii=False, indent=2))
             return
         width = max(map(len, found))
-        for shipped, says in found.items():
-            typer.echo(f"{shipped.ljust(width)}  {says}")
+        for shipped, description in found.items():
+            typer.echo(f"{shipped.ljust(width)}  {description}")
         return
     scene = load_scene(name)
     if json:

@@ -24,7 +24,7 @@ def schema(
 
 
 def known() -> dict[str, type[WireMessage | Part]]:
-    """Topic and class name → message, answers to questions and the match file included."""
+    """Topic or class name → message, including replies to queries and the match file."""
     from schemas.config.match_config import MatchConfig
 
     models: dict[str, type[WireMessage | Part]] = {"MatchConfig": MatchConfig}

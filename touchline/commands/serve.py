@@ -1,4 +1,4 @@
-"""`touchline coach serve`: the match's page, for people who watch and command it in their browsers."""
+"""`touchline coach serve`: serves the match's page, to watch and command the match in a browser."""
 
 import typer
 
@@ -9,9 +9,9 @@ from touchline.cli.option_groups import with_option_groups
 
 @with_option_groups
 def serve(settings: GatewaySettings) -> None:
-    """Serve the page of a running match, or of a replay, until Ctrl-C; hosts may come and go meanwhile.
+    """Serve the page of a running match, or of a replay, until Ctrl-C; hosts may restart meanwhile.
 
-    It prints where the page is, with a token for the referee and for each side's coach. Bridges run beside it, as with
+    Prints the page's address, with a token for the referee and for each side's coach. Bridges run beside it, as with
     `touchline coach bridge`.
 
     Example: touchline coach serve --port 8081

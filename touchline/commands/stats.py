@@ -1,4 +1,4 @@
-"""`touchline stats`: a match in figures, and as a page to look at."""
+"""`touchline stats`: statistics of a match, as text, JSON or an HTML page."""
 
 import json as json_text
 from pathlib import Path
@@ -16,7 +16,7 @@ def stats(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
     json: options.Json = False,
     html: Annotated[
-        Path | None, typer.Option(metavar="PAGE.html", help="Write the match as one page that opens from disk.")
+        Path | None, typer.Option(metavar="PAGE.html", help="Write the statistics as one self-contained HTML page.")
     ] = None,
 ) -> None:
     """Measure a match: score, possession, passes, shots, saves, distance, speed, fouls, restarts.

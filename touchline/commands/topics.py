@@ -13,7 +13,7 @@ _COLUMNS = ("name", "key", "message", "from", "to", "rate", "delivery", "recorde
 
 
 def topics(json: options.Json = False) -> None:
-    """List every topic: key, message, who writes, who may read, rate, delivery, recorded or not.
+    """List every topic: key, message, writer, readers, rate, delivery, recorded or not.
 
     Example: touchline topics --json | jq '.[] | select(.recorded).key'
     """
@@ -23,7 +23,7 @@ def topics(json: options.Json = False) -> None:
         return
     cells = [_COLUMNS, *(tuple(_cell(row[column]) for column in _COLUMNS) for row in rows)]
     widths = [max(len(line[place]) for line in cells) for place in range(len(_COLUMNS))]
-    typer.echo("All keys stand below touchline/{match}/.\n")
+    typer.echo("All keys are below touchline/{match}/.\n")
     for line in cells:
         typer.echo("  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip())
 

@@ -15,16 +15,16 @@ if TYPE_CHECKING:
     from touchline.verify.resimulate import Detail, Discrepancy, Verdict
 
 _DETAILS = 6
-"""Lines on what differs; the rest is counted."""
+"""Maximum number of differences that are listed; the rest is counted."""
 _UNITS = {"x": "m", "y": "m", "z": "m", "heading": "rad", "vx": "m/s", "vy": "m/s", "vz": "m/s", "omega": "rad/s"}
 
 
 def verify(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
     from_kickoff: Annotated[
-        int | None, typer.Option("--from-kickoff", help="Begin at this kick-off, counted from 1, not at the start.")
+        int | None, typer.Option("--from-kickoff", help="Start at this kick-off, counted from 1, instead of tick 0.")
     ] = None,
-    jobs: Annotated[int, typer.Option(help="Processes at once; 0 for one on each core.")] = 0,
+    jobs: Annotated[int, typer.Option(help="Number of parallel processes; 0 for one per core.")] = 0,
     json: options.Json = False,
 ) -> None:
     """Simulate a recorded match again and compare every tick: identical, or the first tick that differs.
@@ -35,7 +35,7 @@ def verify(
     from touchline.verify.resimulate import verify as verified
 
     if jobs < 0:
-        raise TouchlineError(f"--jobs is {jobs}; give a number of processes, or 0 for one on each core")
+        raise TouchlineError(f"--jobs is {jobs}; give a number of processes, or 0 for one per core")
     verdict = verified(file, from_kickoff, jobs or len(os.sched_getaffinity(0)))
     if json:
         typer.echo(json_text.dumps(verdict.to_json(), ensure_ascii=False))
@@ -46,9 +46,9 @@ def verify(
 
 
 def _lines(verdict: "Verdict") -> list[str]:
-    """The verdict in words; another machine comes first, since it may explain the rest."""
+    """The verdict as text; a different machine is reported first, because it may explain the rest."""
     lines = [
-        f"{part} differs from that of the recording: {theirs} there, {ours} here; the same may not come out"
+        f"{part} differs from the recording: {theirs} there, {ours} here; results may differ"
         for part, (theirs, ours) in verdict.other_machine.items()
     ]
     if verdict.difference is not None:
@@ -60,20 +60,20 @@ def _lines(verdict: "Verdict") -> list[str]:
         )
     lines += [_LEFT_OUT[one.why].format(_range(one.first, one.last)) for one in verdict.left_out]
     if verdict.without_world:
-        lines.append(f"of {verdict.without_world} ticks no world was recorded; their hash chain was compared")
+        lines.append(f"{verdict.without_world} ticks have no recorded world; their hash chain was compared")
     rate = verdict.seconds / verdict.took
     how = "one process" if verdict.processes == 1 else f"{verdict.processes} processes"
     lines.append(
         f"{verdict.seconds:.1f} s of the match simulated again in {verdict.took:.1f} s by {how}, ×{rate:.0f}; "
-        f"kick-offs to begin with: {verdict.kick_offs}"
+        f"kick-offs to start from: {verdict.kick_offs}"
     )
     return lines
 
 
 _LEFT_OUT = {
     "before": "{} are older than the recording",
-    "missing": "{} are missing in the recording: nothing can be said of them",
-    "no_start": "{} stand before the first tick that a simulation can begin with: nothing can be said of them",
+    "missing": "{} are missing in the recording and were not verified",
+    "no_start": "{} are before the first tick that a simulation can start from and were not verified",
 }
 
 
@@ -90,6 +90,6 @@ def _of_difference(one: "Discrepancy") -> list[str]:
 
 
 def _of_detail(one: "Detail") -> str:
-    other = "its command says" if one.of.startswith("input") else "simulated again"
+    other = "in its command" if one.of.startswith("input") else "simulated again"
     by = f", {one.by:.3g} {_UNITS.get(one.field.split('.')[-1], '')}".rstrip() + " apart" if one.by is not None else ""
     return f"{one.of}: {one.field} is {one.recorded} recorded, {one.simulated} {other}{by}"

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from schemas.bus.contract import Bus
 
 _EVERY = 0.1
-"""s of wall time between two pictures."""
+"""Wall time between two pictures, s."""
 
 
 @with_option_groups
 def watch(connection: ClientSettings) -> None:
-    """Watch a match in the terminal until its host goes, or until Ctrl-C: pitch, score, robots, events.
+    """Watch a match in the terminal until its host ends, or until Ctrl-C: pitch, score, robots, events.
 
-    Where the output is no terminal, the match is told in plain lines. A replay is watched in the same way.
+    If the output is not a terminal, the match is printed as plain lines. Replays can be watched, too.
 
     Example: touchline watch --match friendly
     """
@@ -41,7 +41,7 @@ def watch(connection: ClientSettings) -> None:
 
 
 def watch_on(bus: "Bus", console: "Console") -> None:
-    """Draw until the host goes; the last picture stays, where the terminal was.
+    """Draw until the host ends; the last picture stays on the terminal.
 
     Raises:
         TouchlineError: no host plays this match.

@@ -1,1 +1,1 @@
-"""One robot driven by keys in place of its brain."""
+"""Drives one robot by keys instead of its brain."""

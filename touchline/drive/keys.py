@@ -1,6 +1,6 @@
-"""Driving a robot by keys: a pure core, (state, key, time) → state, and what the state says at a time.
+"""Drives a robot by keys: pure functions, (state, key, time) → state, and (state, time) → command.
 
-The keys are those of the paper's teleoperation node, and so are the speeds that the command line begins with.
+The keys and the default speeds are those of the paper's teleoperation node.
 """
 
 from collections.abc import Callable, Mapping
@@ -11,12 +11,12 @@ from schemas.messages.manual import ManualDrive
 from touchline.cli.terminal import DOWN, LEFT, RIGHT, UP, parse_keys
 
 KEY_LASTS_S = 0.5
-"""s that a key of motion counts for: a terminal tells of no release, and repeats a held key sooner than that."""
+"""Duration of a motion key's effect, s. A terminal reports no key release; it repeats a held key within this time."""
 
 
 @dataclass(frozen=True, slots=True)
 class Speeds:
-    """How fast keys move a robot: m/s, rad/s, and m/s of the ball."""
+    """Speeds of a driven robot: m/s, rad/s, and m/s of the kicked ball."""
 
     drive: float = 1.0
     turn: float = 1.0
@@ -31,13 +31,13 @@ class Axis:
     since: float = 0.0
 
     def at(self, now: float) -> int:
-        """The direction that still counts."""
+        """The direction that is still in effect."""
         return self.sign if now - self.since < KEY_LASTS_S else 0
 
 
 @dataclass(frozen=True, slots=True)
 class KeyState:
-    """Everything that keys have said."""
+    """The state from all keys so far."""
 
     ahead: Axis = Axis()
     """1 is forward."""
@@ -48,7 +48,7 @@ class KeyState:
     dribble: bool = False
     mode: KickMode = KickMode.GROUND
     kicks: bool = False
-    """A kick is to be said next."""
+    """The next command kicks."""
 
 
 KeyAction = Callable[[KeyState, float], KeyState]
@@ -66,23 +66,23 @@ KEYS: Mapping[str, tuple[str, KeyAction]] = {
     "x": ("next kick mode", lambda state, _: replace(state, mode=_MODES[(_MODES.index(state.mode) + 1) % len(_MODES)])),
     " ": ("kick", lambda state, _: replace(state, kicks=True)),
 }
-"""Key → what it does, in words and in deed."""
+"""Key → its description, and its effect on the state."""
 
 
 def keys_in(text: str) -> list[str]:
-    """The keys that a terminal sent, arrows by name; what is no key of ours is left out."""
+    """The keys in a terminal's input, arrows by name; unknown keys are left out."""
     return [key for key in parse_keys(text) if key in KEYS]
 
 
 def press_keys(state: KeyState, text: str, now: float) -> KeyState:
-    """The state after what a terminal sent at a time in s."""
+    """The state after a terminal's input at a time in s."""
     for key in keys_in(text):
         state = KEYS[key][1](state, now)
     return state
 
 
 def manual_drive(state: KeyState, speeds: Speeds, now: float) -> ManualDrive:
-    """What the state says at a time in s."""
+    """The command for the state at a time in s."""
     return ManualDrive(
         drive=Drive(
             vx=speeds.drive * state.ahead.at(now),
@@ -95,5 +95,5 @@ def manual_drive(state: KeyState, speeds: Speeds, now: float) -> ManualDrive:
 
 
 def status(state: KeyState) -> str:
-    """One line on what the keys have switched."""
+    """The dribbler and kick mode, in one line."""
     return f"dribbler {'on' if state.dribble else 'off'}, kick {state.mode.value}"

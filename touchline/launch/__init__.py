@@ -1,1 +1,1 @@
-"""The processes of a match: planned, launched, supervised and ended, and the result they leave."""
+"""Plans, launches, supervises and ends the processes of a match, and collects its result."""

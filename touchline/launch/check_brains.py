@@ -1,4 +1,4 @@
-"""Whether what moves a team can be found, looked up without running any of it."""
+"""Checks that the teams' brains and programs exist, without running their code."""
 
 import ast
 import importlib.util
@@ -15,14 +15,14 @@ from schemas.side import Side
 
 
 def check_teams(config: MatchConfig) -> None:
-    """Make sure that both teams' brains or programs are there, before anything is launched.
+    """Check that both teams' brains or programs exist, before any process is launched.
 
     Raises:
-        TouchlineError: one that is not, named with its key in the match file.
+        TouchlineError: one does not exist; the message names its key in the match file.
     """
     here = str(Path.cwd())
     if here not in sys.path:
-        sys.path.append(here)  # where `python -m` looks, too
+        sys.path.append(here)  # on the path of `python -m`, too
     for side in Side:
         team = config.team(side)
         if team.command is not None:
@@ -35,14 +35,14 @@ def _check_program(key: str, command: list[str]) -> None:
     if not command:
         raise TouchlineError(f'{key} is empty; write it as ["program", "argument"]')
     if shutil.which(command[0]) is None:
-        raise TouchlineError(f'{key} begins with "{command[0]}", which is no program here; give its path')
+        raise TouchlineError(f'{key} begins with "{command[0]}", which is not a program here; give its path')
 
 
 def _check_brain(key: str, brain: str) -> None:
     module, _, name = brain.partition(":")
     found = _find(key, brain, module)
     if found.origin is None or not found.origin.endswith(".py"):
-        return  # compiled, or a bare folder: only the agent can tell
+        return  # compiled, or a folder without code: only the agent can check it
     try:
         tree = ast.parse(Path(found.origin).read_bytes())
     except SyntaxError as error:
@@ -50,7 +50,7 @@ def _check_brain(key: str, brain: str) -> None:
     names = set(_names(tree.body))
     if name not in names and "*" not in names and "__getattr__" not in names:
         public = sorted(word for word in names if not word.startswith("_"))
-        hint = did_you_mean(name, public) if public else "it defines nothing"
+        hint = did_you_mean(name, public) if public else "it defines no public names"
         raise TouchlineError(f'{key} is "{brain}"; {module} has no {name}; {hint}')
 
 
@@ -74,7 +74,7 @@ def _find(key: str, brain: str, module: str) -> ModuleSpec:
 
 
 def _names(body: list[ast.stmt]) -> Iterator[str]:
-    """What a module's top level binds, also within `if` and `try`."""
+    """The names bound at the top level of a module, including those within `if` and `try`."""
     for statement in body:
         match statement:
             case ast.ClassDef() | ast.FunctionDef() | ast.AsyncFunctionDef():

@@ -1,4 +1,4 @@
-"""One launched process: a group of its own, a log of its own, and an end at the latest with its supervisor."""
+"""One launched process: it has its own process group and log, and does not outlive its supervisor."""
 
 import os
 import signal
@@ -7,8 +7,8 @@ import sys
 from abc import ABC, abstractmethod
 from pathlib import Path
 
+from schemas.config.settings_file import write_settings
 from schemas.errors import TouchlineError
-from schemas.process.settings_file import write_settings
 from touchline.launch import leash
 from touchline.launch.processes import Process
 
@@ -16,10 +16,10 @@ _TAIL_BYTES = 8192
 
 
 class ProcessHandle(ABC):
-    """A process that was launched and runs, or has run; it leads a group of its own."""
+    """A launched process, running or ended; it leads its own process group."""
 
     def __init__(self, process: Process, log: Path, log_start: int) -> None:
-        """What it writes goes to the end of `log`, which is `log_start` bytes long before."""
+        """The process appends its output to `log`, which has `log_start` bytes before."""
         self.process = process
         self.log = log
         self._log_start = log_start
@@ -32,23 +32,23 @@ class ProcessHandle(ABC):
 
     @abstractmethod
     def _poll(self) -> int | None:
-        """Exit status, negative for a signal; nothing while it runs. Not asked again when it has ended."""
+        """Exit status, negative for a signal; None while running. Not called again after the end."""
 
     def status(self) -> int | None:
-        """Exit status, negative for the signal that ended it; nothing while it runs."""
+        """Exit status, negative for the signal that ended the process; None while running."""
         if self._status is None:
             self._status = self._poll()
             if self._status is not None:
-                self._signal_group(signal.SIGKILL)  # whatever it started goes with it
+                self._signal_group(signal.SIGKILL)  # ends its descendants, too
         return self._status
 
     def send(self, number: signal.Signals) -> None:
-        """Send a signal to the program and all it started, unless it has ended."""
+        """Send a signal to the process group, unless the process has ended."""
         if self._status is None:
             self._signal_group(number)
 
     def last_lines(self, count: int = 5) -> list[str]:
-        """The end of what it wrote to its log, without empty lines; what an earlier one wrote there is left out."""
+        """The last lines of this process's output, without empty lines and without output of an earlier process."""
         with self.log.open("rb") as log:
             log.seek(max(self._log_start, self.log.stat().st_size - _TAIL_BYTES))
             text = log.read().decode("utf-8", "replace")
@@ -58,14 +58,14 @@ class ProcessHandle(ABC):
         try:
             os.killpg(self.pid, number)
         except ProcessLookupError:
-            return  # nobody of it is left
+            return  # no process of the group is left
 
 
 def write_settings_of(process: Process) -> None:
-    """Write the settings file that a process reads; a team's own program has none.
+    """Write the settings file of a process; a team's own program has none.
 
     Raises:
-        TouchlineError: it cannot be written.
+        TouchlineError: the file cannot be written.
     """
     if process.settings is None or process.settings_file is None:
         return
@@ -76,10 +76,10 @@ def write_settings_of(process: Process) -> None:
 
 
 class ChildProcess(ProcessHandle):
-    """A program, launched by its command line."""
+    """A program launched by its command line."""
 
     def __init__(self, process: Process, log: Path) -> None:
-        """Its settings are written first, where it has any."""
+        """Writes the settings, if any, before the launch."""
         write_settings_of(process)
         command = [sys.executable, "-I", "-S", leash.__file__, str(os.getpid()), *process.command]
         with log.open("ab") as out:

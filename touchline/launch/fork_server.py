@@ -1,7 +1,7 @@
-"""Robots launched by the standard library's fork server, which has imported what all of them need.
+"""Launches robots with the standard library's fork server, which has the common modules imported.
 
-Where the kernel is not Linux, and where a robot has a program of its own or is launched again after a crash, it is
-launched by its command line.
+A robot is launched by its command line instead if the kernel is not Linux, if the robot has its own program, or if it
+is restarted after a crash.
 """
 
 import multiprocessing
@@ -20,14 +20,14 @@ from touchline.launch.child_process import ChildProcess, ProcessHandle, write_se
 from touchline.launch.processes import Process
 
 _PATIENCE_S = 2.0
-"""Wall time within which a robot that was forked leads its group; it takes milliseconds."""
+"""Wall time for a forked robot to lead its process group; normally a few milliseconds."""
 
 
 class ForkedRobot(ProcessHandle):
-    """A robot from the fork server: a child of that server, whose end the server reports."""
+    """A robot from the fork server: a child of that server, which reports its exit status."""
 
     def __init__(self, process: Process, log: Path, begin: int, robot: ForkServerProcess, leads: Connection) -> None:
-        """`leads` closes as soon as it leads its group."""
+        """`leads` closes as soon as the robot leads its process group."""
         super().__init__(process, log, begin)
         self._robot, self._leads = robot, leads
 
@@ -46,14 +46,14 @@ class ForkedRobot(ProcessHandle):
 
 
 class ForkServer:
-    """Launches robots; the server itself is started with the first of them, and ends with this process."""
+    """Launches robots; the server starts with the first robot and ends with this process."""
 
     def __init__(self) -> None:
         self._context = multiprocessing.get_context("forkserver") if sys.platform == "linux" else None
         self._launched: set[str] = set()
 
     def launch(self, process: Process, log: Path) -> ProcessHandle:
-        """Launch a process: a robot of ours by the fork server, any other by its command line."""
+        """Launch a Python robot with the fork server, any other process by its command line."""
         if isinstance(process.settings, AgentSettings) and process.name not in self._launched:
             self._launched.add(process.name)
             robot = self._fork(process, process.settings, log)
@@ -62,7 +62,7 @@ class ForkServer:
         return ChildProcess(process, log)
 
     def _fork(self, process: Process, settings: AgentSettings, log: Path) -> ForkedRobot | None:
-        """The robot; None where there is no fork server."""
+        """The robot; None without a fork server."""
         if self._context is None:
             return None
         write_settings_of(process)
@@ -82,7 +82,7 @@ class ForkServer:
 
 @contextmanager
 def _environment(more: Mapping[str, str]) -> Iterator[None]:
-    """Add to the environment of processes that are started meanwhile: the fork server keeps what it is started with."""
+    """Extend the environment within the block: the fork server keeps the environment it is started with."""
     before = {name: os.environ.get(name) for name in more}
     os.environ.update(more)
     try:

@@ -1,4 +1,4 @@
-"""A whole match: its processes launched, watched and ended, and what came of it."""
+"""A whole match: launches, watches and ends its processes, and returns the result."""
 
 import signal
 from collections.abc import Callable, Iterable, Sequence
@@ -10,8 +10,8 @@ from coach_gateway.match.lines import event_line
 from schemas.bus.contract import Bus, BusError, ReceivedMessage
 from schemas.bus.zenoh.bus import open_client
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.game import GameEvent, GameState
-from schemas.messages.host import Health
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.health import Health
 from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle
@@ -23,15 +23,15 @@ from touchline.watch.screen import Screen
 from touchline.watch.status_line import status_line
 
 _POLL = 0.05
-"""s of wall time between looks at processes and bus."""
+"""Wall time between polls of processes and bus, s."""
 _LAST_MESSAGES = 5.0
-"""s of wall time for the host's last messages to arrive after its process has ended: they are all here when its link
-ends, which it does with the process, so that only a machine with no time for us takes long."""
+"""Wall time for the host's last messages to arrive after its process has ended, s. They have all arrived when the link
+closes, and it closes with the process: only an overloaded machine takes long."""
 _WRONG_INPUT = 2
 
 
 class InterruptedMatchError(Exception):
-    """Somebody ended the match with a signal, whose number this carries."""
+    """The match was interrupted by a signal; `number` is the signal's number."""
 
     def __init__(self, number: int) -> None:
         super().__init__(number)
@@ -39,7 +39,7 @@ class InterruptedMatchError(Exception):
 
 
 class StopSignals:
-    """While entered, SIGINT and SIGTERM are noted instead of raised."""
+    """Within the block SIGINT and SIGTERM are stored instead of raised."""
 
     def __init__(self) -> None:
         self.received: int | None = None
@@ -72,7 +72,7 @@ class MatchRun:
         losses: Callable[[MatchPlan], dict[str, int]],
         recorded: Callable[[MatchPlan], Iterable[ReceivedMessage]],
     ) -> None:
-        """`losses` tells what a finished recording lacks, `recorded` what it has of the game's events and states."""
+        """`losses` returns the losses of a finished recording, `recorded` its events and states of the game."""
         self._plan = plan
         self._screen = screen
         self._clock = clock
@@ -83,12 +83,12 @@ class MatchRun:
         self._supervisor = Supervisor(processes_of(plan), self._launch, clock)
 
     def play(self) -> MatchResult:
-        """Play it.
+        """Play the match.
 
         Raises:
-            InterruptedMatchError: SIGINT or SIGTERM came; everything is ended and the recording finished.
+            InterruptedMatchError: SIGINT or SIGTERM; all processes have ended and the recording is finished.
             MatchFailedError: the host ended before full time, or the recording was lost.
-            TouchlineError: the host could not begin, and says why.
+            TouchlineError: the host could not start; the message is the host's.
         """
         with StopSignals() as stop:
             try:
@@ -97,9 +97,9 @@ class MatchRun:
             except BaseException:
                 self._supervisor.end(AT_ONCE)
                 raise
-            if follower is not None:  # of a host that was never met there is nothing to record
+            if follower is not None:  # without a host there is no match to record
                 self._supervisor.end(AFTER_THE_MATCH, hurried=lambda: stop.received is not None)
-            self._supervisor.end(AT_ONCE)  # whoever is left when somebody is in a hurry
+            self._supervisor.end(AT_ONCE)  # the remaining processes, after an interrupt
         if stop.received is not None:
             raise InterruptedMatchError(stop.received)
         return self._outcome(follower)
@@ -108,7 +108,7 @@ class MatchRun:
         return self._fork_server.launch(process, self._plan.folder / f"{process.name}.log")
 
     def _follow(self, stop: StopSignals) -> MatchFollower | None:
-        """Watch until the host has ended or a signal came; nothing when the host was never met."""
+        """Watch until the host has ended or a signal is received; None if the host was never reached."""
         bus = self._connect(stop)
         if bus is None:
             return None
@@ -149,10 +149,10 @@ class MatchRun:
         self._screen.status(status_line(follower, self._robots))
 
     def _outcome(self, follower: MatchFollower | None) -> MatchResult:
-        """The result, or the reason why there is none."""
+        """The result; raises the reason if there is none."""
         status = self._supervisor.host_status
         if status == 0 and follower is not None and not follower.finished:
-            # whoever stood still for the last second has not heard the end, and the recorder, who is waited for, has
+            # this process may have missed the last messages if it was stalled; the host waits for the recorder
             self._report(follower, follower.complete(self._recorded(self._plan)))
         if status == 0 and follower is not None and follower.finished:
             return self._result(follower)
@@ -166,12 +166,12 @@ class MatchRun:
 
     def _result(self, follower: MatchFollower) -> MatchResult:
         recording = self._plan.recording
-        snapshots = self._plan.config.record.snapshot is not None  # a match without a goal leaves none
+        snapshots = self._plan.config.record.snapshot is not None  # a match without a goal has none
         missing = not snapshots and not self._plan.recording_files
         if recording is not None and (self._supervisor.ended.get("recorder") != 0 or missing):
             log = self._supervisor.last_lines("recorder")
             raise MatchFailedError(
-                f"the match was played but its recording was lost: {log[-1] if log else 'the recorder says nothing'}; "
+                f"the match was played but its recording was lost: {log[-1] if log else 'no reason logged'}; "
                 f"its log is {self._plan.folder / 'recorder.log'}"
             )
         return MatchResult.of(follower, recording, self._losses(self._plan))

@@ -1,4 +1,4 @@
-"""The page of a match or a replay as a command has it served: its port is tried, its tokens made, people are told."""
+"""The page of a match or a replay, served for a command: checks its port, makes its tokens, formats its addresses."""
 
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
@@ -18,7 +18,7 @@ from touchline.launch.supervisor import AT_ONCE, Notice, Supervisor
 
 
 def page_settings(options: Mapping[str, Any]) -> WebSettings:
-    """The page that these options ask for, with a real port that can be listened on.
+    """The settings of the page for these options, with a real port that is free.
 
     Raises:
         TouchlineError: the port is taken, or a package is missing.
@@ -29,7 +29,7 @@ def page_settings(options: Mapping[str, Any]) -> WebSettings:
 
 
 def address_lines(web: WebSettings, tokens: Path) -> list[str]:
-    """What people are told: where the referee finds the page, where everybody else, and the coaches' tokens.
+    """The lines to print: the referee's address of the page, the spectators' address, and the coaches' tokens.
 
     Raises:
         TouchlineError: the tokens cannot be written to their file.
@@ -45,9 +45,9 @@ def address_lines(web: WebSettings, tokens: Path) -> list[str]:
 def serve_page_beside(
     match: str, connect: str, web: WebSettings, clock: Clock, log: Callable[[str], None]
 ) -> Iterator[Callable[[], list[Notice]]]:
-    """Serve the page of a match for as long as the block lasts; gives what looks after it, to be called now and then.
+    """Serve the page of a match within the block; yields a function that supervises it, to be called periodically.
 
-    Its tokens last as long.
+    The tokens are valid within the block.
     """
     with tempfile.TemporaryDirectory(prefix="touchline-page-") as name:
         folder = Path(name)

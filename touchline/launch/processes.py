@@ -1,4 +1,4 @@
-"""The processes of a match: one table, and how a match file turns it into programs to launch."""
+"""The processes of a match: the table of kinds, and the programs to launch for a match file."""
 
 import sys
 from collections.abc import Mapping
@@ -20,7 +20,7 @@ from sim_host.server.settings import HostSettings
 
 
 class ProcessKind(StrEnum):
-    """What a process is for."""
+    """The role of a process."""
 
     HOST = "host"
     RECORDER = "recorder"
@@ -38,7 +38,7 @@ class ProcessRow:
     module: str
     """Started as `python -m MODULE --settings FILE`."""
     restarts: int = 0
-    """How often a crashed one is started again."""
+    """Maximum number of restarts after crashes."""
 
 
 PROCESSES: dict[ProcessKind, ProcessRow] = {
@@ -55,11 +55,11 @@ TOKENS = "tokens.json"
 
 COMMON_ENVIRONMENT = {
     "PYTHONUNBUFFERED": "1",
-    # A dozen processes share the machine; none of them multiplies matrices worth a thread of their own.
+    # A dozen processes share the machine; their matrices are too small to profit from threads.
     "OPENBLAS_NUM_THREADS": "1",
     "OMP_NUM_THREADS": "1",
 }
-"""What every process of a match finds in its environment."""
+"""Environment of every process of a match."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,57 +67,57 @@ class Process:
     """One program to launch."""
 
     name: str
-    """Of its log file, and in what is said of it: `host`, `recorder`, or the robot's name."""
+    """Name in messages and of the log file: `host`, `recorder`, or the robot's name."""
     kind: ProcessKind
     command: tuple[str, ...]
     environment: dict[str, str]
-    """Laid over the supervisor's own."""
+    """Added to the supervisor's environment."""
     restarts: int = 0
     settings: Settings | None = None
-    """What it reads from `settings_file`; None for a team's own program."""
+    """The content of `settings_file`; None for a team's own program."""
     settings_file: Path | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class MatchPlan:
-    """A match that is ready to be launched."""
+    """A match ready to launch."""
 
     config: MatchConfig
     listen: str
     folder: Path
     """Holds the settings and the logs of all processes."""
     recording: Path | None
-    """Where the recording goes, or nothing when none was wanted."""
+    """The recording to write; None for no recording."""
     warning: str = ""
-    """What people should know before the match begins."""
+    """A warning to print before the match begins; empty for none."""
     page: WebSettings | None = None
-    """The match's page; None when none was wanted."""
+    """The match's page; None for no page."""
     bridges: BridgeOptions = NO_BRIDGES
-    """What takes part beside the page."""
+    """The bridges beside the page."""
 
     @property
     def connect(self) -> str:
-        """Where the processes of this machine reach the host."""
+        """The host's endpoint for processes on the same machine."""
         return local_endpoint(self.listen)
 
     @property
     def recording_files(self) -> list[Path]:
-        """The finished files of the recording: one, or numbered ones."""
+        """The finished files of the recording: a single file, or numbered files."""
         from recordings.container.numbering import files_at
 
         return files_at(self.recording) if self.recording is not None else []
 
     @property
     def tokens(self) -> Path:
-        """Of page and coach programs alike."""
+        """The file of the tokens for both page and coach programs."""
         return self.folder / TOKENS
 
 
 def check_robot_names(config: MatchConfig) -> None:
-    """Make sure that no robot is called like a process that every match may have: logs go by these names.
+    """Check that no robot has the name of another process of the match: log files have these names.
 
     Raises:
-        TouchlineError: one is.
+        TouchlineError: a robot has such a name.
     """
     taken = [kind.value for kind in ProcessKind if kind is not ProcessKind.AGENT]
     for name in (name for side in Side for name in config.robots(side)):
@@ -129,7 +129,7 @@ def processes_of(plan: MatchPlan) -> list[Process]:
     """All programs of a match, in the order they are launched."""
     config, folder = plan.config, plan.folder
     connect, match = plan.connect, config.name
-    open_to_others = not is_loopback(plan.listen)  # whoever made the plan was asked for --insecure
+    open_to_others = not is_loopback(plan.listen)  # --insecure was checked when the plan was made
     host = HostSettings(config=config, listen=plan.listen, insecure=open_to_others)
     processes = [_process("host", ProcessKind.HOST, host, folder)]
     if plan.recording is not None:
@@ -154,14 +154,14 @@ def page_process(settings: GatewaySettings, folder: Path) -> Process:
 
 
 def _robot_process(robot: str, side: Side, plan: MatchPlan) -> Process:
-    """A robot's brain, or its team's own program, which learns from its environment which robot it is."""
+    """A robot's brain, or its team's own program, which reads the robot's name from its environment."""
     team = plan.config.team(side)
     environment = {
         "TOUCHLINE_CONNECT": plan.connect,
         "TOUCHLINE_MATCH": plan.config.name,
         "TOUCHLINE_ROBOT": robot,
         "TOUCHLINE_SIDE": side.value,
-        # A brain that goes through a set of words does so in the same order in every run.
+        # A fixed hash seed: a brain that iterates over a set of strings has the same order in every run.
         "PYTHONHASHSEED": "0",
     }
     if team.command:

@@ -1,4 +1,4 @@
-"""What a match came to: as one JSON object for programs, as score and table for people."""
+"""The result of a match: as one JSON object for programs, as score and table for people."""
 
 import json
 from collections.abc import Mapping
@@ -11,7 +11,8 @@ from rich.text import Text
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text
-from schemas.game import DisciplinaryRecord, EventKind, GameEvent, Score
+from schemas.game import EventKind, Score
+from schemas.messages.game import DisciplinaryRecord, GameEvent
 
 NOTABLE = frozenset(
     {
@@ -32,7 +33,7 @@ NOTABLE = frozenset(
         EventKind.SCENE,
     }
 )
-"""Events that people read about afterwards; stops and restarts are in the recording."""
+"""Events in the printed result; stops and restarts are in the recording."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,9 +51,9 @@ class MatchResult:
     """Wall time of play in s."""
     recording: Path | None
     losses: dict[str, int]
-    """Key → messages that the recorder missed; empty when it missed none."""
+    """Key → number of messages that the recorder missed; empty if it missed none."""
     effective_s: float = 0.0
-    """Simulated time in s that the ball was in play."""
+    """Simulated time with the ball in play, s."""
     robots: Mapping[str, DisciplinaryRecord] = field(default_factory=dict)
     """Robots that ended with a card or off the field."""
     shoot_out: Score | None = None
@@ -60,7 +61,7 @@ class MatchResult:
 
     @classmethod
     def of(cls, follower: MatchFollower, recording: Path | None, losses: dict[str, int]) -> "MatchResult":
-        """The outcome of what was seen."""
+        """The result from the received messages."""
         return cls(
             score=follower.state.score if follower.state is not None else Score(),
             duration_s=follower.last.time if follower.last is not None else 0.0,
@@ -113,7 +114,7 @@ class MatchResult:
         return Group(*parts)
 
     def _summary(self) -> str:
-        """Score by halves, penalties, ball in play, and who ended with which card."""
+        """Score by halves, penalties, ball in play, and each robot's cards at the end."""
         parts = ["halves " + ", ".join(f"{score.cyan}:{score.magenta}" for score in self.halves)]
         if self.shoot_out is not None:
             parts.append(f"penalties {self.shoot_out.cyan}:{self.shoot_out.magenta}")

@@ -1,4 +1,4 @@
-"""Where a match leaves its files: a folder of its own under `runs/`, named after match, moment and seed."""
+"""The folder of a match's files under `runs/`, named after match, time and seed."""
 
 from datetime import UTC, datetime
 from pathlib import Path
@@ -17,10 +17,10 @@ def prepare_run(
 ) -> MatchPlan:
     """Make the folder of a run.
 
-    `recording` is where the recording goes, by default into the folder; `recorded` false leaves it out.
+    `recording` is the file of the recording, by default in the folder. With `recorded` false there is no recording.
 
-    A recording that cannot be written there goes into the folder, and the plan says so: a match that many machines
-    wait for is played all the same.
+    If that file cannot be written, the recording goes into the folder and the plan has a warning: a match that many
+    machines wait for is played all the same.
 
     Raises:
         TouchlineError: the folder cannot be made or written.
@@ -41,7 +41,7 @@ def prepare_run(
 
 
 def _refusal(out: Path) -> str:
-    """Why no file can be written there; empty where one can."""
+    """The reason why the file cannot be written; empty if it can."""
     from recordings.container.partial_file import NotWritableError, PartialFile
 
     try:
@@ -54,7 +54,7 @@ def _refusal(out: Path) -> str:
 
 
 def _new_folder(stem: str) -> Path:
-    """A folder that was not there: two matches of one second get different ones."""
+    """A new folder: two matches of the same second get different folders."""
     number = 1
     while True:
         folder = RUNS / (stem if number == 1 else f"{stem}-{number}")

@@ -1,6 +1,6 @@
-"""Keeps the processes of a match: launches them, restarts agents that crash, and ends all of them in order.
+"""Supervises the processes of a match: launches them, restarts crashed agents, and ends all processes in order.
 
-Knows neither bus nor screen; the clock and the way to launch are given to it.
+Independent of bus and screen; the clock and the launch function are parameters.
 """
 
 import signal
@@ -13,21 +13,21 @@ from touchline.launch.processes import Process, ProcessKind
 
 
 class RunningProcess(Protocol):
-    """A launched process, as `touchline.launch.child_process.ChildProcess` is one."""
+    """A launched process, such as `touchline.launch.child_process.ChildProcess`."""
 
     def status(self) -> int | None:
-        """Exit status, negative for a signal; nothing while it runs."""
+        """Exit status, negative for a signal; None while running."""
 
     def send(self, number: signal.Signals) -> None:
-        """Send a signal, unless it has ended."""
+        """Send a signal, unless the process has ended."""
 
     def last_lines(self, count: int = 5) -> list[str]:
-        """The end of its log."""
+        """The last lines of the log."""
 
 
 @dataclass(frozen=True, slots=True)
 class Notice:
-    """Something people should know of a process: one sentence, and the last lines of its log."""
+    """A notice about a process for the user: one sentence, and the last lines of the log."""
 
     name: str
     sentence: str
@@ -36,7 +36,7 @@ class Notice:
 
 @dataclass(frozen=True, slots=True)
 class EndStep:
-    """After so many seconds of ending, who still runs gets this signal."""
+    """A step of the shutdown: after this many seconds the running processes of these kinds receive this signal."""
 
     after: float
     kinds: frozenset[ProcessKind]
@@ -46,7 +46,7 @@ class EndStep:
 _ALL = frozenset(ProcessKind)
 
 _RECONNECTING = frozenset({ProcessKind.AGENT, ProcessKind.PAGE, ProcessKind.BRIDGES})
-"""Who would wait for a host that has gone to come back."""
+"""Kinds of processes that would wait for an ended host to return."""
 
 AFTER_THE_MATCH = (
     EndStep(0.0, _RECONNECTING, signal.SIGTERM),
@@ -54,7 +54,7 @@ AFTER_THE_MATCH = (
     EndStep(30.0, frozenset({ProcessKind.RECORDER}), signal.SIGTERM),
     EndStep(35.0, _ALL, signal.SIGKILL),
 )
-"""The host has ended by itself: who would wait for it to come back is told; the recorder may finish."""
+"""The host has ended by itself: processes that would wait for its return are signalled; the recorder may finish."""
 
 AT_ONCE = (
     EndStep(0.0, frozenset({ProcessKind.HOST}), signal.SIGTERM),
@@ -62,7 +62,7 @@ AT_ONCE = (
     EndStep(0.4, frozenset({ProcessKind.RECORDER}), signal.SIGTERM),
     EndStep(1.8, _ALL, signal.SIGKILL),
 )
-"""Somebody ends it: the host goes first, the recorder has most of the time to finish its file; all in two seconds."""
+"""Interrupted: the host ends first, the recorder has most of the time to finish its file; two seconds in all."""
 
 _POLL = 0.02
 
@@ -77,16 +77,16 @@ class Supervisor:
         self._running: dict[str, RunningProcess] = {}
         self._restarts = dict.fromkeys(self._processes, 0)
         self.ended: dict[str, int] = {}
-        """Name → exit status of those that ended and were not started again."""
+        """Name → exit status of the processes that ended and were not restarted."""
 
     def start(self) -> None:
-        """Launch all, in the order of the table."""
+        """Launch all processes, in the order of the table."""
         for name, process in self._processes.items():
             self._running[name] = self._launch(process)
 
     def check(self) -> list[Notice]:
-        """Look after everybody once: what ended is noticed, and started again where the table says so."""
-        self._reap("host")  # first, so that nobody is restarted for a host that is gone
+        """Poll all processes once; restart ended ones if the table allows it."""
+        self._reap("host")  # first, so that no process is restarted after the host has ended
         notices = []
         for name, process in self._processes.items():
             if name in self.ended:
@@ -102,15 +102,15 @@ class Supervisor:
 
     @property
     def host_status(self) -> int | None:
-        """The host's exit status; nothing while it runs."""
+        """The host's exit status; None while running."""
         return self.ended.get("host")
 
     def last_lines(self, name: str) -> list[str]:
-        """The end of a process's log."""
+        """The last lines of a process's log."""
         return self._running[name].last_lines() if name in self._running else []
 
     def end(self, steps: Sequence[EndStep], hurried: Callable[[], bool] = lambda: False) -> None:
-        """End everybody by these steps; returns when all have gone, or as soon as somebody is `hurried`."""
+        """End all processes by these steps; returns when all have ended, or as soon as `hurried()` is true."""
         began = self._clock.now()
         waiting = list(steps)
         while self._still_running() and not hurried():

@@ -1,1 +1,1 @@
-"""A recording back on the bus: keys that control it, its progress, and robots played by it (ghosts)."""
+"""Replays a recording on the bus: control keys, progress display, and robots that repeat it (ghosts)."""

@@ -1,8 +1,8 @@
-"""A ghost: a robot that is played by what was recorded of it, and does not see what happens now.
+"""A ghost: a robot that repeats its recorded inputs and ignores the running match.
 
     python -m touchline.replay.ghost RECORDING.mcap
 
-Endpoint, match and robot come from the environment, as for every program that moves a robot.
+Endpoint, match and robot are read from the environment, as in every robot program.
 """
 
 import os
@@ -18,8 +18,9 @@ from robot_agent.runner import serve
 from schemas.bus.zenoh.bus import open_client
 from schemas.config.match_config import LOCKSTEP, MatchConfig
 from schemas.errors import TouchlineError
+from schemas.messages.applied import Applied
 from schemas.messages.command import Command
-from schemas.messages.host import Applied, Setup
+from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.process.clock import WallClock
 from schemas.process.scheduling import use_batch_scheduling
@@ -27,20 +28,20 @@ from schemas.side import Side
 from schemas.topics import APPLIED
 
 _PATIENCE_S = 10.0
-"""Wall time to wait for a host that is not there."""
+"""Wall time to wait for a missing host, s."""
 
 
 class Ghost:
-    """Answers the sight of tick k with the recorded input of tick k + 1; rests where nothing is recorded."""
+    """Answers the sight of tick k with the recorded input of tick k + 1; rests if that input is not recorded."""
 
     def __init__(self, robot: str, recorded: Iterable[Applied]) -> None:
-        """`recorded` are the inputs of a match, in order; they are read as far as they are needed."""
+        """`recorded` yields the inputs of a match, in order; it is read lazily."""
         self._robot = robot
         self._recorded = iter(recorded)
         self._next = next(self._recorded, None)
 
     def act(self, sight: Sight) -> Command:
-        """What this robot was told at the tick that the answer is for."""
+        """The recorded input of this robot at the tick after the sight."""
         wanted = sight.tick + 1
         while self._next is not None and self._next.tick < wanted:
             self._next = next(self._recorded, None)
@@ -63,10 +64,10 @@ def inputs_of(recording: Recording) -> Iterator[Applied]:
 
 
 def teams_of(ghosts: Iterable[str]) -> dict[str, dict[str, Any]]:
-    """What `magenta=FILE` means for a match file: side → its team, with the robots that were recorded.
+    """The teams of a match file for ghosts such as `magenta=FILE`: side → team, with the recorded robots.
 
     Raises:
-        TouchlineError: not a side and a recording, or one that does not say who played.
+        TouchlineError: not a side and a recording, or a recording without the match setup.
     """
     teams: dict[str, dict[str, Any]] = {}
     for ghost in ghosts:
@@ -75,7 +76,7 @@ def teams_of(ghosts: Iterable[str]) -> dict[str, dict[str, Any]]:
             raise TouchlineError(f'--ghost is "{ghost}"; write it as magenta=RECORDING.mcap')
         setup = open_recording(Path(file)).manifest.setup
         if setup is None:
-            raise TouchlineError(f"--ghost {ghost}: the recording does not say who played")
+            raise TouchlineError(f"--ghost {ghost}: the recording lacks the setup of its match")
         team = setup.teams[Side(word)]
         teams[word] = {
             "name": f"{team.name}, recorded",
@@ -88,10 +89,10 @@ def teams_of(ghosts: Iterable[str]) -> dict[str, dict[str, Any]]:
 
 
 def check_ghosts(config: MatchConfig, ghosts: Iterable[str]) -> None:
-    """Make sure that what was recorded can be played in this match.
+    """Check that the recordings can be played in this match.
 
     Raises:
-        TouchlineError: the ticks have another length, or others play on that side.
+        TouchlineError: the tick length differs, or the robots of that side differ.
     """
     tick = config.load_profile().time.tick
     for ghost in ghosts:
@@ -109,7 +110,7 @@ def check_ghosts(config: MatchConfig, ghosts: Iterable[str]) -> None:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Play one robot's ghost; the exit status of the process."""
+    """Run one robot's ghost; returns the exit status of the process."""
     signal.signal(signal.SIGTERM, _end)
     (file,) = sys.argv[1:] if arguments is None else arguments
     robot = os.environ["TOUCHLINE_ROBOT"]
@@ -132,7 +133,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _end(number: int, frame: FrameType | None) -> None:
-    """A polite end, from a supervisor as from a keyboard."""
+    """Treat SIGTERM from a supervisor like Ctrl-C."""
     del number, frame
     raise KeyboardInterrupt
 

@@ -1,4 +1,4 @@
-"""Playing a recording by keys: a pure core, (key, how the replay stands) → what is asked of it."""
+"""Control keys of a replay: a pure function, (key, replay status) → request."""
 
 from collections.abc import Callable, Mapping, Sequence
 
@@ -7,12 +7,12 @@ from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from touchline.cli.terminal import DOWN, LEFT, RIGHT, UP, parse_keys
 
 _JUMP_S = 5.0
-"""Simulated s that an arrow goes on or back."""
+"""Seek step of an arrow key, simulated s."""
 _FASTEST = 64.0
-"""Faster than this is as fast as possible."""
+"""Highest rate; the next step up is as fast as possible."""
 _SLOWEST = 1 / 64
 _NEAR_S = 1.0
-"""Simulated s behind an event within which `b` goes to the one before it: else one would never get past it."""
+"""Simulated s after an event within which `b` seeks to the previous event; otherwise `b` would stay at this one."""
 
 KeyRequest = Callable[[ReplayReply, Sequence[SeekTarget]], ReplayRequest]
 
@@ -52,9 +52,9 @@ def _before(status: ReplayReply, moments: Sequence[SeekTarget]) -> ReplayRequest
 
 
 KEYS: Mapping[str, tuple[str, str, KeyRequest]] = {
-    " ": ("space", "pause or go on", _pause),
+    " ": ("space", "pause or resume", _pause),
     ".": (".", "one tick", lambda *_: ReplayRequest(operation=ReplayOperation.STEP)),
-    RIGHT: ("→", f"{_JUMP_S:g} s on", _by(_JUMP_S)),
+    RIGHT: ("→", f"{_JUMP_S:g} s forward", _by(_JUMP_S)),
     LEFT: ("←", f"{_JUMP_S:g} s back", _by(-_JUMP_S)),
     UP: ("↑", "twice as fast", _faster),
     DOWN: ("↓", "half as fast", _slower),
@@ -62,17 +62,17 @@ KEYS: Mapping[str, tuple[str, str, KeyRequest]] = {
     "b": ("b", "event before", _before),
     "0": ("0", "to the beginning", lambda status, _: _to(status.start)),
     "e": ("e", "to the end", lambda status, _: _to(status.end)),
-    "l": ("l", "loop or not", lambda *_: ReplayRequest(operation=ReplayOperation.LOOP)),
+    "l": ("l", "loop on or off", lambda *_: ReplayRequest(operation=ReplayOperation.LOOP)),
     "q": ("q", "leave", lambda *_: ReplayRequest(operation=ReplayOperation.LEAVE)),
 }
-"""Key → its name, what it does, and what it asks for."""
+"""Key → its name, its description, and its request."""
 
 
 def key_requests(text: str) -> list[KeyRequest]:
-    """What the keys ask for that a terminal sent; others mean nothing."""
+    """The requests for the keys in a terminal's input; unknown keys are ignored."""
     return [KEYS[key][2] for key in parse_keys(text) if key in KEYS]
 
 
 def legend() -> str:
-    """All keys in one line."""
+    """The legend of all keys, in one line."""
     return ", ".join(f"{name} {words}" for name, words, _ in KEYS.values())

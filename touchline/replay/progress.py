@@ -1,4 +1,4 @@
-"""Where a replay is shown: a progress bar on a terminal, a plain line now and then everywhere else."""
+"""Progress display of a replay: a progress bar on a terminal, otherwise a plain line at intervals."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,23 +11,23 @@ from schemas.process.clock import Clock
 from touchline.cli.console import console
 
 LINE_EVERY = 5.0
-"""s of wall time between lines where nothing can be overwritten."""
+"""Wall time between lines on a stream that is not a terminal, s."""
 _BAR_EVERY = 0.1
-"""s of wall time between two pictures of the bar."""
+"""Wall time between refreshes of the bar, s."""
 
 
 class ProgressDisplay(Protocol):
-    """Shows how a replay stands."""
+    """Shows the status of a replay."""
 
     def __call__(self, status: ReplayReply) -> None:
-        """It stands like this; may be shown or not."""
+        """Show this status; some calls may be skipped."""
 
 
 def status_text(status: ReplayReply) -> str:
-    """`0:24.7 of 0:28.0  ×2  paused  loop`."""
+    """A status as text: `0:24.7 of 0:28.0  ×2  paused  loop`."""
     speed = "as fast as possible" if status.rate is None else f"×{status.rate:g}"
     parts = [f"{_minutes(status.time)} of {_minutes(status.end)}", speed]
-    return "  ".join([*parts, *(word for word, holds in (("paused", status.paused), ("loop", status.loop)) if holds)])
+    return "  ".join([*parts, *(name for name, is_on in (("paused", status.paused), ("loop", status.loop)) if is_on)])
 
 
 def _minutes(seconds: float) -> str:
@@ -37,7 +37,7 @@ def _minutes(seconds: float) -> str:
 
 @contextmanager
 def progress_on(stream: TextIO, clock: Clock) -> Iterator[ProgressDisplay]:
-    """The screen that suits a stream."""
+    """The display for a stream."""
     if not stream.isatty():
         yield _lines(stream, clock)
         return

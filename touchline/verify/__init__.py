@@ -1,1 +1,1 @@
-"""A recording compared with what is computed again: the world tick by tick, or the commands of a brain."""
+"""Compares a recording with a recomputation: of the world, tick by tick, or of a brain's commands."""

@@ -1,4 +1,4 @@
-"""A brain against a recording: it is shown what a robot saw, and what it says is compared with what the robot said."""
+"""Compares a brain with a recording: feeds it a robot's sights and compares its commands with the recorded ones."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class FirstDifference:
-    """Where a brain says something else for the first time."""
+    """The first command of a brain that differs from the recorded one."""
 
     tick: int
     time: float
-    """Simulated s."""
+    """Simulated time, s."""
     field: str
     recorded: Any
     answered: Any
@@ -29,27 +29,27 @@ class FirstDifference:
 
 @dataclass(frozen=True, slots=True)
 class BrainComparison:
-    """What came of it."""
+    """The result of the comparison."""
 
     robot: str
     brain: str
     sights: str
-    """`recorded`, or `simulated` where the match was simulated again for them."""
+    """Source of the sights: `recorded`, or `simulated` if the match was simulated again."""
     compared: int
-    """Sights that the robot had answered, and the brain was shown."""
+    """Number of sights that the robot answered and the brain received."""
     different: int
     fields: dict[str, int]
-    """Field of a command → how often it differs."""
+    """Field of a command → number of differences."""
     first: FirstDifference | None
     until: str
-    """Why sights ended before the recording did; nothing when they did not."""
+    """Reason why the sights ended before the recording; empty if they did not."""
 
     def to_json(self) -> dict[str, Any]:
-        """As plain values."""
+        """The verdict as plain JSON values."""
         return asdict(self)
 
     def sentence(self) -> str:
-        """One line."""
+        """The verdict as one line."""
         extent = f"{self.compared} {self.sights} sights of {self.robot}" + (
             f", until {self.until}" if self.until else ""
         )
@@ -64,7 +64,7 @@ class BrainComparison:
 
 
 def commands_of(recording: Recording) -> dict[str, dict[int, Command]]:
-    """Robot → tick of the sight → what it answered; of two answers to one sight the first, which the host took."""
+    """Robot → tick of the sight → the robot's command; of two for one sight the first, which the host applied."""
     commands: dict[str, dict[int, Command]] = {}
     for recorded, command in recording.decoded(COMMAND.fill()):
         commands.setdefault(recorded.key.split("/")[1], {}).setdefault(command.answers_tick, command)
@@ -72,15 +72,15 @@ def commands_of(recording: Recording) -> dict[str, dict[int, Command]]:
 
 
 def compare_brain(recording: Recording, robot: str, spec: str) -> BrainComparison:
-    """Show a brain every sight that the robot answered, in order, and compare.
+    """Feed a brain every sight that the robot answered, in order, and compare the commands.
 
     Raises:
-        TouchlineError: no such robot or brain, or a recording that sights cannot be had from.
+        TouchlineError: the robot or brain does not exist, or the recording cannot provide sights.
         MatchFailedError: the brain raised.
     """
     setup = recording.manifest.setup
     if setup is None:
-        raise TouchlineError(f"{recording.path}: the recording does not say how its match was set up")
+        raise TouchlineError(f"{recording.path}: the recording lacks the setup of its match")
     brain = load_brain(spec, Briefing.of(robot, setup))
     commands = commands_of(recording)
     if not commands.get(robot):
@@ -111,7 +111,7 @@ def _compared(
     for sight in sights:
         recorded = commands.get(sight.tick)
         if recorded is None or sight.tick <= shown:
-            continue  # the robot never saw it, or it was sent again
+            continue  # the robot did not answer it, or it was sent twice
         shown, compared = sight.tick, compared + 1
         differences = list(_differences(recorded.plain(), _answer(brain, spec, sight).plain()))
         different += bool(differences)
@@ -135,7 +135,7 @@ def _answer(brain: Brain, spec: str, sight: Sight) -> Command:
 
 
 def _differences(recorded: Any, answered: Any, path: str = "") -> Iterator[tuple[str, Any, Any]]:
-    """Every field that differs: its name, what was recorded, what is commands."""
+    """Every field that differs: its name, the recorded value, the value of the brain."""
     if isinstance(recorded, dict) and isinstance(answered, dict):
         for name in {**recorded, **answered}:
             yield from _differences(recorded.get(name), answered.get(name), f"{path}.{name}".lstrip("."))

@@ -1,7 +1,7 @@
-"""The sights of a recorded match that were not recorded: the match is simulated again, with sensors and referee.
+"""Regenerates the sights of a match that were not recorded: simulates it again, with sensors and referee.
 
-Everything that a robot perceives follows from the match file, the commands and the orders. What people asked the
-referee or did to the pitch is not in them: from there on sights are not what they were, and none are given.
+A robot's sights follow from the match file, the commands and the orders. These do not include manual referee actions
+and changes of the pitch: later sights would differ from the original ones, so the iteration stops there.
 """
 
 from collections.abc import Iterator, Mapping
@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 
 from recordings.reading.recording import Recording
 from schemas.errors import TouchlineError
+from schemas.messages.applied import Applied
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
-from schemas.messages.host import Applied
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.sight import Sight
 from schemas.side import Side
@@ -22,20 +22,20 @@ from touchline.verify.resim_start import config_of, need_scene
 
 @dataclass
 class RegeneratedSights:
-    """Simulates a recorded match again and gives one robot's sights, as long as the world is the recorded one."""
+    """Simulates a recorded match again and yields one robot's sights, while the world equals the recorded one."""
 
     recording: Recording
     robot: str
     commands: Mapping[str, Mapping[int, Command]]
-    """Robot → tick of the sight → what it answered."""
+    """Robot → tick of the sight → the robot's command."""
     until: str = field(default="", init=False)
-    """Why there were no more sights before the end of the recording; nothing when there was no such reason."""
+    """Reason why the sights ended before the recording; empty if they did not."""
 
     def __iter__(self) -> Iterator[Sight]:
-        """Sight by sight.
+        """Yield the sights in order.
 
         Raises:
-            TouchlineError: the recording does not hold its match file or its scene, or does not begin at tick 0.
+            TouchlineError: the recording lacks its match file or its scene, or does not begin at tick 0.
         """
         config = config_of(self.recording)
         if config is None:
@@ -57,12 +57,12 @@ class RegeneratedSights:
                     self.until = f"tick {simulation.now.tick + 1} is not in the recording"
                     return
                 if applied.robots is not None or applied.obstacles is not None:
-                    self.until = f"at tick {applied.tick} people changed who or what is on the pitch"
+                    self.until = f"at tick {applied.tick} the pitch was changed manually"
                     return
                 self._give_orders(simulation, orders)
                 self._step(simulation, applied, lockstep)
             if simulation.now.applied["chain"] != applied.chain:
-                self.until = f"at tick {applied.tick} the world is not the recorded one any more"
+                self.until = f"at tick {applied.tick} the world differs from the recorded one"
                 return
             if self.robot in simulation.now.sights:
                 yield Sight.decode(simulation.now.sights[self.robot])

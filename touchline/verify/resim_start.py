@@ -1,4 +1,4 @@
-"""What a recording says of the match before the first tick of a segment that is simulated again."""
+"""The state of a recorded match before the first tick of a segment that is simulated again."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -24,11 +24,11 @@ from sim_host.match.resimulation import CheckpointState, Conditions, ImpossibleT
 def resim_start(
     recording: Recording, segment: Segment, before: TickRecord | None
 ) -> tuple[Conditions, CheckpointState | None]:
-    """What is in force before the first tick of a segment, and what is known of the world then.
+    """The parameters and the world before the first tick of a segment, as far as they are recorded.
 
     Raises:
-        ImpossibleTickError: the tick before is not as any host would note it.
-        TouchlineError: the recording does not say how the match was set up.
+        ImpossibleTickError: no host can have recorded the tick before.
+        TouchlineError: the recording lacks the setup of the match.
     """
     changes = segment.start.changes
     from_start = segment.ticks.start == 0 or any(one.tick == 0 for one in changes)
@@ -45,7 +45,7 @@ def resim_start(
 
 
 def config_of(recording: Recording) -> MatchConfig | None:
-    """The config of a recording with the profile that is attached to it; None where it was not recorded.
+    """The config of a recording with its attached profile; None if the config was not recorded.
 
     Raises:
         TouchlineError: the attached profile is damaged.
@@ -56,14 +56,14 @@ def config_of(recording: Recording) -> MatchConfig | None:
     try:
         return config.model_copy(update={"profile_tables": from_json(tables)})
     except ValueError:
-        raise TouchlineError(f"{recording.path}: {PROFILE}, attached to it, is damaged; take another copy") from None
+        raise TouchlineError(f"{recording.path}: the attached {PROFILE} is damaged; use another copy") from None
 
 
 def need_scene(recording: Recording) -> None:
-    """Make sure that the config of a recording has the scene that the match started in.
+    """Check that the config of a recording contains the scene that the match started in.
 
     Raises:
-        TouchlineError: the config only names it, and it cannot be read.
+        TouchlineError: the config has only the scene's name, and the scene cannot be read.
     """
     missing = recording.manifest.missing_scene
     if missing is not None:
@@ -72,7 +72,7 @@ def need_scene(recording: Recording) -> None:
 
 def _known(before: TickRecord | None) -> CheckpointState:
     if before is None or before.applied is None or before.world is None:
-        raise ImpossibleTickError("the world of the tick before, to begin with, was not recorded")
+        raise ImpossibleTickError("the world of the tick before the segment was not recorded")
     try:
         return CheckpointState(World.decode(to_json(before.world)), before.applied.chain)
     except BadMessageError as error:
@@ -80,24 +80,24 @@ def _known(before: TickRecord | None) -> CheckpointState:
 
 
 def _parameters(recording: Recording, *, from_start: bool) -> LiveParameters:
-    """What the match was played with: at its start, or when the recorder asked the host."""
+    """The parameters of the match: at its start, or at the recorder's query to the host."""
     setup, config = recording.manifest.setup, config_of(recording)
     if config is not None:
         live_parameters = LiveParameters.of(config)
         return live_parameters if from_start or setup is None else live_parameters.with_settings(setup.parameters)
     if setup is None or (from_start and setup.parameters):
         raise TouchlineError(
-            f"{recording.path}: nothing in it says what numbers the match began with; record it from its beginning, "
+            f"{recording.path}: the parameters at the start of the match are missing; record it from its start, "
             "with touchline match --record"
         )
     return parameters_of(setup)
 
 
 def _robots(recording: Recording) -> Iterable[RosterEntry]:
-    """The robots that took part when the recorder asked, in the order of the roster.
+    """The robots that took part at the recorder's query, in the order of the roster.
 
     Raises:
-        TouchlineError: they are those of a scene that cannot be read.
+        TouchlineError: they are the robots of a scene that cannot be read.
     """
     manifest = recording.manifest
     for side in Side:
@@ -112,7 +112,7 @@ def _robots(recording: Recording) -> Iterable[RosterEntry]:
 
 
 def _obstacles(world: World) -> Iterable[StaticObstacle]:
-    """What stood on the pitch, as the world tells it."""
+    """The obstacles on the pitch, from the world message."""
     for name, one in world.obstacles.items():
         extents: dict[str, Any] = {"size": [one.size_x, one.size_y, one.height]}
         if one.shape is Shape.CYLINDER:

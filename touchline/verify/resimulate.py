@@ -1,7 +1,7 @@
-"""A recording simulated again and compared, tick by tick: where `recordings` and `sim_host` meet.
+"""Simulates a recording again and compares it tick by tick, by means of `recordings` and `sim_host`.
 
-The recording gives what was noted of each tick; the world part of the simulation goes the same way once more. Segments
-that begin with a checkpoint need nothing of what was before, and are gone over by several processes at once.
+The recording has the applied inputs of each tick; the world part of the simulation repeats them. A segment that begins
+with a checkpoint does not depend on earlier ticks, so several processes verify segments in parallel.
 """
 
 import math
@@ -18,7 +18,7 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.reading.tick_index import Segment, SkippedTicks, SkipReason, TickIndex, tick_index_of
 from recordings.reading.tick_records import TickRecord, command_check_of, tick_records
 from schemas.errors import TouchlineError
-from schemas.messages.host import Applied, chained_part_of
+from schemas.messages.applied import Applied, chained_part_of
 from schemas.wire.message import BadMessageError
 from sim_host.match.resimulation import ImpossibleTickError, Resimulation
 from sim_host.match.world_difference import differences
@@ -26,57 +26,57 @@ from sim_host.physics.fingerprint import fingerprint
 from touchline.verify.resim_start import resim_start
 
 _WORTH_A_PROCESS = 1500
-"""Ticks; to start a process takes as long as to simulate so many."""
+"""Cost of starting a process, in simulated ticks."""
 
 
 @dataclass(frozen=True, slots=True)
 class Detail:
-    """One thing that is not as it was recorded."""
+    """One value that differs from the recording."""
 
     of: str
     """`cyan2`, `ball`, `world`; `input of cyan2` where an input and the recorded command differ."""
     field: str
     recorded: Any
     simulated: Any
-    """For an input: what the command says."""
+    """For an input: the value in the command."""
     by: float | None = None
-    """How much, where both are numbers: m, m/s, rad or rad/s."""
+    """Absolute difference if both values are numbers: m, m/s, rad or rad/s."""
 
 
 @dataclass(frozen=True, slots=True)
 class Discrepancy:
-    """The first tick that is not as it was recorded."""
+    """The first tick that differs from the recording."""
 
     tick: int
     time: float
-    """Simulated time in s."""
+    """Simulated time, s."""
     why: str
     details: list[Detail] = field(default_factory=list)
 
 
 @dataclass(slots=True)
 class Verdict:
-    """What came of verifying a recording."""
+    """The result of verifying a recording."""
 
     ticks: int = 0
-    """Simulated again and found to be as recorded."""
+    """Number of ticks that were simulated again and are identical."""
     seconds: float = 0.0
-    """Their simulated time."""
+    """Simulated time of these ticks, s."""
     took: float = 0.0
-    """Wall time in s."""
+    """Wall time of the verification, s."""
     kick_offs: int = 0
-    """Of the whole recording."""
+    """Number in the whole recording."""
     processes: int = 1
     other_machine: dict[str, tuple[str, str]] = field(default_factory=dict)
-    """Part of the fingerprint → recorded, here; where they differ."""
+    """Part of the fingerprint → recorded value, value here; only parts that differ."""
     difference: Discrepancy | None = None
     left_out: list[SkippedTicks] = field(default_factory=list)
     without_world: int = 0
-    """Ticks whose `world` was not recorded: of them the chain alone was compared."""
+    """Ticks without a recorded `world`: only their hash chain was compared."""
 
     @property
     def identical(self) -> bool:
-        """Nothing differs, nothing is missing in between, and something was compared."""
+        """True if at least one tick was compared, no tick differs, and no tick in between is missing."""
         return (
             self.ticks > 0
             and self.difference is None
@@ -84,14 +84,14 @@ class Verdict:
         )
 
     def to_json(self) -> dict[str, Any]:
-        """The verdict as plain lists, numbers and texts."""
+        """The verdict as plain JSON values."""
         fields = asdict(self)
         fields["left_out"] = [one._asdict() for one in self.left_out]
         return {"identical": self.identical, **fields}
 
 
 class _SegmentResult(NamedTuple):
-    """What came of one segment."""
+    """The result of one segment."""
 
     ticks: int
     without_world: int
@@ -102,7 +102,7 @@ def verify(path: Path, from_kick_off: int | None = None, processes: int = 1) -> 
     """Simulate a recording again and compare every tick, from tick 0 or from the kick-off of this number.
 
     Raises:
-        TouchlineError: no recording, not that many kick-offs, or nothing in it can be simulated again.
+        TouchlineError: not a recording, too few kick-offs, or no tick can be simulated again.
     """
     began = time.perf_counter()
     recording = open_recording(path)
@@ -113,8 +113,8 @@ def verify(path: Path, from_kick_off: int | None = None, processes: int = 1) -> 
     segments = list(index.segments(since, worth))
     if not segments:
         raise TouchlineError(
-            f"{path}: nothing in it can be simulated again; it takes what was applied at tick 0, or at a kick-off "
-            "and the tick before (host/applied and world)"
+            f"{path}: no tick can be simulated again; that requires host/applied at tick 0, or at a kick-off, "
+            "and host/applied and world of the tick before"
         )
     verdict = Verdict(
         kick_offs=len(index.kick_offs),
@@ -140,19 +140,19 @@ def _since(path: Path, index: TickIndex, from_kick_off: int | None) -> int:
         if start.kick_off == from_kick_off:
             return start.tick
     there = len(index.kick_offs)
-    says = f"{path} has {there} that it can begin with, counted from 1" if there else f"{path} has none to begin with"
-    raise TouchlineError(f"--from-kickoff is {from_kick_off}; {says}")
+    choice = f"{path} has {there} to start from, counted from 1" if there else f"{path} has none to start from"
+    raise TouchlineError(f"--from-kickoff is {from_kick_off}; {choice}")
 
 
 def _other_machine(recording: Recording) -> dict[str, tuple[str, str]]:
-    """What of the fingerprint differs between the machine that simulated the match and this one."""
+    """The parts of the fingerprint that differ between the recording's machine and this one."""
     setup = recording.manifest.setup
     theirs, ours = setup.engine if setup is not None else {}, fingerprint()
-    return {part: (told, ours[part]) for part, told in theirs.items() if part in ours and told != ours[part]}
+    return {part: (value, ours[part]) for part, value in theirs.items() if part in ours and value != ours[part]}
 
 
 def _all(path: Path, segments: list[Segment], processes: int) -> Iterable[_SegmentResult]:
-    """What comes of each segment, one after the other or by several processes; it is asked for up to a difference."""
+    """Yield the result of each segment, in sequence or by several processes; the caller stops at a difference."""
     if processes == 1:
         for segment in segments:
             yield resimulate_segment(path, segment)
@@ -162,10 +162,10 @@ def _all(path: Path, segments: list[Segment], processes: int) -> Iterable[_Segme
 
 
 def resimulate_segment(path: Path, segment: Segment) -> _SegmentResult:
-    """Simulate one segment again, up to the first tick that is not as it was recorded.
+    """Simulate one segment again, up to the first tick that differs from the recording.
 
     Raises:
-        TouchlineError: the recording is damaged, or does not say how the match was set up.
+        TouchlineError: the recording is damaged, or lacks the setup of the match.
     """
     recording = open_recording(path)
     check = command_check_of(recording, segment)
@@ -181,11 +181,11 @@ def resimulate_segment(path: Path, segment: Segment) -> _SegmentResult:
                 continue
             try:
                 again = again or Resimulation(*resim_start(recording, segment, before))
-                applied: Applied = record.applied or record.recorded.message()  # which says what is wrong with it
+                applied: Applied = record.applied or record.recorded.message()  # raises the reason if it is damaged
                 check.add_applied(applied)
                 difference = _compared(again, applied, record)
             except (BadMessageError, ImpossibleTickError) as error:
-                difference = Discrepancy(record.tick, record.recorded.time, f"cannot have been: {error}")
+                difference = Discrepancy(record.tick, record.recorded.time, f"this tick is impossible: {error}")
             if difference is not None:
                 break
             ticks += 1
@@ -197,37 +197,37 @@ def resimulate_segment(path: Path, segment: Segment) -> _SegmentResult:
 
 
 def _compared(again: Resimulation, applied: Applied, record: TickRecord) -> Discrepancy | None:
-    """One tick; nothing when it is as recorded."""
+    """Compare one tick; None if it is identical."""
     tick = again.step(applied, chained_part_of(record.recorded.payload))
     found = differences(record.world, tick.bodies) if record.world is not None else []
     if not found and tick.chain == applied.chain:
         return None
     details = [Detail(one.body, one.field, one.recorded, one.simulated, one.by) for one in found]
     if tick.chain == applied.chain:
-        why = "the hash chain is the same, the recorded world is another"
+        why = "the hash chain is the same, but the recorded world differs"
     elif found:
-        why = "the world comes to another state"
+        why = "the simulated world differs"
     elif record.world is None:
         why = "the hash chain differs, and no world was recorded to compare"
     else:
         why = (
-            "the hash chain differs and the world does not: what was noted of this tick was changed, "
-            "or the ball's spin is another"
+            "the hash chain differs and the world does not: the recorded inputs of this tick were changed, "
+            "or the ball's spin differs"
         )
     return Discrepancy(applied.tick, applied.time, why, details)
 
 
 def _with_contradictions(result: _SegmentResult, mismatches: list[CommandMismatch], segment: Segment) -> _SegmentResult:
-    """The same with inputs that are not the recorded commands, where they come first."""
+    """The first difference, including inputs that differ from the recorded commands."""
     end = result.difference.tick if result.difference is not None else segment.ticks.stop
-    # where the segment was left early, a command that is missing may have been yet to come
+    # if the segment ended early, the recorded command of an input may come later
     known = [one for one in mismatches if one.tick <= end and (result.difference is None or one.field != "command")]
     if not known:
         return result
     tick = known[0].tick
     details = [_detail(one) for one in known if one.tick == tick]
-    who = ", ".join(dict.fromkeys(one.robot for one in known if one.tick == tick))
-    why = f"what {who} was told is not what its program said"
+    robots = ", ".join(dict.fromkeys(one.robot for one in known if one.tick == tick))
+    why = f"the applied input of {robots} is not its recorded command"
     if result.difference is not None and result.difference.tick == tick:
         why, details = f"{why}; {result.difference.why}", details + result.difference.details
     begins, ends = segment.seconds

@@ -1,1 +1,1 @@
-"""The match drawn in a terminal: pure functions from what is known and a size to lines."""
+"""The match drawn in a terminal: pure functions from match state and size to lines."""

@@ -18,20 +18,20 @@ class BrailleCanvas:
         self._cells = [[0] * width for _ in range(height)]
 
     def dot(self, x: float, y: float) -> None:
-        """One dot; beyond the canvas nothing."""
+        """Draw one dot; dots outside the canvas are ignored."""
         column, row = round(x), round(y)
         if 0 <= column < self.width * ACROSS and 0 <= row < self.height * DOWN:
             self._cells[row // DOWN][column // ACROSS] |= _BITS[row % DOWN][column % ACROSS]
 
     def line(self, x0: float, y0: float, x1: float, y1: float, every: int = 1) -> None:
-        """A straight line; of a dotted one, every second, third, … dot."""
+        """Draw a straight line; of a dotted one, every second, third, … dot."""
         steps = max(1, round(max(abs(x1 - x0), abs(y1 - y0))))
         for step in range(0, steps + 1, every):
             part = step / steps
             self.dot(x0 + part * (x1 - x0), y0 + part * (y1 - y0))
 
     def circle(self, x: float, y: float, radius: float, every: int = 1) -> None:
-        """A circle around a dot."""
+        """Draw a circle around a dot."""
         steps = max(8, round(2.0 * math.pi * radius))
         for step in range(0, steps, every):
             angle = 2.0 * math.pi * step / steps

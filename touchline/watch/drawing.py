@@ -3,18 +3,18 @@
 from rich.text import Text
 
 from coach_gateway.match.follower import MatchFollower
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from touchline.watch import panel
 from touchline.watch.pitch import field, rows_for
 
 LEAST_PITCH = 40
-"""Cells; a narrower pitch has the robots below it, not beside it."""
+"""Cells; below this width of the pitch the robots are listed below it, not beside it."""
 LEAST_EVENTS = 3
-"""Rows that are kept for what happened."""
+"""Rows reserved for events."""
 
 
 def draw_match(follower: MatchFollower, setup: Setup, width: int, height: int) -> list[Text]:
-    """At most `height` rows of at most `width` cells."""
+    """The picture, at most `height` rows of at most `width` cells."""
     is_beside = width >= LEAST_PITCH + 2 + panel.WIDTH
     pitch_width = width - panel.WIDTH - 2 if is_beside else width
     room = max(1, height - 2 - LEAST_EVENTS)

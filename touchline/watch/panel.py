@@ -1,4 +1,4 @@
-"""What stands beside the pitch: score, every robot, orders, what happened last, and how the host is radio."""
+"""The panel beside the pitch: score, robots, orders, latest events, and the host's health."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -9,10 +9,12 @@ from rich.text import Text
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text, event_line, half_text, phase_text, printable
 from coach_gateway.match.orders import OrderBook
-from schemas.game import DisciplinaryRecord, EventKind, GameState
+from schemas.game import EventKind
 from schemas.messages.coach import CoachOrder
-from schemas.messages.command import Radio
-from schemas.messages.host import Health, Setup
+from schemas.messages.game import DisciplinaryRecord, GameState
+from schemas.messages.health import Health
+from schemas.messages.radio import Radio
+from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 from touchline.watch.pitch import SIDES, arrow
@@ -25,19 +27,19 @@ LOUD = {
     EventKind.CARD: TROUBLE,
     EventKind.FOUL: Style(color="yellow"),
 }
-"""Events that are seen from afar."""
+"""Highlighted events."""
 WIDTH = 64
-"""Cells of a robot's row."""
+"""Width of a robot's row, cells."""
 
 _ACTIVITY = 26
-"""Cells of it that say what it does."""
+"""Width of the robot's role and intention in its row, cells."""
 
 
 def head(setup: Setup, state: GameState | None) -> Text:
-    """Teams and score, clock, half and phase, what is proposed."""
+    """Teams and score, clock, half and phase, the referee's proposal."""
     names = {side: setup.teams[side].name for side in Side}
     if state is None:
-        return Text(f"{names[Side.CYAN]} – {names[Side.MAGENTA]}  waiting for everybody")
+        return Text(f"{names[Side.CYAN]} – {names[Side.MAGENTA]}  waiting for the robots")
     line = Text.assemble(
         (f" {names[Side.CYAN]} ", SIDES[Side.CYAN]),
         (f" {state.score.cyan} : {state.score.magenta} ", Style(bold=True)),
@@ -57,7 +59,7 @@ def robots(
     state: GameState | None,
     health: Health | None,
 ) -> list[Text]:
-    """One row for each robot: number and heading, what it does, place, speed, ball, and what is wrong with it."""
+    """One row for each robot: number and heading, role and intention, position, speed, ball, and trouble."""
     rows = []
     for side, name, number in _everybody(setup):
         robot = world.robots.get(name) if world is not None else None
@@ -83,14 +85,14 @@ def _everybody(setup: Setup) -> Iterator[tuple[Side, str, int]]:
 
 
 def _activity(radio: Radio | None) -> str:
-    """`striker: get the ball`; empty while it has said nothing."""
+    """Role and intention, as `striker: get the ball`; empty until the robot has published them."""
     return printable(": ".join(part for part in (radio.role, radio.intention) if part)) if radio is not None else ""
 
 
 def _troubles(
     name: str, robot: RobotTruth | None, discipline: DisciplinaryRecord | None, health: Health | None, tick: float
 ) -> Iterator[str]:
-    """What keeps a robot from playing, and what it was shown."""
+    """The reasons that keep a robot from playing, and its cards."""
     if discipline is not None:
         left = "" if discipline.left is None else f" {discipline.left:.0f} s"
         if discipline.off_field is not None:
@@ -110,7 +112,7 @@ def _troubles(
 
 
 def orders(book: OrderBook) -> list[Text]:
-    """One row for each order that stands: what it says, and who has not taken it in."""
+    """One row for each standing order: its content, and the robots that have not acknowledged it."""
     rows = []
     for side in Side:
         active = book.active(side)
@@ -119,29 +121,29 @@ def orders(book: OrderBook) -> list[Text]:
         missing = book.receipt(side, active.order.sequence).missing
         row = Text.assemble((f" {side.value} ", SIDES[side]), f" {_order_text(active.order)}")
         if missing:
-            row.append(f"  not heard by {', '.join(missing)}", TROUBLE)
+            row.append(f"  not acknowledged by {', '.join(missing)}", TROUBLE)
         rows.append(row)
     return rows
 
 
 def _order_text(order: CoachOrder) -> str:
-    """`hold`, `test pass, cyan2, cyan3`, `play: press`."""
+    """An order as text: `hold`, `test pass, cyan2, cyan3`, `play: press`."""
     words = [f"test {order.test.value}" if order.test is not None else order.mode.value]
     words += [name for name in (order.robot_a, order.robot_b) if name is not None]
     return ", ".join(words) + (f": {order.tactic}" if order.tactic else "")
 
 
 def events(follower: MatchFollower, count: int) -> list[Text]:
-    """The last things that happened, the newest last."""
+    """The latest events, the newest last."""
     last = follower.events[-count:] if count > 0 else []
     return [Text(event_line(event), style=LOUD.get(event.kind, QUIET)) for event in last]
 
 
 def foot(follower: MatchFollower) -> Text:
-    """Speed, late ticks, who answers, what recorders miss."""
+    """Speed, late ticks, number of robots that answer, messages that recorders miss."""
     health = follower.health
     if health is None:
-        return Text("the host has not said how it is radio", style=QUIET)
+        return Text("no health report from the host yet", style=QUIET)
     behind = f"  recorder {max(health.recorders.values())} ticks behind" if health.recorders else "  no recorder"
     total = sum(not robot.still for robot in health.robots.values())
     words = f"×{health.real_time_factor:.2f} {health.pace}  late {health.late_ticks}  {robots_text(health, total)}"

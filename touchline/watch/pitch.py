@@ -8,18 +8,19 @@ from rich.style import Style
 from rich.text import Text
 
 from schemas.config.sections import Pitch
-from schemas.game import RESTARTS, GameState, Phase
-from schemas.messages.host import Setup
+from schemas.game import RESTARTS, Phase
+from schemas.messages.game import GameState
+from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 from touchline.watch.braille import ACROSS, DOWN, BrailleCanvas
 
 ARROWS = "→↗↑↖←↙↓↘"
-"""Headings, counter-clockwise from +x."""
+"""Arrows of the headings, counter-clockwise from +x."""
 MARGIN = 0.8
-"""m of ground around the lines: the goals are in it."""
+"""Margin around the lines, m; includes the goals."""
 _COMET = 0.4
-"""s of the ball's way that are drawn before it."""
+"""Duration of the ball's drawn path ahead, s."""
 
 LINES = Style(color="green")
 BALL = Style(color="bright_yellow", bold=True)
@@ -28,22 +29,22 @@ SIDES = {
     Side.CYAN: Style(color="color(16)", bgcolor="color(51)"),
     Side.MAGENTA: Style(color="color(231)", bgcolor="color(163)", bold=True),
 }
-"""Side → how its robots look: dark on light, and light on dark, for those who do not see the colours."""
+"""Side → style of its robots: dark on light and light on dark, to be distinct without colour vision."""
 AWAY = Style(dim=True)
 
 
 class Mark(NamedTuple):
-    """Characters that stand on the pitch."""
+    """Characters drawn on the pitch."""
 
     x: float
-    """m, field frame: where their middle is."""
+    """Centre of the characters, m, field frame."""
     y: float
     text: str
     style: Style
 
 
 class Scale(NamedTuple):
-    """Where the pitch lies on a canvas: dots for a metre, and the dot of its centre mark."""
+    """Position of the pitch on a canvas: dots per metre, and the dot of the centre mark."""
 
     dots: float
     centre_x: float
@@ -51,24 +52,24 @@ class Scale(NamedTuple):
 
     @classmethod
     def of(cls, pitch: Pitch, width: int, height: int) -> "Scale":
-        """As large as fits into so many cells, in the middle of them."""
+        """The largest pitch that fits into `width` × `height` cells, centred."""
         across, down = width * ACROSS - 1, height * DOWN - 1
         dots = min(across / (pitch.length + 2.0 * MARGIN), down / (pitch.width + 2.0 * MARGIN))
         return cls(dots, 0.5 * across, 0.5 * down)
 
     def at(self, x: float, y: float) -> tuple[float, float]:
-        """The dot of a point, m, field frame."""
+        """The dot of a point; the point in m, field frame."""
         return self.centre_x + x * self.dots, self.centre_y - y * self.dots
 
 
 def rows_for(pitch: Pitch, width: int) -> int:
-    """How many rows a pitch takes that is as wide as so many cells."""
+    """Number of rows of a pitch that is `width` cells wide."""
     dots = (width * ACROSS - 1) / (pitch.length + 2.0 * MARGIN)
     return math.ceil((dots * (pitch.width + 2.0 * MARGIN) + 1) / DOWN)
 
 
 def field(setup: Setup, world: World | None, state: GameState | None, width: int, height: int) -> list[Text]:
-    """The pitch and all on it, in so many cells."""
+    """The pitch with robots, ball and obstacles, in `width` × `height` cells."""
     dots, scale = BrailleCanvas(width, height), Scale.of(setup.pitch, width, height)
     _draw_lines(dots, scale, setup.pitch)
     if state is not None:
@@ -95,7 +96,7 @@ def _draw_lines(dots: BrailleCanvas, scale: Scale, pitch: Pitch) -> None:
 
 
 def _box(dots: BrailleCanvas, scale: Scale, x0: float, x1: float, half: float) -> None:
-    """A rectangle from x0 to x1, as wide to either side of the x axis."""
+    """Draw a rectangle from x0 to x1, symmetric to the x axis."""
     for y in (-half, half):
         dots.line(*scale.at(x0, y), *scale.at(x1, y))
     for x in (x0, x1):
@@ -103,7 +104,7 @@ def _box(dots: BrailleCanvas, scale: Scale, x0: float, x1: float, half: float) -
 
 
 def _draw_restart(dots: BrailleCanvas, scale: Scale, setup: Setup, state: GameState) -> None:
-    """How far opponents stay from the spot, while a restart is about to be taken."""
+    """Draw the distance that opponents keep from the spot, before a restart is taken."""
     if state.phase in RESTARTS and state.spot is not None:
         rules = setup.restarts
         distance = rules.drop_ball_distance if state.phase is Phase.DROP_BALL else rules.opponent_distance
@@ -123,12 +124,12 @@ def _marks(setup: Setup, world: World) -> list[Mark]:
 
 
 def arrow(robot: RobotTruth) -> str:
-    """Where a robot faces, in eight directions."""
+    """An arrow for a robot's heading, one of eight directions."""
     return ARROWS[round(robot.heading / (math.pi / 4.0)) % len(ARROWS)]
 
 
 def _overlaid(rows: list[Text], marks: Iterable[Mark], scale: Scale) -> list[Text]:
-    """The rows with marks in place of what is there; a mark beyond the canvas is left out."""
+    """The rows overlaid with marks; a mark outside the canvas is left out."""
     for mark in marks:
         x, y = scale.at(mark.x, mark.y)
         row = round(y) // DOWN

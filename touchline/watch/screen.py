@@ -1,4 +1,4 @@
-"""Where a running match is shown: one live line on a terminal, plain lines everywhere else."""
+"""Display of a running match: one live line on a terminal, otherwise plain lines."""
 
 from types import TracebackType
 from typing import Protocol, Self, TextIO
@@ -10,22 +10,22 @@ from schemas.process.clock import Clock
 from touchline.cli.console import console
 
 STATUS_EVERY = 5.0
-"""s of wall time between status lines where nothing can be overwritten."""
+"""Wall time between status lines on a stream that is not a terminal, s."""
 REFRESH_EVERY = 0.1
-"""s of wall time between refreshes of the live line."""
+"""Wall time between refreshes of the live line, s."""
 
 
 class Screen(Protocol):
     """Shows a match."""
 
     def status(self, line: str) -> None:
-        """How the match stands just now; may be shown or not."""
+        """Show the current status; some calls may be skipped."""
 
     def event(self, line: str, *, notable: bool) -> None:
-        """Something that happened in the match."""
+        """Show an event of the match."""
 
     def warn(self, line: str) -> None:
-        """Something that went wrong."""
+        """Show a warning."""
 
     def __enter__(self) -> Self: ...
 
@@ -35,7 +35,7 @@ class Screen(Protocol):
 
 
 def screen_for(stream: TextIO, clock: Clock) -> "Screen":
-    """The screen that suits a stream."""
+    """The screen for a stream."""
     return LiveScreen(stream, clock) if stream.isatty() else PlainScreen(stream, clock)
 
 
@@ -48,19 +48,19 @@ class PlainScreen:
         self._shown_at = -STATUS_EVERY
 
     def status(self, line: str) -> None:
-        """At most one line in `STATUS_EVERY` seconds."""
+        """Print at most one line in `STATUS_EVERY` seconds."""
         now = self._clock.now()
         if now - self._shown_at >= STATUS_EVERY:
             self._shown_at = now
             self._write(line)
 
     def event(self, line: str, *, notable: bool) -> None:
-        """Every event."""
+        """Print every event."""
         del notable
         self._write(line)
 
     def warn(self, line: str) -> None:
-        """Every warning."""
+        """Print every warning."""
         self._write(line)
 
     def _write(self, line: str) -> None:
@@ -93,12 +93,12 @@ class LiveScreen:
             self._live.update(Text(line, no_wrap=True, overflow="ellipsis"), refresh=True)
 
     def event(self, line: str, *, notable: bool) -> None:
-        """What people cheer at; the rest is seen in the line itself."""
+        """Print the highlighted events; the line itself shows the others."""
         if notable:
             self._console.print(Text(line))
 
     def warn(self, line: str) -> None:
-        """Above the line, in yellow."""
+        """Print above the line, in yellow."""
         self._console.print(Text(line, style="yellow"))
 
     def __enter__(self) -> Self:

@@ -1,20 +1,20 @@
-"""How a running match stands, in one line."""
+"""The status of a running match, in one line."""
 
 from collections import Counter
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import state_line
-from schemas.messages.host import Health
+from schemas.messages.health import Health
 
 _NAMED = 4
-"""So many silent robots are named; more are counted."""
+"""Maximum number of silent robots that are named; the rest is counted."""
 
 
 def status_line(follower: MatchFollower, total: int) -> str:
     """Clock, score, phase, speed, and how many of `total` robots answer."""
     if follower.state is None and follower.health is None:
         return "waiting for the host"
-    parts = [state_line(follower.state) if follower.state is not None else "waiting for everybody"]
+    parts = [state_line(follower.state) if follower.state is not None else "waiting for the robots"]
     if follower.health is not None:
         if follower.health.tick > 0:
             parts.append(f"×{follower.health.real_time_factor:.1f}")
@@ -26,21 +26,21 @@ def status_line(follower: MatchFollower, total: int) -> str:
 
 
 def robots_text(health: Health, total: int) -> str:
-    """`robots 9/10 (silent: magenta3)`: who answers, or who is there while there is nothing to answer yet.
+    """Robots that answer, as `robots 9/10 (silent: magenta3)`; before the first tick, robots that are connected.
 
-    Robots that stand still in the scene that is played have nobody who could answer.
+    Robots that stand still in the current scene have no agent, so they are not expected to answer.
     """
     playing = health.tick > 0
     moving = {name: robot for name, robot in health.robots.items() if not robot.still}
     silent = [name for name, robot in moving.items() if not (robot.answering if playing else robot.alive)]
-    words = f"robots {len(moving) - len(silent)}/{total}"
+    text = f"robots {len(moving) - len(silent)}/{total}"
     if not silent:
-        return words
-    return f"{words} ({'silent' if playing else 'missing'}: {', '.join(_abbreviated(silent))})"
+        return text
+    return f"{text} ({'silent' if playing else 'missing'}: {', '.join(_abbreviated(silent))})"
 
 
 def losses_text(follower: MatchFollower) -> str:
-    """`lost 12 (world 10, robot/cyan1/command 2)`: what the recorders miss, by key; empty where nothing is."""
+    """Messages that the recorders miss, by key, as `lost 12 (world 10, robot/cyan1/command 2)`; empty if none."""
     losses: Counter[str] = Counter()
     for progress in follower.recorders.values():
         losses.update(progress.losses)

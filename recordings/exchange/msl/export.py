@@ -14,10 +14,10 @@ from recordings.exchange.msl.game_log import GameLog
 from recordings.exchange.robot_sides import sides_of
 from recordings.reading.recording import Recording
 from schemas.errors import TouchlineError
-from schemas.game import GameState
 from schemas.league.robot_numbers import numbers_of
 from schemas.league.world_state import BallSeen, ObstacleSeen, RobotSeen, world_state
-from schemas.messages.host import Setup
+from schemas.messages.game import GameState
+from schemas.messages.setup import Setup
 from schemas.messages.world import RobotTruth, World
 from schemas.side import Side
 from schemas.topics import BELIEF, STATE, WORLD

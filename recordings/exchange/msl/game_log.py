@@ -2,9 +2,10 @@
 
 from collections.abc import Mapping
 
-from schemas.game import GameStage, GameState, Phase
+from schemas.game import GameStage, Phase
 from schemas.league.calls import calls
 from schemas.league.signals import Signal
+from schemas.messages.game import GameState
 from schemas.side import Side
 
 _PARTS = {1: "1st Half", 2: "2nd Half", 3: "Overtime - 1st Half", 4: "Overtime - 2nd Half"}

@@ -9,8 +9,9 @@ import numpy.typing as npt
 
 from recordings.exchange.msl import LOG_PERIOD
 from recordings.exchange.msl.event_log import SignalLine
-from schemas.game import EventKind, GameEvent, GameStage, GameState, Phase, Score
+from schemas.game import EventKind, GameStage, Phase, Score
 from schemas.league.signals import START
+from schemas.messages.game import GameEvent, GameState
 
 _STATE_S = 1.0
 """s between two game states, as published by a host."""

@@ -26,9 +26,9 @@ from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.config.sections import TimeSteps
 from schemas.errors import TouchlineError
-from schemas.game import GameState
 from schemas.league.findings import Finding, Findings
-from schemas.messages.host import Setup, TeamSetup
+from schemas.messages.game import GameState
+from schemas.messages.setup import Setup, TeamSetup
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.side import Side
 from schemas.topics import EVENT, STATE, WORLD

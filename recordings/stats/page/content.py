@@ -13,8 +13,9 @@ from recordings.stats.kicks import SHOTS, KickOutcome, KickRecord
 from recordings.stats.page.game_history import GameHistory
 from recordings.stats.table import ROBOT_HEADINGS, remarks, robot_rows, side_rows
 from recordings.stats.tracks import Tracks
-from schemas.game import EventKind, GameEvent
-from schemas.messages.host import Setup
+from schemas.game import EventKind
+from schemas.messages.game import GameEvent
+from schemas.messages.setup import Setup
 from schemas.side import Side
 
 _HIDDEN_KINDS = frozenset({EventKind.STOP, EventKind.START, EventKind.AGENT, EventKind.PARAMETERS})

@@ -17,7 +17,7 @@ from robot_agent.teams.simple.roles import Role
 from robot_agent.world_model import Teammate, places_of
 from schemas.config.sections import Pitch
 from schemas.messages.command import Kick, KickMode
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 
 Point = tuple[float, float]
 

@@ -21,7 +21,8 @@ from schemas.bus.contract import (
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
 from schemas.bus.mailbox import EveryMailbox
 from schemas.bus.zenoh.newest import ZenohNewest
-from schemas.bus.zenoh.queries import ZenohPendingReply, ZenohServer, ZenohWatch
+from schemas.bus.zenoh.presence import ZenohPresenceWatch
+from schemas.bus.zenoh.queries import ZenohPendingReply, ZenohServer
 from schemas.bus.zenoh.reader import ZenohReader
 from schemas.bus.zenoh.session import SessionContext, open_connection, open_router
 from schemas.bus.zenoh.stream import ZenohPublisher, ZenohSubscription
@@ -100,7 +101,7 @@ class ZenohBus(Bus):
             token.undeclare()  # type: ignore[no-untyped-call]
 
     def watch_alive(self) -> PresenceWatch:
-        watch = ZenohWatch(self._open())
+        watch = ZenohPresenceWatch(self._open())
         self._mailboxes.append(watch.mailbox)
         return watch
 

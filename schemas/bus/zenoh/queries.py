@@ -1,23 +1,17 @@
-"""Queries, replies and liveliness tokens over Zenoh. They are rare, and wait in mailboxes."""
+"""Queries and replies over Zenoh. They are rare, and wait in mailboxes."""
 
 import zenoh
 
 from schemas.bus.contract import (
     NoReplyError,
     PendingReply,
-    Presence,
-    PresenceKind,
-    PresenceWatch,
     Query,
     Server,
 )
 from schemas.bus.mailbox import EveryMailbox
 from schemas.bus.zenoh.session import SessionContext
 from schemas.topic import Topic
-from schemas.topics import TOPICS
 from schemas.wire.message import WireMessage
-
-_KINDS = frozenset(kind.value for kind in PresenceKind)
 
 
 class ZenohQuery(Query):
@@ -85,24 +79,3 @@ class ZenohPendingReply(PendingReply):
         if isinstance(reply, str):
             raise NoReplyError(reply)
         return reply
-
-
-class ZenohWatch(PresenceWatch):
-    def __init__(self, context: SessionContext) -> None:
-        self.mailbox: EveryMailbox[Presence] = EveryMailbox()
-        self.is_empty = self.mailbox.is_empty
-        start = len(context.prefix)
-        row = TOPICS["alive"]
-
-        def receive(sample: zenoh.Sample) -> None:
-            chunks = row.match(str(sample.key_expr)[start:])
-            if chunks and chunks["kind"] in _KINDS:
-                alive = sample.kind == zenoh.SampleKind.PUT
-                self.mailbox.put("", Presence(PresenceKind(chunks["kind"]), chunks["name"], alive))
-
-        self._watch = context.session.liveliness().declare_subscriber(
-            context.prefix + row.fill(), zenoh.handlers.Callback(receive, indirect=False), history=True
-        )
-
-    def receive(self, timeout: float | None = 0.0) -> Presence | None:
-        return self.mailbox.get(timeout)

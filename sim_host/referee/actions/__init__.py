@@ -3,7 +3,8 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from schemas.game import ActionName, ActionReply, EventKind, RefereeAction
+from schemas.game import ActionName, EventKind
+from schemas.messages.game import ActionReply, RefereeAction
 from sim_host.referee.actions import (
     cancel_goal,
     confirm,

@@ -3,7 +3,8 @@
 To cancel a goal at once, before anything else is decided, `undo` is better: it also takes back the restart.
 """
 
-from schemas.game import EventKind, RefereeAction
+from schemas.game import EventKind
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import no_match, no_side
 from sim_host.referee.ruling_draft import RulingDraft
 

@@ -1,6 +1,6 @@
 """Confirm: the referee's proposal is decided at once."""
 
-from schemas.game import RefereeAction
+from schemas.messages.game import RefereeAction
 from sim_host.referee import authority
 from sim_host.referee.actions.legality import no_proposal
 from sim_host.referee.ruling_draft import RulingDraft

@@ -1,6 +1,7 @@
 """Corner for a side: at the end that it attacks, on the side of the ball or of the named place."""
 
-from schemas.game import Phase, RefereeAction
+from schemas.game import Phase
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions import ordered_restart
 from sim_host.referee.ruling_draft import RulingDraft
 

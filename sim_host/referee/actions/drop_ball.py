@@ -1,6 +1,7 @@
 """Drop ball: where the ball is or at the named place, outside penalty areas."""
 
-from schemas.game import Phase, RefereeAction
+from schemas.game import Phase
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions import ordered_restart
 from sim_host.referee.ruling_draft import RulingDraft
 

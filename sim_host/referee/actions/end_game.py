@@ -1,6 +1,7 @@
 """End the game: full time at once, from any phase."""
 
-from schemas.game import Phase, RefereeAction
+from schemas.game import Phase
+from schemas.messages.game import RefereeAction
 from sim_host.referee.procedures import ending
 from sim_host.referee.ruling_draft import RulingDraft
 

@@ -1,6 +1,6 @@
 """End the half: at once, before its time is up; after the last half, the match ends."""
 
-from schemas.game import RefereeAction
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import in_shoot_out, no_half
 from sim_host.referee.procedures import periods
 from sim_host.referee.ruling_draft import RulingDraft

@@ -1,6 +1,6 @@
 """Enter: a robot that was parked, or whose time off the field is up, comes back in a stoppage."""
 
-from schemas.game import RefereeAction
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import named_robot, no_match, no_robot
 from sim_host.referee.procedures import discipline
 from sim_host.referee.ruling_draft import RulingDraft

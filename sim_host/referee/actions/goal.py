@@ -3,7 +3,8 @@
 In a shoot-out, the attempt of the side that takes the penalty ends with a goal.
 """
 
-from schemas.game import EventKind, GameStage, RefereeAction
+from schemas.game import EventKind, GameStage
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import no_half, no_side, no_such_robot
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.game.restart import kick_off_after_goal

@@ -1,6 +1,7 @@
 """Goal kick for a side: at the restart marker of its half nearest to the ball or to the named place."""
 
-from schemas.game import Phase, RefereeAction
+from schemas.game import Phase
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions import ordered_restart
 from sim_host.referee.ruling_draft import RulingDraft
 

@@ -1,6 +1,7 @@
 """Kick-off for a side, from the centre mark; before the match, it begins the match with that side."""
 
-from schemas.game import Phase, RefereeAction
+from schemas.game import Phase
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions import ordered_restart
 from sim_host.referee.actions.legality import no_side, place_is_fixed
 from sim_host.referee.procedures import periods

@@ -1,6 +1,7 @@
 """Conditions that several actions share; each check returns why the action is illegal, or None."""
 
-from schemas.game import GameStage, Phase, RefereeAction
+from schemas.game import GameStage, Phase
+from schemas.messages.game import RefereeAction
 from sim_host.referee.procedures.discipline import reason_text
 from sim_host.referee.procedures.periods import HALF_PHASES
 from sim_host.referee.ruling_draft import RulingDraft

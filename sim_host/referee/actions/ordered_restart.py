@@ -1,6 +1,7 @@
 """Common parts of the seven restart actions: whether one is legal, and how it enters the restart sequence."""
 
-from schemas.game import SIDED, Phase, RefereeAction
+from schemas.game import SIDED, Phase
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import FIXED, bad_place, has_side, in_shoot_out, no_half, no_side, place_is_fixed
 from sim_host.referee.placement.spots import restart_at
 from sim_host.referee.procedures import restart

@@ -1,6 +1,6 @@
 """Overrule: the referee's proposal is dropped, and the game goes on."""
 
-from schemas.game import RefereeAction
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import no_proposal
 from sim_host.referee.ruling_draft import RulingDraft
 

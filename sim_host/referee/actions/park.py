@@ -1,6 +1,7 @@
 """Park a robot: it leaves the field until the action `enter` brings it back."""
 
-from schemas.game import OffField, RefereeAction
+from schemas.game import OffField
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import named_robot, no_match, no_robot, off_field
 from sim_host.referee.game.participation import Absence
 from sim_host.referee.procedures import discipline

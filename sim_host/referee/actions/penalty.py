@@ -1,6 +1,7 @@
 """Penalty for a side: from the penalty mark of the end that it attacks."""
 
-from schemas.game import Phase, RefereeAction
+from schemas.game import Phase
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions import ordered_restart
 from sim_host.referee.ruling_draft import RulingDraft
 

@@ -1,6 +1,7 @@
 """Place the ball: places it while the game is halted, and moves the spot of the restart that is due or signalled."""
 
-from schemas.game import Phase, RefereeAction
+from schemas.game import Phase
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import FIXED, bad_place, no_half, place_is_fixed
 from sim_host.referee.game.restart import Restart
 from sim_host.referee.placement.clear_ground import has_room

@@ -1,6 +1,7 @@
 """Red card for any robot: it leaves the field, for good or for as long as the rule book says."""
 
-from schemas.game import Card, RefereeAction
+from schemas.game import Card
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import named_robot, no_match, no_robot, sent_off
 from sim_host.referee.procedures import discipline
 from sim_host.referee.ruling_draft import RulingDraft

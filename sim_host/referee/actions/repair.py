@@ -1,6 +1,7 @@
 """Repair: a robot leaves the field, and comes back at a stoppage once its time is up."""
 
-from schemas.game import OffField, RefereeAction
+from schemas.game import OffField
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import named_robot, no_match, no_robot, off_field
 from sim_host.referee.game.participation import Absence
 from sim_host.referee.procedures import discipline

@@ -8,7 +8,8 @@ ball is, or the kick-off if the half has not begun.
 
 from collections.abc import Callable, Mapping
 
-from schemas.game import RESTARTS, Phase, RefereeAction
+from schemas.game import RESTARTS, Phase
+from schemas.messages.game import RefereeAction
 from sim_host.referee.placement.spots import restart_at
 from sim_host.referee.procedures import periods, restart
 from sim_host.referee.ruling_draft import RulingDraft

@@ -3,7 +3,8 @@
 In a shoot-out, it ends the present attempt without a goal; before START of an attempt, it only delays the attempt.
 """
 
-from schemas.game import EventKind, GameStage, Phase, RefereeAction
+from schemas.game import EventKind, GameStage, Phase
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import no_half
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.procedures import restart

@@ -5,7 +5,8 @@ Cards stay with the name: there is one robot of each number.
 
 import dataclasses
 
-from schemas.game import OffField, RefereeAction
+from schemas.game import OffField
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import named_robot, no_match, no_robot, sent_off
 from sim_host.referee.game.participation import Absence
 from sim_host.referee.procedures import discipline

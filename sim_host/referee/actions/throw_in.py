@@ -1,6 +1,7 @@
 """Throw-in for a side: at the touch line nearer to the ball or to the named place, level with it."""
 
-from schemas.game import Phase, RefereeAction
+from schemas.game import Phase
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions import ordered_restart
 from sim_host.referee.ruling_draft import RulingDraft
 

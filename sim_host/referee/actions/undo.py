@@ -1,6 +1,6 @@
 """Undo: restores the state before the last decision or action, with its score and cards; the clock goes on."""
 
-from schemas.game import RefereeAction
+from schemas.messages.game import RefereeAction
 from sim_host.referee import authority
 from sim_host.referee.actions.legality import no_match
 from sim_host.referee.ruling_draft import RulingDraft

@@ -1,6 +1,7 @@
 """Yellow card for any robot; the rule book says how many of them send it off."""
 
-from schemas.game import Card, RefereeAction
+from schemas.game import Card
+from schemas.messages.game import RefereeAction
 from sim_host.referee.actions.legality import named_robot, no_match, no_robot, sent_off
 from sim_host.referee.procedures import discipline
 from sim_host.referee.ruling_draft import RulingDraft

@@ -5,7 +5,8 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from schemas.game import DisciplinaryRecord, OffField
+from schemas.game import OffField
+from schemas.messages.game import DisciplinaryRecord
 from schemas.side import Side
 
 IN_PLAYING_TIME = frozenset({OffField.SECOND_YELLOW, OffField.RED_CARD})

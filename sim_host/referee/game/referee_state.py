@@ -2,7 +2,8 @@
 
 from typing import NamedTuple
 
-from schemas.game import GameStage, GameState, Phase, Point, Score
+from schemas.game import GameStage, Phase, Point, Score
+from schemas.messages.game import GameState
 from schemas.side import Side
 from sim_host.referee.evidence import NO_EVIDENCE, Evidence
 from sim_host.referee.game.decision import Proposal

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus
-from schemas.game import ActionReply, RefereeAction
+from schemas.messages.game import ActionReply, RefereeAction
 from schemas.topics import PARAMETERS, SCENE, SETUP
 from sim_host.match.simulation import Simulation
 from sim_host.server.invalid_log import InvalidLog

@@ -3,7 +3,8 @@
 from collections.abc import Callable, Sequence
 
 from schemas.bus.contract import Bus, Query
-from schemas.game import REFBOX, ActionName, ActionReply, RefereeAction
+from schemas.game import REFBOX, ActionName
+from schemas.messages.game import ActionReply, RefereeAction
 from schemas.topics import ACTION
 from schemas.wire.message import BadMessageError
 from sim_host.server.invalid_log import InvalidLog

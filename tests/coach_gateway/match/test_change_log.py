@@ -5,7 +5,8 @@ import pytest
 from coach_gateway.match.change_log import log_changes
 from schemas.bus.in_process_bus import Medium
 from schemas.errors import TouchlineError
-from schemas.game import EventKind, GameEvent, GameState, Phase, Score
+from schemas.game import EventKind, Phase, Score
+from schemas.messages.game import GameEvent, GameState
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import EVENT, STATE

@@ -1,10 +1,11 @@
 from coach_gateway.match.follower import MatchFollower, MatchNews
 from schemas.bus.contract import Bus, ReceivedMessage
 from schemas.bus.in_process_bus import Medium
-from schemas.game import EventKind, GameEvent, GameState, Phase, Score
+from schemas.game import EventKind, Phase, Score
 from schemas.messages.coach import ActiveOrder, CoachOrder
-from schemas.messages.command import Radio
-from schemas.messages.host import Belief, Health
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.health import Health
+from schemas.messages.radio import Belief, Radio
 from schemas.messages.world import BallTruth, World
 from schemas.process.clock import SteppedClock, WallClock
 from schemas.side import Side

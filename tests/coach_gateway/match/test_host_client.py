@@ -7,8 +7,9 @@ from coach_gateway.match.orders import OrderStatus
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import Medium
 from schemas.errors import TouchlineError
-from schemas.game import ActionName, ActionReply, RefereeAction
+from schemas.game import ActionName
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
+from schemas.messages.game import ActionReply, RefereeAction
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import ACTION, ACTIVE_ORDER, ORDER, SETUP

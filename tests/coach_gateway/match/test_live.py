@@ -8,8 +8,9 @@ from coach_gateway.match.live import LiveMatch
 from coach_gateway.refbox.call_generator import CallGenerator
 from schemas.bus.in_process_bus import Medium
 from schemas.config.match_config import load_match
-from schemas.game import REFBOX, ActionName, GameState, Phase, RefereeAction, Score
-from schemas.messages.host import Setup
+from schemas.game import REFBOX, ActionName, Phase, Score
+from schemas.messages.game import GameState, RefereeAction
+from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock, WallClock
 from schemas.side import Side
 from schemas.topics import BELIEF, EVENT, SETUP, STATE

@@ -14,8 +14,9 @@ import pytest
 from coach_gateway.refbox import client as client_module
 from coach_gateway.refbox.client import UPLOAD_S, BoxAddress, RefBoxClient
 from coach_gateway.refbox.framing import BoxProtocol
-from schemas.game import REFBOX, ActionName, ActionReply, Phase, RefereeAction
+from schemas.game import REFBOX, ActionName, Phase
 from schemas.messages.coach import CoachMode
+from schemas.messages.game import ActionReply, RefereeAction
 from schemas.side import Side
 from support.referee_box import CYAN_AT, MAGENTA_AT, Box
 

@@ -5,9 +5,10 @@ from typing import Any
 import pytest
 
 from coach_gateway.refbox.forwarding import FORWARD, SignalResponse, is_ours, response_to, speaks_for
-from schemas.game import REFBOX, GameStage, GameState, Phase
+from schemas.game import REFBOX, GameStage, Phase
 from schemas.league.signals import BY_NAME, SIGNALS
 from schemas.messages.coach import CoachMode
+from schemas.messages.game import GameState
 from schemas.side import Side
 
 CYAN, MAGENTA = Side.CYAN, Side.MAGENTA

@@ -10,9 +10,10 @@ from coach_gateway.refbox.own_world_state import own_world_state
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
-from schemas.game import GameState, OffField, Phase
-from schemas.messages.command import BallBelief, Motion, Radio
-from schemas.messages.host import Belief, Setup
+from schemas.game import OffField, Phase
+from schemas.messages.game import GameState
+from schemas.messages.radio import BallBelief, Belief, Motion, Radio
+from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, ObstacleTruth, RobotTruth, World
 from schemas.side import Side
 

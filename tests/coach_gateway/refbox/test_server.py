@@ -15,11 +15,12 @@ from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from coach_gateway.refbox.team_world_state import TeamWorldState
 from schemas.errors import TouchlineError
-from schemas.game import DisciplinaryRecord, OffField, Phase, Score
+from schemas.game import OffField, Phase, Score
 from schemas.league.calls import Call
 from schemas.league.findings import MOST
 from schemas.league.lenient_json import _canonical
 from schemas.league.signals import BY_NAME
+from schemas.messages.game import DisciplinaryRecord
 from schemas.side import Side
 
 

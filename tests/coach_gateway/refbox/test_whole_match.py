@@ -8,7 +8,8 @@ from typing import Any
 
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
-from schemas.game import ActionName, Phase, RefereeAction
+from schemas.game import ActionName, Phase
+from schemas.messages.game import RefereeAction
 from schemas.side import Side
 from support.referee_box import CYAN_AT, MAGENTA_AT, Box
 

@@ -15,9 +15,10 @@ from coach_gateway.access.tokens import Tokens
 from coach_gateway.udp import session as session_module
 from coach_gateway.udp.server import UdpServer
 from schemas.errors import TouchlineError
-from schemas.game import ActionReply, Phase
+from schemas.game import Phase
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder
-from schemas.messages.command import Motion, Radio
+from schemas.messages.game import ActionReply
+from schemas.messages.radio import Motion, Radio
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER
 

@@ -10,10 +10,11 @@ import pytest
 from coach_gateway.web.settings import WebSettings
 from schemas.bus.in_process_bus import Medium
 from schemas.config.match_config import load_match
-from schemas.config.scene import SceneReply
-from schemas.game import ActionName, ActionReply, GameEvent, RefereeAction
+from schemas.game import ActionName
+from schemas.messages.game import ActionReply, GameEvent, RefereeAction
 from schemas.messages.parameters import ParametersReply, ParametersRequest
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
+from schemas.messages.scene import SceneReply
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import (

@@ -22,8 +22,8 @@ from coach_gateway.web.settings import WebSettings
 from coach_gateway.web.waiting_page import WaitingPage
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.zenoh.bus import open_host
+from schemas.config.settings_file import write_settings
 from schemas.process.clock import WallClock
-from schemas.process.settings_file import write_settings
 from schemas.topics import SETUP
 from support.messages import make_setup
 from support.page_gateway import SOON, TOKENS

@@ -5,7 +5,8 @@ import json
 import pytest
 
 from recordings.container.applied_changes import changes_in
-from schemas.messages.host import Applied, RosterEntry
+from schemas.config.roster import RosterEntry
+from schemas.messages.applied import Applied
 from schemas.protocol.examples import examples
 from schemas.side import Side
 

@@ -12,7 +12,7 @@ from recordings.recorder.sink import FileLimits
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score
 from schemas.messages.command import Command, Drive
-from schemas.messages.host import Health
+from schemas.messages.health import Health
 from schemas.topics import HEALTH
 
 

@@ -8,8 +8,8 @@ from recordings.container.manifest import Manifest
 from recordings.editing.compose import TimedMessage, compose
 from recordings.reading.recording import Recording, open_recording
 from schemas.config.match_config import load_match
+from schemas.messages.applied import Applied
 from schemas.messages.command import Command
-from schemas.messages.host import Applied
 from schemas.messages.world import World
 from schemas.topics import APPLIED, COMMAND, EVENT, STATE, WORLD
 from schemas.wire.message import VERSION

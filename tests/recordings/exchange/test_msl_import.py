@@ -14,8 +14,9 @@ from recordings.exchange.msl.import_log import ImportSummary, import_log
 from recordings.exchange.msl.team_log import read_team
 from recordings.reading.recording import Recording, open_recording
 from schemas.errors import TouchlineError
-from schemas.game import GameState, Phase, Score
+from schemas.game import Phase, Score
 from schemas.league.findings import Findings
+from schemas.messages.game import GameState
 from schemas.messages.world import World
 from schemas.topics import STATE, WORLD
 

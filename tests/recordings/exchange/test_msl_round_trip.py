@@ -12,7 +12,8 @@ from recordings.exchange.formats import EXPORTERS, IMPORTERS
 from recordings.exchange.msl import LOG_PERIOD
 from recordings.reading.recording import Recording, open_recording
 from recordings.stats.match_statistics import figures_of_recording
-from schemas.game import EventKind, GameState, Phase
+from schemas.game import EventKind, Phase
+from schemas.messages.game import GameState
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.topics import EVENT, STATE, WORLD

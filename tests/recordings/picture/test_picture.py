@@ -15,7 +15,7 @@ from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.messages.world import ObstacleTruth
 from schemas.side import Side
 

@@ -9,7 +9,7 @@ from recordings.reading.recording import open_recording
 from recordings.recorder.recording_writer import RecordingWriter
 from schemas.bus.contract import Bus, ReceivedMessage, Stamp
 from schemas.game import Phase, Score
-from schemas.messages.host import Health
+from schemas.messages.health import Health
 from schemas.messages.recorder import RecorderOperation, RecorderRequest
 from schemas.messages.world import World
 from schemas.topics import (

@@ -15,9 +15,10 @@ from recordings.replay.replay import Replay, ReplaySettings
 from schemas.bus.contract import NoReplyError
 from schemas.bus.in_process_bus import InProcessBus, Medium
 from schemas.errors import TouchlineError
-from schemas.game import ActionName, RefereeAction
-from schemas.messages.host import SetupRequest
+from schemas.game import ActionName
+from schemas.messages.game import RefereeAction
 from schemas.messages.replay import ReplayOperation, ReplayRequest
+from schemas.messages.setup import SetupRequest
 from schemas.process.clock import SteppedClock
 from schemas.topics import ACTION, COMMAND, EVENT, REPLAY_CONTROL, SETUP, WORLD
 

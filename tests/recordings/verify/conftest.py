@@ -12,8 +12,8 @@ from pydantic_core import from_json, to_json
 from recordings.container.sealed_metadata import sealed
 from schemas.config.match_config import load_match
 from schemas.config.roster import Placement
-from schemas.config.scene import SceneOperation, SceneRequest
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
+from schemas.messages.scene import SceneOperation, SceneRequest
 from sim_host.match.simulation import Simulation
 
 Fields = dict[str, Any]

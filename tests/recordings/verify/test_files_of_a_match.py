@@ -165,4 +165,4 @@ def test_sights_that_are_simulated_from_an_edited_scene_are_not_compared(
     path = named(str(tmp_path / "mine.toml"))
     rewrite(tmp_path)
     verdict = compare_brain(open_recording(path), "cleo", NUBOT)
-    assert (verdict.compared, verdict.until) == (0, "at tick 0 the world is not the recorded one any more")
+    assert (verdict.compared, verdict.until) == (0, "at tick 0 the world differs from the recorded one")

@@ -16,8 +16,10 @@ from schemas.config.obstacle import Shape
 from schemas.config.profile import load_profile
 from schemas.config.roster import RosterEntry
 from schemas.config.rule_book import load_rule_book
-from schemas.game import EventKind, GameEvent, GameState, OffField, Phase, Score
-from schemas.messages.host import Applied, Setup
+from schemas.game import EventKind, OffField, Phase, Score
+from schemas.messages.applied import Applied
+from schemas.messages.game import GameEvent, GameState
+from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, ObstacleTruth, RobotTruth, World
 from schemas.side import Side
 from schemas.topics import APPLIED, COMMAND, EVENT, STATE, WORLD

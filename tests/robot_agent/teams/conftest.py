@@ -7,8 +7,9 @@ import pytest
 from msgspec.structs import asdict, replace
 
 from robot_agent.contract import Briefing, load_brain
-from schemas.messages.command import Command, Motion
-from schemas.messages.host import Setup
+from schemas.messages.command import Command
+from schemas.messages.radio import Motion
+from schemas.messages.setup import Setup
 from schemas.messages.sight import ReceivedRadio, Sight
 from schemas.side import Side
 

@@ -10,9 +10,10 @@ from robot_agent.contract import Briefing, load_brain
 from robot_agent.teams.player import RADIO_EVERY
 from robot_agent.teams.set_piece import required_distance
 from robot_agent.teams.simple.striker import PATIENCE
-from schemas.game import DisciplinaryRecord, OffField, Point, TeamPhase
+from schemas.game import OffField, Point, TeamPhase
 from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.command import Drive
+from schemas.messages.game import DisciplinaryRecord
 from schemas.side import Side
 
 TEAMS = ("simple", "nubot")

@@ -12,9 +12,10 @@ from schemas.bus.contract import Bus, BusError, NoReplyError, Subscription
 from schemas.bus.endpoint import with_free_port
 from schemas.bus.in_process_bus import Medium
 from schemas.bus.zenoh.bus import open_client, open_host
-from schemas.game import ActionName, ActionReply, GameState, Phase, RefereeAction
+from schemas.game import ActionName, Phase
 from schemas.messages.coach import CoachOrder
 from schemas.messages.command import Command
+from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.process.clock import WallClock
 from schemas.topic import Topic
 from schemas.topics import ACTION, COMMAND, ORDER, SETUP, SIGHT, STATE, WORLD_BALL, WORLD_ROBOT

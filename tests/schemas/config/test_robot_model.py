@@ -10,7 +10,7 @@ from schemas.config.profile import load_profile
 from schemas.config.robot_model import models_of, types_of
 from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.side import Side
 
 HEAVY = """

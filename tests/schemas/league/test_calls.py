@@ -4,9 +4,10 @@ from typing import Any
 
 import pytest
 
-from schemas.game import DisciplinaryRecord, GameStage, GameState, OffField, Phase, Score
+from schemas.game import GameStage, OffField, Phase, Score
 from schemas.league.calls import calls
 from schemas.league.robot_numbers import numbers_of
+from schemas.messages.game import DisciplinaryRecord, GameState
 from schemas.side import Side
 
 SIDES = {"cyan1": Side.CYAN, "cyan2": Side.CYAN, "magenta4": Side.MAGENTA}

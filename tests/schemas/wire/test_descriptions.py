@@ -12,8 +12,8 @@ from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.config.rule_book import RuleBook
 from schemas.config.scene import Scene
-from schemas.messages.host import Setup
 from schemas.messages.manual import ManualDrive
+from schemas.messages.setup import Setup
 from schemas.messages.sight import Sight
 from schemas.messages.world import World
 from schemas.protocol.fields import rows

@@ -7,10 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from schemas.config.scene import SceneOperation, SceneRequest
-from schemas.game import ActionName, Phase, RefereeAction, TeamPhase
-from schemas.messages.command import Command, Drive, Kick, KickMode, Radio
+from schemas.game import ActionName, Phase, TeamPhase
+from schemas.messages.command import Command, Drive, Kick, KickMode
+from schemas.messages.game import RefereeAction
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
+from schemas.messages.radio import Radio
+from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.world import BallTruth, World
 from schemas.side import Side
 from schemas.topics import TOPICS

@@ -12,11 +12,13 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
-from schemas.game import GameEvent, Point
+from schemas.game import Point
+from schemas.messages.applied import Applied, AppliedInput
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
-from schemas.messages.command import BallBelief, Command, Drive, Kick, KickMode, Motion, Radio
-from schemas.messages.host import Applied, AppliedInput, Belief
+from schemas.messages.command import Command, Drive, Kick, KickMode
+from schemas.messages.game import GameEvent
 from schemas.messages.manual import ManualDrive
+from schemas.messages.radio import BallBelief, Belief, Motion, Radio
 from schemas.messages.sight import Sight
 from schemas.protocol.examples import examples
 from schemas.topics import TOPICS

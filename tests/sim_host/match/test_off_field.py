@@ -6,8 +6,10 @@ from typing import Any
 import pytest
 
 from schemas.config.match_config import load_match
-from schemas.game import ActionName, OffField, RefereeAction
-from schemas.messages.command import Command, Drive, Radio
+from schemas.game import ActionName, OffField
+from schemas.messages.command import Command, Drive
+from schemas.messages.game import RefereeAction
+from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
 from schemas.messages.world import World
 from sim_host.match.simulation import Simulation, TickResult

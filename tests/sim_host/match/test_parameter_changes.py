@@ -9,8 +9,9 @@ from pytest import approx
 
 from schemas.config.match_config import load_match
 from schemas.game import EventKind
-from schemas.messages.command import Command, Drive, Radio
+from schemas.messages.command import Command, Drive
 from schemas.messages.parameters import ParameterOperation, ParametersReply, ParametersRequest
+from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
 from sim_host.match.simulation import Simulation, TickResult
 

@@ -10,7 +10,7 @@ from pytest import approx
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.sections import RadioChannel
-from schemas.messages.command import Radio
+from schemas.messages.radio import Radio
 from schemas.messages.sight import ReceivedRadio
 from schemas.wire.struct import encode
 from sim_host.match.radio import RadioAir

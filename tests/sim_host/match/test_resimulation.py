@@ -10,10 +10,10 @@ from pydantic_core import from_json
 
 from schemas.config.match_config import load_match
 from schemas.config.roster import Placement
-from schemas.config.scene import SceneOperation, SceneRequest
+from schemas.messages.applied import Applied, AppliedInput, chained_part_of
 from schemas.messages.command import Command, Drive, Kick, KickMode
-from schemas.messages.host import Applied, AppliedInput, chained_part_of
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
+from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.world import World
 from schemas.wire.message import VERSION
 from schemas.wire.struct import encode

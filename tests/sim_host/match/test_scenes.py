@@ -10,21 +10,13 @@ from pytest import approx
 from schemas.config.match_config import load_match
 from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.roster import Placement
-from schemas.config.scene import (
-    Scene,
-    SceneBall,
-    SceneGame,
-    SceneOperation,
-    SceneReply,
-    SceneRequest,
-    SceneRobot,
-    load_scene,
-    shipped_scenes,
-)
+from schemas.config.scene import Scene, SceneBall, SceneGame, SceneRobot, load_scene, shipped_scenes
 from schemas.game import EventKind, Phase, TeamPhase
-from schemas.messages.command import Command, Drive, Kick, KickMode, Radio
-from schemas.messages.host import Applied
+from schemas.messages.applied import Applied
+from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
+from schemas.messages.radio import Radio
+from schemas.messages.scene import SceneOperation, SceneReply, SceneRequest
 from schemas.messages.sight import Sight
 from schemas.side import Side
 from sim_host.match.simulation import Simulation, TickResult

@@ -11,7 +11,8 @@ from pytest import approx
 from schemas.config.match_config import load_match
 from schemas.config.noise import PRESETS
 from schemas.config.obstacle import Shape, StaticObstacle
-from schemas.messages.command import Command, Drive, Radio
+from schemas.messages.command import Command, Drive
+from schemas.messages.radio import Radio
 from schemas.messages.sight import Sight
 from sim_host.match.simulation import Simulation
 

@@ -10,12 +10,14 @@ from pytest import approx
 
 from schemas.config.match_config import load_match
 from schemas.config.roster import Placement
-from schemas.config.scene import SceneOperation, SceneRequest
 from schemas.errors import TouchlineError
-from schemas.game import ActionName, EventKind, Phase, RefereeAction, TeamPhase
+from schemas.game import ActionName, EventKind, Phase, TeamPhase
+from schemas.messages.applied import Applied
 from schemas.messages.coach import CoachOrder
-from schemas.messages.command import Command, Drive, Kick, KickMode, Motion, Radio
-from schemas.messages.host import Applied, Belief
+from schemas.messages.command import Command, Drive, Kick, KickMode
+from schemas.messages.game import RefereeAction
+from schemas.messages.radio import Belief, Motion, Radio
+from schemas.messages.scene import SceneOperation, SceneRequest
 from schemas.messages.sight import ReceivedRadio, Sight
 from schemas.messages.world import World
 from schemas.side import Side

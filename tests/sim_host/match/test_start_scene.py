@@ -11,8 +11,8 @@ from schemas.config.robot_model import RobotModel
 from schemas.config.roster import Placement
 from schemas.config.rule_book import load_rule_book
 from schemas.game import Phase
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive
-from schemas.messages.host import AppliedInput
 from schemas.side import Side
 from sim_host.match.start_scene import start_poses
 from sim_host.match.world import World

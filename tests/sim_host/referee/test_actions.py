@@ -2,7 +2,8 @@
 
 import pytest
 
-from schemas.game import ActionName, EventKind, Phase, Point, RefereeAction, Score
+from schemas.game import ActionName, EventKind, Phase, Point, Score
+from schemas.messages.game import RefereeAction
 from schemas.side import Side
 from sim_host.referee.actions import ACTIONS
 

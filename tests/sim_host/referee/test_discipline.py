@@ -2,7 +2,8 @@
 
 import pytest
 
-from schemas.game import Card, EventKind, OffField, Phase, RefereeAction, Score
+from schemas.game import Card, EventKind, OffField, Phase, Score
+from schemas.messages.game import RefereeAction
 from schemas.side import Side
 from sim_host.referee.game.decision import Decision
 from sim_host.referee.procedures.decision import carry_out

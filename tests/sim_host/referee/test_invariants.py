@@ -5,7 +5,8 @@ from hypothesis import strategies as st
 
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
-from schemas.game import RESTARTS, ActionName, EventKind, GameStage, OfficiatingMode, Phase, Point, RefereeAction
+from schemas.game import RESTARTS, ActionName, EventKind, GameStage, OfficiatingMode, Phase, Point
+from schemas.messages.game import RefereeAction
 from schemas.side import Side
 from sim_host.snapshot import Roster
 

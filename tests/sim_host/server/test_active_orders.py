@@ -9,7 +9,7 @@ import pytest
 from schemas.bus.contract import Bus
 from schemas.messages.coach import MAX_SEQUENCE, MAX_SEQUENCE_STEP, ActiveOrder, CoachMode, CoachOrder
 from schemas.messages.command import Command
-from schemas.messages.host import SetupRequest
+from schemas.messages.setup import SetupRequest
 from schemas.messages.sight import Sight
 from schemas.side import Side
 from schemas.topics import ACTIVE_ORDER, INVALID, ORDER, SETUP

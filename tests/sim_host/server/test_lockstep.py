@@ -2,8 +2,8 @@
 
 import pytest
 
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive
-from schemas.messages.host import AppliedInput
 from schemas.topics import APPLIED, WORLD
 from sim_host.server.agent_stats import SILENT_TICKS
 

@@ -3,8 +3,9 @@
 import pytest
 
 from schemas.errors import TouchlineError
-from schemas.messages.command import Command, Drive, Kick, KickMode, Radio
+from schemas.messages.command import Command, Drive, Kick, KickMode
 from schemas.messages.manual import ManualDrive
+from schemas.messages.radio import Radio
 from schemas.topics import BELIEF, INVALID, MANUAL
 from touchline.commands.drive import drive_by_keys
 from touchline.drive.keys import Speeds
@@ -116,5 +117,5 @@ def test_keys_drive_the_robot_and_ctrl_c_gives_it_back(rig):
 
 
 def test_driving_a_robot_that_does_not_play_is_wrong_input(rig):
-    with pytest.raises(TouchlineError, match='robot is "cyan9", who does not play; did you mean "cyan2"'):
+    with pytest.raises(TouchlineError, match='robot is "cyan9", which does not play; did you mean "cyan2"'):
         drive_by_keys(attended(rig), "cyan9", typed(rig), Speeds(), print)

@@ -2,8 +2,8 @@
 
 import pytest
 
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Command, Drive
-from schemas.messages.host import AppliedInput
 from schemas.topics import COMMAND, HEALTH
 
 REST = AppliedInput(drive=Drive(), dribble=False)

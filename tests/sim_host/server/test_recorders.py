@@ -3,8 +3,8 @@
 import pytest
 
 from schemas.config.match_config import MatchConfig
-from schemas.messages.host import RecorderProgress
 from schemas.messages.record_batch import RecordBatchesRequest, read_batch, read_reply
+from schemas.messages.recorder import RecorderProgress
 from schemas.recovery_window import RUN_AHEAD_TICKS
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES, RECORDER_PROGRESS
 

@@ -2,9 +2,10 @@
 
 import pytest
 
-from schemas.config.scene import Scene, SceneOperation, SceneReply, SceneRequest, SceneRobot
+from schemas.config.scene import Scene, SceneRobot
 from schemas.game import EventKind
-from schemas.messages.host import SetupRequest
+from schemas.messages.scene import SceneOperation, SceneReply, SceneRequest
+from schemas.messages.setup import SetupRequest
 from schemas.side import Side
 from schemas.topics import EVENT, HEALTH, INVALID, SCENE, SETUP, SIGHT, STATE, WORLD
 

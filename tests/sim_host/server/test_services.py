@@ -3,10 +3,11 @@
 import pytest
 
 from schemas.bus.contract import NoReplyError
-from schemas.game import REFBOX, ActionName, ActionReply, Phase, RefereeAction
+from schemas.game import REFBOX, ActionName, Phase
 from schemas.messages.coach import CoachOrder
-from schemas.messages.host import SetupRequest
+from schemas.messages.game import ActionReply, RefereeAction
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
+from schemas.messages.setup import SetupRequest
 from schemas.side import Side
 from schemas.topics import ACTION, APPLIED, EVENT, INVALID, PARAMETERS, SETUP, STATE
 

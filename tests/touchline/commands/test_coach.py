@@ -7,8 +7,9 @@ from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import Medium
-from schemas.game import ActionName, ActionReply, GameState, Phase, RefereeAction, Score
-from schemas.messages.host import Health, RobotHealth
+from schemas.game import ActionName, Phase, Score
+from schemas.messages.game import ActionReply, GameState, RefereeAction
+from schemas.messages.health import Health, RobotHealth
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import ACTION, HEALTH, STATE
@@ -121,10 +122,10 @@ def test_the_state_of_a_match_that_waits_for_robots_says_how_many_are_there(host
     host.says = [Health(tick=0, time=0.0, pace="lockstep", real_time_factor=0.0, robots=robots)]
     result = touchline("state")
     assert result.exit_code == 1
-    assert result.stderr == 'touchline: match "friendly" has not begun: 1 of 2 robots are there\n'
+    assert result.stderr == 'touchline: match "friendly" has not begun: 1 of 2 robots are connected\n'
 
 
 def test_a_host_that_says_nothing_is_named(host: Host) -> None:
     result = touchline("state")
     assert result.exit_code == 2
-    assert 'match "friendly": the host says nothing of it' in result.stderr
+    assert 'match "friendly": the host publishes no state of it' in result.stderr

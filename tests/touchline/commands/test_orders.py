@@ -12,7 +12,7 @@ from schemas.bus.in_process_bus import Medium
 from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
-from schemas.messages.host import Setup
+from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock
 from schemas.topics import SETUP
 from support.fake_host import FakeHost

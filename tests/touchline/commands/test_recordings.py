@@ -11,7 +11,8 @@ from recordings.container.manifest import Result as Ending
 from recordings.recorder.recording_writer import RecordingWriter
 from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.config.match_config import load_match
-from schemas.game import GameState, Phase
+from schemas.game import Phase
+from schemas.messages.game import GameState
 from schemas.process.clock import SteppedClock
 from schemas.topics import STATE
 from touchline.__main__ import app
@@ -64,13 +65,13 @@ def test_seconds_of_a_recording_are_copied_and_pieces_are_put_together_again(tmp
     assert touchline("filter", whole, "--out", tmp_path / "b.mcap", "--to", "0.5").stdout.endswith("25 messages\n")
     assert touchline("filter", whole, "--out", tmp_path / "c.mcap", "--from", "0.5").stdout.endswith("26 messages\n")
     merged = touchline("merge", tmp_path / "b.mcap", tmp_path / "c.mcap", "--out", tmp_path / "d.mcap")
-    assert merged.stdout == f"{tmp_path / 'd.mcap'}: 50 messages; 1 that several files have are in it once\n"
+    assert merged.stdout == f"{tmp_path / 'd.mcap'}: 50 messages; 1 duplicates dropped\n"
     assert touchline("diff", whole, tmp_path / "d.mcap").exit_code == 0
 
 
 def test_a_recovered_file_and_one_that_was_whole(tmp_path: Path) -> None:
     path = write(tmp_path / "a.mcap")
-    assert touchline("recover", path).stdout == f"{path}: is whole, 50 messages\n"
+    assert touchline("recover", path).stdout == f"{path}: intact, 50 messages\n"
     path.write_bytes(path.read_bytes()[:-40])
     (said,) = json.loads(touchline("recover", path, "--json").stdout)
     assert (said["repaired"], said["messages"], said["path"]) == (True, 50, str(path))

@@ -14,8 +14,9 @@ from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
-from schemas.game import GameState, Phase, Score
-from schemas.messages.host import Setup
+from schemas.game import Phase, Score
+from schemas.messages.game import GameState
+from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.process.clock import SteppedClock
 from schemas.topics import STATE, WORLD

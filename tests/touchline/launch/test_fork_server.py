@@ -16,9 +16,9 @@ from schemas.bus.zenoh.bus import open_host
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
-from schemas.messages.host import Setup
+from schemas.config.settings_file import read_settings
+from schemas.messages.setup import Setup
 from schemas.process.clock import WallClock
-from schemas.process.settings_file import read_settings
 from schemas.topics import SETUP
 from touchline.launch.child_process import ChildProcess, ProcessHandle
 from touchline.launch.fork_server import ForkedRobot, ForkServer

@@ -12,7 +12,8 @@ from schemas.bus.contract import ReceivedMessage, Stamp
 from schemas.bus.endpoint import with_free_port
 from schemas.config.match_config import load_match
 from schemas.errors import MatchFailedError, TouchlineError
-from schemas.game import EventKind, GameEvent, GameState, Phase, Score
+from schemas.game import EventKind, Phase, Score
+from schemas.messages.game import GameEvent, GameState
 from schemas.process.clock import WallClock
 from schemas.topics import EVENT, STATE
 from touchline.launch import match_run
@@ -27,7 +28,8 @@ HOST = """
 import os, pathlib, signal, sys
 from schemas.bus.zenoh.bus import open_host
 from schemas.process.clock import WallClock
-from schemas.game import EventKind, GameEvent, GameState, Phase, Score
+from schemas.game import EventKind, Phase, Score
+from schemas.messages.game import GameEvent, GameState
 from schemas.topics import EVENT, STATE
 
 def play(listen, seen, phase):

@@ -5,7 +5,8 @@ from pathlib import Path
 
 from rich.console import Console
 
-from schemas.game import DisciplinaryRecord, EventKind, GameEvent, Score
+from schemas.game import EventKind, Score
+from schemas.messages.game import DisciplinaryRecord, GameEvent
 from schemas.side import Side
 from touchline.launch.result import MatchResult
 

@@ -11,10 +11,12 @@ from coach_gateway.match.orders import OrderBook
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import Medium
 from schemas.errors import TouchlineError
-from schemas.game import DisciplinaryRecord, EventKind, GameEvent, GameState, OffField, Phase, Point, Score
+from schemas.game import EventKind, OffField, Phase, Point, Score
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
-from schemas.messages.command import Radio
-from schemas.messages.host import Belief, Health, RobotHealth, Setup
+from schemas.messages.game import DisciplinaryRecord, GameEvent, GameState
+from schemas.messages.health import Health, RobotHealth
+from schemas.messages.radio import Belief, Radio
+from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
@@ -157,7 +159,7 @@ def test_an_order_that_stands_is_shown_with_who_has_not_heard_it() -> None:
     press = CoachOrder(sequence=4, tactic="press")
     book.update(Side.MAGENTA, ActiveOrder(tick=1, time=0.0, order=press, acknowledged={"magenta1": True}))
     assert [row.plain for row in orders(book)] == [
-        " cyan  test pass, cyan2, cyan3  not heard by cyan3",
+        " cyan  test pass, cyan2, cyan3  not acknowledged by cyan3",
         " magenta  play: press",
     ]
 

@@ -2,8 +2,10 @@ import pytest
 
 from coach_gateway.match.follower import MatchFollower
 from schemas.bus.in_process_bus import Medium
-from schemas.game import DisciplinaryRecord, GameStage, GameState, OffField, Phase, Score
-from schemas.messages.host import Health, RecorderProgress, RobotHealth
+from schemas.game import GameStage, OffField, Phase, Score
+from schemas.messages.game import DisciplinaryRecord, GameState
+from schemas.messages.health import Health, RobotHealth
+from schemas.messages.recorder import RecorderProgress
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import RECORDER_PROGRESS
@@ -26,7 +28,7 @@ def test_before_the_host_speaks_it_is_waited_for() -> None:
 def test_before_the_first_tick_the_missing_robots_are_named() -> None:
     waiting = view()
     waiting.health = health(0, cyan2=RobotHealth())
-    assert status_line(waiting, 2) == "waiting for everybody  robots 1/2 (missing: cyan2)"
+    assert status_line(waiting, 2) == "waiting for the robots  robots 1/2 (missing: cyan2)"
 
 
 def test_while_it_is_played_clock_score_phase_speed_and_robots_stand_in_one_line() -> None:

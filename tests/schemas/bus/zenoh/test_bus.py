@@ -54,7 +54,7 @@ import sys
 from schemas.bus.zenoh.bus import open_host
 from schemas.bus.zenoh.reader import ZenohReader
 from schemas.process.clock import WallClock
-from schemas.messages.host import Invalid
+from schemas.messages.health import Invalid
 from schemas.topics import EVENT
 with open_host("test", WallClock(), sys.argv[1]) as bus:
     writer = bus.publisher(EVENT)

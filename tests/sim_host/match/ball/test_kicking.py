@@ -5,8 +5,8 @@ import math
 import pytest
 from pytest import approx
 
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive, Kick, KickMode
-from schemas.messages.host import AppliedInput
 
 WAYS = ("pose", "velocity", "force")
 

@@ -14,8 +14,8 @@ from pytest import approx
 from schemas.config.match_config import load_match
 from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.profile import load_profile
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive
-from schemas.messages.host import AppliedInput
 from sim_host.snapshot import Roster
 from support.world_rig import WorldRig
 

@@ -12,8 +12,8 @@ from pytest import approx
 from schemas.config.match_config import load_match
 from schemas.config.profile import Profile, load_profile
 from schemas.config.robot_model import RobotModel
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive
-from schemas.messages.host import AppliedInput
 from sim_host.snapshot import RobotState, Roster
 from support.world_rig import WorldRig, two_a_side
 

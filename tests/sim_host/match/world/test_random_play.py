@@ -21,8 +21,8 @@ from schemas.config.quantity import Choice, meanings
 from schemas.config.robot_model import RobotModel
 from schemas.config.roster import Placement
 from schemas.config.sections import Dribble
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive, Kick, KickMode
-from schemas.messages.host import AppliedInput
 from schemas.side import Side
 from sim_host.actuation.carrying import PULL_SPEED
 from sim_host.match.world import World

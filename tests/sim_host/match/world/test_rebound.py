@@ -9,8 +9,8 @@ from pytest import approx
 from schemas.config.profile import load_profile
 from schemas.config.robot_model import RobotModel
 from schemas.config.roster import Placement
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive
-from schemas.messages.host import AppliedInput
 from schemas.side import Side
 from sim_host.match.world import World
 from sim_host.physics.continuous_collision import ContinuousCollision

@@ -9,8 +9,8 @@ from pytest import approx
 
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
+from schemas.messages.applied import AppliedInput
 from schemas.messages.command import Drive, Kick, KickMode
-from schemas.messages.host import AppliedInput
 from sim_host.snapshot import BallState, RobotState, Roster, Snapshot
 from support.world_rig import WorldRig
 

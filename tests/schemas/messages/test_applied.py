@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from schemas.messages.applied import Applied, AppliedInput, chained_part, chained_part_of
 from schemas.messages.command import Drive
-from schemas.messages.host import Applied, AppliedInput, chained_part, chained_part_of
 from schemas.protocol.examples import examples
 from schemas.wire.message import BadMessageError
 from schemas.wire.struct import encode

@@ -16,8 +16,8 @@ from robot_agent.settings import AgentSettings
 from schemas.bus.settings import ListenSettings
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.config.settings import RecordOptions, Settings
+from schemas.config.settings_file import read_settings, run_process, write_settings
 from schemas.errors import TouchlineError
-from schemas.process.settings_file import read_settings, run_process, write_settings
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
 

@@ -1,0 +1,35 @@
+"""Liveliness tokens over Zenoh."""
+
+import zenoh
+
+from schemas.bus.contract import (
+    Presence,
+    PresenceKind,
+    PresenceWatch,
+)
+from schemas.bus.mailbox import EveryMailbox
+from schemas.bus.zenoh.session import SessionContext
+from schemas.topics import TOPICS
+
+_KINDS = frozenset(kind.value for kind in PresenceKind)
+
+
+class ZenohPresenceWatch(PresenceWatch):
+    def __init__(self, context: SessionContext) -> None:
+        self.mailbox: EveryMailbox[Presence] = EveryMailbox()
+        self.is_empty = self.mailbox.is_empty
+        start = len(context.prefix)
+        row = TOPICS["alive"]
+
+        def receive(sample: zenoh.Sample) -> None:
+            chunks = row.match(str(sample.key_expr)[start:])
+            if chunks and chunks["kind"] in _KINDS:
+                alive = sample.kind == zenoh.SampleKind.PUT
+                self.mailbox.put("", Presence(PresenceKind(chunks["kind"]), chunks["name"], alive))
+
+        self._watch = context.session.liveliness().declare_subscriber(
+            context.prefix + row.fill(), zenoh.handlers.Callback(receive, indirect=False), history=True
+        )
+
+    def receive(self, timeout: float | None = 0.0) -> Presence | None:
+        return self.mailbox.get(timeout)

@@ -1,0 +1,71 @@
+"""The health of the host and its agents, and invalid payloads."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from schemas.wire.message import Message, Name, Part
+
+
+class RobotHealth(Part):
+    """State of one robot's agent; counts are since the match began."""
+
+    alive: bool = False
+    """Its liveliness token exists."""
+    answering: bool = False
+    """Its answer to the last tick arrived in time."""
+    answers: int = 0
+    """Ticks with an answer."""
+    missed: int = 0
+    """Ticks without an answer."""
+    duplicates: int = 0
+    """Commands for a tick that it had already answered."""
+    invalid: int = 0
+    """Payloads on its key that were not valid commands."""
+    removed: bool = False
+    """Its robot was removed from the pitch: it gets no sights, and the host does not wait for it, until the robot is
+    added again."""
+    still: bool = False
+    """Its robot stands still in the current scene: its commands have no effect, and the host does not wait for them."""
+    refused: int = 0
+    """Parts of commands that were refused."""
+    latency_ms: float | None = None
+    """Median wall time from sight to command over the last second, in ms; None without an answer."""
+
+
+class Health(Message):
+    """State of the host, its agents and recorders."""
+
+    tick: int
+    """Control ticks since the match began."""
+    time: float
+    """Simulated time in s: tick × control tick."""
+    pace: str
+    """`lockstep`, `realtime`, or `x4` for four times real time."""
+    real_time_factor: float
+    """Simulated seconds per wall second, over the last second."""
+    late_ticks: int = 0
+    """Ticks that began late; in lockstep, ticks without all answers in time."""
+    worst_tick_ms: float = 0.0
+    """Longest wall time of a tick in the last second, in ms."""
+    robots: dict[Name, RobotHealth] = Field(default_factory=dict)
+    """Robot → the state of its agent."""
+    strangers: dict[str, int] = Field(default_factory=dict)
+    """Command key → messages on it, for names that no robot of this match has."""
+    recorders: dict[Name, Annotated[int, Field(ge=0)]] = Field(default_factory=dict)
+    """Recorder → ticks that it is behind."""
+
+
+class Invalid(Message):
+    """An invalid payload that the host received, counted and ignored."""
+
+    tick: int
+    """Control ticks since the match began."""
+    time: float
+    """Simulated time in s: tick × control tick."""
+    key: str
+    """Key below the match that the payload was published on."""
+    reason: str
+    """What is wrong with the payload, in one sentence."""
+    size: int
+    """Length of the payload in bytes."""
