@@ -7,9 +7,9 @@ runs, a ball placed by an operator, and a goal given by a coach.
 from pathlib import Path
 
 import pytest
-from recordings.editing.filtering import filter_recording
 from typer.testing import CliRunner
 
+from recordings.editing.filtering import filter_recording
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import Recording, open_recording
 from recordings.replay.host import ReplayHost
