@@ -113,7 +113,7 @@ def test_keys_drive_the_robot_and_ctrl_c_gives_it_back(rig):
         (-1.0, True),
         (1.0, False),
     ]
-    assert said == ["dribbler off, kick ground", "dribbler on, kick ground", "cyan2 is given back"]
+    assert said == ["dribbler off, kick ground", "dribbler on, kick ground", "cyan2 is returned to its brain"]
 
 
 def test_driving_a_robot_that_does_not_play_is_wrong_input(rig):
