@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from touchline.play import MatchOutcome, play_match
 
 _HOMES = {
-    "BallBelief": "schemas.messages.command",
+    "BallBelief": "schemas.messages.radio",
     "Brain": "robot_agent.contract",
     "Briefing": "robot_agent.contract",
     "Command": "schemas.messages.command",
@@ -28,7 +28,7 @@ _HOMES = {
     "KickMode": "schemas.messages.command",
     "MatchConfig": "schemas.config.match_config",
     "MatchOutcome": "touchline.play",
-    "Motion": "schemas.messages.command",
+    "Motion": "schemas.messages.radio",
     "Radio": "schemas.messages.command",
     "Sight": "schemas.messages.sight",
     "load_match": "schemas.config.match_config",
