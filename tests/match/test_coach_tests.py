@@ -94,7 +94,7 @@ def practice(request: pytest.FixtureRequest) -> Iterator[Practice]:
     made.close()
 
 
-def test_stop_stops_everybody(practice: Practice) -> None:
+def test_stop_stops_every_robot(practice: Practice) -> None:
     practice.order("move", robot_a="cyan2", point_a=(0.0, 4.0))
     practice.play(1.0)
     practice.order("stop")
@@ -125,7 +125,7 @@ def nearest_rival(practice: Practice, name: str) -> float:
     return least
 
 
-def test_who_avoids_goes_around_a_rival_and_who_does_not_runs_into_it(practice: Practice) -> None:
+def test_a_robot_that_avoids_goes_around_a_rival_and_one_that_does_not_runs_into_it(practice: Practice) -> None:
     reach = practice.table.simulation.setup().robot.radius
     practice.order("move", robot_a="cyan2", point_a=(4.5, 1.5), avoid=True)
     assert practice.run(lambda: practice.is_at("cyan2", 4.5, 1.5))
@@ -206,7 +206,7 @@ def test_a_shot_goes_into_the_goal(practice: Practice) -> None:
     assert practice.run(practice.is_in_goal)
 
 
-def test_a_lob_goes_over_who_stands_in_the_way_into_the_goal(practice: Practice) -> None:
+def test_a_lob_goes_over_a_robot_in_the_way_into_the_goal(practice: Practice) -> None:
     practice.order("shoot", robot_a="cyan2", point_a=(3.0, 0.0), kick_mode="lob")
     assert practice.run(practice.is_in_goal)
     assert max(tick.world["ball"]["z"] for tick in practice.ticks) > 0.5

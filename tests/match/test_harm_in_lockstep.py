@@ -158,11 +158,11 @@ def test_the_match_goes_on_with_every_tick_whatever_happens(worlds, story):
     assert ticks[-1] >= story.last_tick
 
 
-def test_in_lockstep_everybody_takes_turns(story):
+def test_in_lockstep_all_processes_use_batch_scheduling(story):
     assert story.policies == {os.SCHED_BATCH}
 
 
-def test_ctrl_c_ends_everything_soon_with_status_130_and_leaves_nobody(story, is_running):
+def test_ctrl_c_ends_all_processes_soon_with_status_130(story, is_running):
     assert story.exit_status == 128 + signal.SIGINT
     assert story.took < 25.0  # not the half minute that a recorder has after a match; a busy machine took 6.5 s
     assert story.program.out == ""
@@ -263,7 +263,7 @@ def test_a_stopped_agent_is_waited_for_a_few_ticks_and_then_rests_until_it_answe
     assert abs(moving.omega) > 0.1
 
 
-def test_nobody_else_missed_a_tick_meanwhile(story):
+def test_no_other_robot_missed_a_tick_meanwhile(story):
     assert story.heard.robot("cyan1").missed == 0
 
 

@@ -170,7 +170,7 @@ def test_every_tick_is_played_whatever_happens(story):
     assert ticks[-1] > story.after_recorder
 
 
-def test_in_real_time_nobody_waits_for_a_core_that_others_have(story):
+def test_in_real_time_no_process_uses_batch_scheduling(story):
     assert story.policies == {os.SCHED_OTHER}
 
 
@@ -184,7 +184,7 @@ def test_the_watchdog_brakes_a_stopped_robot(inputs, story):
 
 
 @pytest.mark.parametrize("robot", ["cyan1", "cyan2", "magenta1"])
-def test_a_robot_does_what_it_was_told_last_until_that_is_too_old(inputs, robot):
+def test_a_robot_keeps_its_last_command_until_the_watchdog_brakes_it(inputs, robot):
     """However late its agent answers, on a machine that is busy with other things."""
     assert told_otherwise(inputs, robot) == []
 

@@ -87,7 +87,7 @@ def test_the_recording_opens_with_the_stock_reader_and_holds_every_tick_once(fol
     assert ticks == list(range(result["ticks"] + 1))
 
 
-def test_nobody_missed_a_tick(folder, first):
+def test_no_robot_missed_a_tick(folder, first):
     last = list(open_recording(folder / "first.mcap").decoded("host/health"))[-1][1]
     assert len(last.robots) == 10
     assert {robot.missed for robot in last.robots.values()} == {0}

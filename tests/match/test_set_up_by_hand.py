@@ -37,7 +37,7 @@ def recording(start, listen, folder, endpoint):
     return open_recording(folder / "m.mcap", whole=True)
 
 
-def test_what_was_done_by_hand_is_told_and_recorded(recording):
+def test_manual_changes_are_published_and_recorded(recording):
     events = [event for _, event in recording.decoded("game/event")]
     said = [event.text for event in events if event.kind in (EventKind.SCENE, EventKind.PARAMETERS)]
     assert said[0] == "operator sets drive.max_speed = 1.5, radio.loss = 0.5"

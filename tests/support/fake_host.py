@@ -39,8 +39,12 @@ class FakeHost:
         *,
         rules: str = "friendly",
         clock: Clock | None = None,
+        in_threads: bool = False,
     ) -> None:
-        """`answers` replies to further topics, or otherwise than this host would."""
+        """`answers` replies to further topics, or otherwise than this host would.
+
+        With `in_threads`, each topic is answered in a thread of its own; otherwise `serve` answers in an event loop.
+        """
         self.medium = medium
         self.config = config or MatchConfig()
         self.bus: Bus = medium.open_bus(MATCH, clock or WallClock())
@@ -55,15 +59,13 @@ class FakeHost:
         self._answers = {SETUP.key: lambda _: self.setup, ACTION.key: lambda action: self.answer(action)}
         self._answers |= {topic.key: answer for topic, answer in (answers or {}).items()}
         self._servers = [self.bus.serve(topic) for topic in {SETUP, ACTION, *(answers or {})}]
-        self._threads: list[threading.Thread] = []
-        self.bus.declare_alive("host", "host")
-
-    def serve_in_threads(self) -> "FakeHost":
-        """Answer requests from now on, each topic in a thread of its own."""
-        self._threads = [threading.Thread(target=self._serve, args=(server,), daemon=True) for server in self._servers]
+        self._threads = [
+            threading.Thread(target=self._serve, args=(server,), daemon=True)
+            for server in (self._servers if in_threads else ())
+        ]
         for thread in self._threads:
             thread.start()
-        return self
+        self.bus.declare_alive("host", "host")
 
     async def serve(self, stop: asyncio.Event) -> None:
         """Answer requests in an event loop."""

@@ -33,7 +33,7 @@ def test_the_ball_is_in_play_for_most_of_the_running_clock(played: MatchOutcome)
     assert turns[0].kind is EventKind.START and in_play > 0.5 * (end - begun)
 
 
-def test_nobody_kicks_off_out_of_the_field(played: MatchOutcome) -> None:
+def test_no_kick_off_ends_over_the_touch_line(played: MatchOutcome) -> None:
     """Both teams play a kick-off to a robot that reaches it."""
     restarts = [event for event in played.events if event.kind is EventKind.RESTART]
     after = [then for now, then in pairwise(restarts) if "kick-off" in now.text and then.time - now.time < 10.0]

@@ -68,7 +68,7 @@ def host_of(medium: Medium) -> Iterator[Callable[..., FakeHost]]:
         }
         if recorded is not None:
             answers[REPLAY_CONTROL] = replay
-        made.append(FakeHost(medium, match, answers, **options).serve_in_threads())
+        made.append(FakeHost(medium, match, answers, in_threads=True, **options))
         return made[-1]
 
     yield make

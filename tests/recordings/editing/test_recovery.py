@@ -129,7 +129,7 @@ def test_all_whole_chunks_before_the_cut_are_there(several_chunks, tmp_path):
             check_with_the_stock_readers(path)
 
 
-def test_a_flipped_bit_is_told_or_does_no_harm(several_chunks, tmp_path, rng):
+def test_a_flipped_bit_is_reported_or_does_no_harm(several_chunks, tmp_path, rng):
     """Never a traceback, never data that is silently wrong: reading gives the truth, a part of it, or one sentence."""
     data, whole = several_chunks.read_bytes(), told(several_chunks)
     manifest = open_recording(several_chunks).manifest

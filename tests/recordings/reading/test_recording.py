@@ -95,7 +95,7 @@ def test_a_truncated_file_is_refused_by_name_where_a_whole_one_is_needed(recorde
         open_recording(cut(recorded.path, 0.9), whole=True)
 
 
-def test_a_file_cut_off_before_its_manifest_says_so(recorded):
+def test_a_file_cut_off_before_its_manifest_is_reported_as_such(recorded):
     path = recorded.path.with_name("stump.mcap")
     path.write_bytes(recorded.path.read_bytes()[:20])
     with pytest.raises(TouchlineError, match="before its manifest"):
@@ -115,7 +115,7 @@ def test_a_file_that_is_not_there_is_named(tmp_path):
         open_recording(tmp_path / "gone.mcap")
 
 
-def test_somebody_elses_mcap_file_is_not_a_recording_of_a_match(tmp_path):
+def test_an_mcap_file_of_another_program_is_not_a_recording_of_a_match(tmp_path):
     path = tmp_path / "other.mcap"
     with path.open("wb") as file:
         writer = Writer(file)

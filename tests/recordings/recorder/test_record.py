@@ -140,7 +140,7 @@ def test_a_recorder_process_loses_nothing_of_a_match_over_zenoh(make_fake_host, 
 
 
 @pytest.mark.processes
-def test_a_recorder_process_that_is_told_to_stop_finishes_its_file(make_fake_host, start_recorder, endpoint, tmp_path):
+def test_a_recorder_process_finishes_its_file_on_sigterm(make_fake_host, start_recorder, endpoint, tmp_path):
     recorder = start_recorder()
     with (
         open_host("friendly", WallClock(), endpoint) as bus,

@@ -513,7 +513,7 @@ def test_a_recorder_polls_at_once_when_it_is_asked_something_and_when_the_match_
     assert looks[:7] == [0.0, 0.2, 0.3, 0.5, 0.65, 0.7, 0.75]
 
 
-def test_the_recording_ends_when_it_is_told_to(rig):
+def test_the_recording_ends_on_request(rig):
     rig.play(range(10))
     summary = rig.recorder.run(lambda: True)
     assert summary.result.ended is EndReason.STOPPED

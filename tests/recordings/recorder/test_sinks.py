@@ -191,7 +191,7 @@ def test_what_comes_during_a_pause_is_counted_and_not_written(make_rig):
     assert times == sorted(times)
 
 
-def test_a_recorder_says_how_it_is_doing_and_why_it_refuses(make_rig):
+def test_a_recorder_logs_its_progress_and_why_it_refuses(make_rig):
     rig = make_rig()
     rig.begin()
     rig.play(range(10))

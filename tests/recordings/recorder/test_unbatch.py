@@ -45,7 +45,7 @@ def test_keys_of_no_recorded_topic_are_passed_over():
     assert messages(batch({**ENTRY, "key": "robot/cyan1/hand"}, {**ENTRY, "key": "elsewhere"})) == []
 
 
-def test_sights_are_given_to_who_wants_them():
+def test_sights_are_taken_from_a_batch_on_request_only():
     payload = batch({**ENTRY, "key": "robot/cyan1/sight"})
     assert messages(payload) == []
     assert messages(payload, sights=True) == [ReceivedMessage(SIGHT, "robot/cyan1/sight", b"{}", Stamp(7, 11, 13), 17)]

@@ -149,7 +149,7 @@ def test_a_seek_is_done_and_answered(recorded, room):
     assert not reply.accepted and "goal happened 1 times" in reply.reason
 
 
-def test_who_asks_for_what_is_no_request_is_told_so(recorded, room):
+def test_an_invalid_request_is_refused_with_the_reason(recorded, room):
     host = room.host(recorded.path)
     answer = room.seat().query(REPLAY_CONTROL, SetupRequest(version="9.0"))
     host.pump()

@@ -57,7 +57,7 @@ def test_before_it_begins_in_the_middle_it_publishes_latched_messages_and_no_eve
     assert "game/state" in newest and "game/event" not in newest
 
 
-def test_paused_it_says_nothing_and_goes_on_where_it_was(make_player_rig):
+def test_a_paused_replay_publishes_nothing_and_resumes_where_it_was(make_player_rig):
     played = make_player_rig()
     played.run(1.0)
     ask(played, ReplayOperation.PAUSE)
@@ -70,13 +70,13 @@ def test_paused_it_says_nothing_and_goes_on_where_it_was(make_player_rig):
     assert played.clock.now() == pytest.approx(199 * TICK + 5.0, abs=0.01)
 
 
-def test_a_replay_that_begins_paused_says_nothing_at_all(make_player_rig):
+def test_a_replay_that_begins_paused_publishes_nothing(make_player_rig):
     played = make_player_rig(paused=True)
     played.run(1.0, 0.1)
     assert played.heard == []
 
 
-def test_a_step_says_one_tick_with_all_that_belongs_to_it(make_player_rig, recorded):
+def test_a_step_publishes_one_tick_with_all_its_messages(make_player_rig, recorded):
     played = make_player_rig(paused=True)
     ask(played, ReplayOperation.STEP)
     played.run(0.1)
@@ -142,7 +142,7 @@ def test_it_begins_again_at_the_end_when_it_loops(make_player_rig):
     assert played.ticks()[-1] == 49
 
 
-def test_it_stays_at_the_end_when_told_to_and_can_seek_back(make_player_rig):
+def test_a_replay_with_stay_remains_at_its_end_and_can_seek_back(make_player_rig):
     played = make_player_rig(stay=True, rate=math.inf)
     played.run(1.0, 0.1)
     assert not played.player.ended and played.player.paused

@@ -69,7 +69,7 @@ def test_possession_and_nobodys_time_make_up_the_time_in_play(figures: MatchFigu
         assert held <= figures.sides[side].possession_s
 
 
-def test_every_kick_of_the_recording_is_told_once_and_counted_once(recording: Recording, figures: MatchFigures) -> None:
+def test_every_kick_of_the_recording_is_counted_once(recording: Recording, figures: MatchFigures) -> None:
     kicked = [(world.time, world.kicked) for _, world in recording.decoded("world") if world.kicked is not None]
     assert kicked
     assert sorted((kick.time, kick.robot) for kick in figures.kicks) == kicked

@@ -46,7 +46,7 @@ def test_a_match_on_wheels_with_scenes_and_parameters_is_identical_from_each_of_
     assert verified.identical and verified.ticks == len(index.times)
 
 
-def test_several_processes_say_what_one_says(operated: Path, edited, at_tick, monkeypatch) -> None:
+def test_several_processes_give_the_verdict_of_one(operated: Path, edited, at_tick, monkeypatch) -> None:
     monkeypatch.setattr(resimulate, "_WORTH_A_PROCESS", 50)
     one, two = verify(operated, processes=1), verify(operated, processes=2)
     assert two.processes == 2
@@ -116,7 +116,7 @@ def test_an_input_that_had_no_effect_is_caught_too(operated: Path, edited, at_ti
     assert verify(edited(operated, "host/applied", at_tick(77, edit))).difference.tick == 77
 
 
-def test_another_world_is_told_by_body_field_and_amount(operated: Path, edited, at_tick) -> None:
+def test_another_world_is_reported_by_body_field_and_amount(operated: Path, edited, at_tick) -> None:
     def edit(fields):
         fields["ball"]["x"] += 0.25
         return fields
@@ -198,7 +198,7 @@ def test_worlds_that_are_missing_are_counted_and_the_chain_is_compared(
     assert verdict.identical and verdict.without_world == verified.ticks // 2
 
 
-def test_another_machine_is_said_first(operated: Path, edited, json_of) -> None:
+def test_another_machine_is_reported_first(operated: Path, edited, json_of) -> None:
     from pydantic_core import to_json
 
     def other(name, fields):

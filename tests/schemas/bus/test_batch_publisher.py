@@ -229,7 +229,7 @@ def test_a_reply_holds_at_least_one_batch_and_no_more_bytes_than_a_limit(batches
     assert ask(batches, seat, first=2)[1] == [2]
 
 
-def test_who_asks_for_what_is_no_request_is_told_so(seat):
+def test_an_invalid_request_is_refused_with_the_reason(seat):
     invalid = []
     batches = BatchPublisher(seat, lambda *words: invalid.append(words))
     answer = seat.query(RECORD_BATCHES, Command(answers_tick=3))

@@ -11,7 +11,7 @@ def command(tick: int, kick: Kick | None = None) -> Command:
     return Command(answers_tick=tick, drive=GO, dribble=True, kick=kick)
 
 
-def test_a_robot_nobody_commands_rests() -> None:
+def test_a_robot_without_a_command_rests() -> None:
     inputs = LatestCommands(NAMES, 10).inputs(0, {})
     assert all(one.drive == Drive() and not one.dribble for one in inputs.values())
 
@@ -25,7 +25,7 @@ def test_a_command_stands_until_the_watchdog_and_not_a_tick_longer() -> None:
     assert silent.drive == Drive() and not silent.dribble
 
 
-def test_a_stale_command_from_a_broken_link_moves_nobody() -> None:
+def test_a_stale_command_from_a_broken_link_moves_no_robot() -> None:
     assert LatestCommands(NAMES, 10).inputs(100, {"cyan1": command(50)})["cyan1"].drive == Drive()
 
 

@@ -178,7 +178,7 @@ def test_a_robot_let_go_of_brakes_at_its_limit_and_comes_to_rest_exactly(model: 
 
 
 @BOTH
-def test_what_the_wheels_are_told_never_jumps(model: RobotModel) -> None:
+def test_commanded_velocities_never_jump(model: RobotModel) -> None:
     """Within any tick the demanded velocity changes by the limit × the tick at most."""
     floor, random = Floor(model), np.random.default_rng(2)
     before = np.zeros(2)

@@ -64,7 +64,7 @@ def test_a_wheel_limit_shortens_the_twist_and_keeps_its_direction(model: RobotMo
 
 
 @BOTH
-def test_nothing_happens_to_a_robot_at_rest_that_is_told_to_rest(model: RobotModel) -> None:
+def test_a_robot_at_rest_stays_where_it_is(model: RobotModel) -> None:
     after = WheelSets([model], STEP).step(np.zeros((3, 1)), np.zeros((4, 1)), np.zeros((4, 1)))
     assert not after.push.any() and not after.speeds.any() and not after.twist.any()
 

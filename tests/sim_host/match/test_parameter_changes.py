@@ -109,7 +109,7 @@ def test_a_refused_change_changes_nothing(simulation: Simulation) -> None:
     assert [event for event in tick.events if event.kind is EventKind.PARAMETERS] == []
 
 
-def test_late_comers_are_told_the_numbers_in_force(simulation: Simulation) -> None:
+def test_a_late_client_receives_the_parameters_in_force(simulation: Simulation) -> None:
     set_to(simulation, drive__max_speed=1.5)
     setup = simulation.setup()
     assert setup.drive.max_speed == 1.5

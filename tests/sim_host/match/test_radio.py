@@ -30,7 +30,7 @@ def heard(air: RadioAir, tick: int) -> dict[str, Any]:
     return {name: to_builtins(one) for name, one in zip(ROSTER.names, air.receive(tick), strict=True)}
 
 
-def test_a_word_reaches_all_teammates_and_nobody_else() -> None:
+def test_a_radio_message_reaches_all_teammates_and_no_other_robot() -> None:
     air = radio()
     assert air.send(0, "cyan1", Radio(role="keeper")) is None
     now = heard(air, 0)
@@ -138,7 +138,7 @@ def test_the_newest_word_of_a_teammate_replaces_the_one_before() -> None:
     assert heard(air, 1)["cyan2"]["cyan1"]["role"] == "striker"
 
 
-def test_as_many_words_are_lost_as_the_profile_says_each_on_its_own_way() -> None:
+def test_the_share_of_lost_radio_messages_is_the_profiles_on_each_link() -> None:
     """2,000 words at a loss of 0.3: within 4 standard errors of 0.3 for each listener, and not the same words."""
     air = radio(replace(CLEAR, loss=0.3))
     lost: dict[str, list[bool]] = {"cyan2": [], "cyan3": []}
@@ -178,7 +178,7 @@ def test_the_league_s_budget_is_the_default() -> None:
     assert load_profile("msl").radio.budget == 2.2e6
 
 
-def test_equal_seeds_lose_equal_words() -> None:
+def test_equal_seeds_lose_equal_radio_messages() -> None:
     def run(seed: int) -> list[dict[str, ReceivedRadio]]:
         air = radio(replace(CLEAR, loss=0.5), seed)
         for tick in range(50):

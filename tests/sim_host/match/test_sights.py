@@ -115,7 +115,7 @@ def test_static_obstacles_stand_in_the_sights() -> None:
     one.close()
 
 
-def test_a_word_beyond_the_budget_is_told_in_the_outcome_and_not_said() -> None:
+def test_a_radio_message_beyond_the_budget_is_refused_in_the_outcome_and_not_sent() -> None:
     one = simulate(radio__budget=100.0)
     tick = one.step({"cyan2": Command(answers_tick=0, radio=Radio(intention="much too long for that"))})
     assert sight(one, "cyan2").outcome.refused == ["radio: the team's budget of 0.0001 Mbit/s is used up"]

@@ -76,7 +76,7 @@ def test_every_sight_and_truth_is_a_valid_message(simulation: Simulation) -> Non
     Applied.decode(tick.applied_encoded)
 
 
-def test_the_world_says_who_touched_the_ball_and_whose_kick_was_carried_out(simulation: Simulation) -> None:
+def test_the_world_has_the_robots_that_touched_the_ball_and_the_one_that_kicked(simulation: Simulation) -> None:
     placements = [Placement(body="ball", x=-4.6, y=3.0), Placement(body="cyan2", x=-5.0, y=3.0)]
     while not simulation.state.running:  # until START the referee puts the ball back to its spot
         simulation.step({})

@@ -45,7 +45,7 @@ def give(bus: Bus, sequence: int, side: Side = Side.CYAN) -> None:
     bus.publisher(ORDER, side=side.value).put(CoachOrder(sequence=sequence, mode=CoachMode.HOLD))
 
 
-def test_nothing_is_told_while_no_order_stands(rig) -> None:
+def test_nothing_is_published_while_no_order_is_in_force(rig) -> None:
     told = rig.listen(ACTIVE_ORDER)
     rig.ticks(120)
     assert told.all() == []
@@ -62,7 +62,7 @@ def test_each_robot_of_the_side_gets_the_order_and_is_told_to_have_acknowledged_
     ]
 
 
-def test_a_robot_that_does_not_acknowledge_is_told_by_name(rig, brains) -> None:
+def test_a_robot_that_does_not_acknowledge_is_reported_by_name(rig, brains) -> None:
     brains["cyan2"].deaf = True
     give(rig.outside, 7)
     rig.ticks(3)
@@ -73,7 +73,7 @@ def test_a_robot_that_does_not_acknowledge_is_told_by_name(rig, brains) -> None:
     assert heard.acknowledged == {"cyan1": True, "cyan2": True}
 
 
-def test_a_new_order_has_been_acknowledged_by_nobody(rig) -> None:
+def test_a_new_order_is_not_acknowledged_by_any_robot(rig) -> None:
     give(rig.outside, 7)
     rig.ticks(3)
     told = rig.listen(ACTIVE_ORDER)

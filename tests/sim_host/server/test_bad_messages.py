@@ -33,7 +33,7 @@ RUBBISH = {
 
 @pytest.mark.parametrize("case", RUBBISH)
 @pytest.mark.parametrize("pace", ["lockstep", "realtime"])
-def test_a_bad_command_is_counted_told_with_its_reason_and_ignored(rig_of, pace, case):
+def test_a_bad_command_is_counted_published_with_its_reason_and_ignored(rig_of, pace, case):
     payload, reason = RUBBISH[case]
     rig = rig_of(pace=pace)
     rig.join_all()
@@ -70,7 +70,7 @@ def test_invented_names_do_not_fill_the_memory(rig):
     assert sum(strangers.values()) == 250
 
 
-def test_of_many_bad_messages_one_in_a_tick_is_told(rig):
+def test_of_many_bad_messages_one_a_tick_is_published(rig):
     told = rig.listen(INVALID)
     writer = rig.outside.publisher(COMMAND, robot="cyan1")
     for _ in range(50):
@@ -116,7 +116,7 @@ def test_a_flood_does_not_hold_the_host():
         ("blue", CoachOrder(sequence=9).encode(), "no side is named blue"),
     ],
 )
-def test_a_bad_order_is_told_with_its_reason_and_the_standing_one_stays(rig, side, payload, reason):
+def test_a_bad_order_is_published_with_its_reason_and_the_one_in_force_stays(rig, side, payload, reason):
     told = rig.listen(INVALID)
     rig.outside.publisher(ORDER, side="cyan").put(CoachOrder(sequence=3, mode=CoachMode.HOLD))
     rig.ticks(1)

@@ -57,7 +57,7 @@ def test_another_seed_gives_another_match(watch_match):
     assert watch_match(8).worlds[-1] != watch_match(7).worlds[-1]
 
 
-def test_a_match_is_played_to_full_time_and_every_tick_is_told_once(rig_of):
+def test_a_match_is_played_to_full_time_and_every_tick_is_published_once(rig_of):
     rig = rig_of(duration=1)
     worlds, states = rig.listen(WORLD), rig.listen(STATE)
     rig.join_all()
@@ -66,7 +66,7 @@ def test_a_match_is_played_to_full_time_and_every_tick_is_told_once(rig_of):
     assert states.all()[-1].phase is Phase.FULL_TIME
 
 
-def test_single_bodies_are_told_as_the_world_has_them_at_the_same_tick(rig_of):
+def test_single_bodies_are_published_as_in_the_world_of_the_same_tick(rig_of):
     """A key for each body, one message for all, one number of the tick for both."""
     rig = rig_of(duration=2)
     worlds, robots, balls = rig.listen(WORLD), rig.listen(WORLD_ROBOT), rig.listen(WORLD_BALL)

@@ -156,7 +156,7 @@ def test_the_first_tick_waits_for_everybody_and_for_a_recorder_where_one_is_want
     assert rig.clock.now() == 0.0
 
 
-def test_a_host_that_is_told_to_stop_waits_for_nobody_and_ends_its_tick(rig):
+def test_a_stopped_host_waits_for_no_robot_and_ends_its_tick(rig):
     worlds, applied = rig.listen(WORLD), rig.listen(APPLIED)
     rig.ticks(5)
     rig.agents["cyan2"].frozen = True

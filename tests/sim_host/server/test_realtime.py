@@ -83,7 +83,7 @@ def test_the_newest_of_two_commands_counts(realtime_rig):
     assert realtime_rig.inputs("cyan1")[-1].drive == Drive(vy=0.3)
 
 
-def test_a_burst_of_stale_commands_moves_nobody(realtime_rig):
+def test_a_burst_of_stale_commands_moves_no_robot(realtime_rig):
     realtime_rig.agents["cyan1"].frozen = True
     realtime_rig.ticks(40)
     writer = realtime_rig.outside.publisher(COMMAND, robot="cyan1")

@@ -70,7 +70,7 @@ def test_an_agent_that_came_before_its_robot_plays_it_at_once(rig):
     assert rig.truth("cyan7")["vx"] > 0.3
 
 
-def test_nobody_waits_for_the_agent_of_a_robot_that_stands_still(rig):
+def test_the_host_does_not_wait_for_the_agent_of_a_still_robot(rig):
     robots = [cyan("cyan1", -4.0, 5.0), cyan("cyan2", -4.0, 3.0, agent=False)]
     ask(rig, SceneOperation.LOAD, scene=Scene(description="x", robots=robots))
     rig.agents["cyan2"].frozen = True
@@ -97,7 +97,7 @@ def test_everyone_is_told_of_another_episode_and_late_comers_of_who_plays(rig):
     assert teams[Side.MAGENTA].robots == ["magenta1", "magenta2"] and teams[Side.MAGENTA].goalkeeper
 
 
-def test_a_scene_that_is_none_is_told_with_what_is_wrong(rig):
+def test_an_invalid_scene_is_refused_with_the_reason(rig):
     told = rig.listen(INVALID)
     rig.outside.query(SCENE, SetupRequest())
     rig.ticks(1)

@@ -61,7 +61,7 @@ def test_while_a_referee_box_is_connected_nobody_else_may_more_than_stop_the_gam
     assert ask(rig, ActionName.START).accepted
 
 
-def test_a_question_that_is_none_is_told_and_answered_with_what_is_wrong(rig):
+def test_an_invalid_query_is_published_and_answered_with_the_reason(rig):
     told = rig.listen(INVALID)
     answer = rig.outside.query(ACTION, CoachOrder(sequence=1))
     rig.ticks(1)

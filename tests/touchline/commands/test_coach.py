@@ -12,7 +12,7 @@ from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.messages.health import Health, RobotHealth
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
-from schemas.topics import HEALTH, STATE
+from schemas.topics import ACTION, HEALTH, STATE
 from support.fake_host import FakeHost
 from touchline.__main__ import app
 from touchline.commands import coach
@@ -32,10 +32,8 @@ class Host(FakeHost):
     """Accepts `stop` and `corner`, refuses the rest, and publishes the same whenever its client waits."""
 
     def __init__(self) -> None:
-        super().__init__(Medium(), clock=SteppedClock())
         self.says: list[GameState | Health] = []
-        self.answer = self._act
-        self.serve_in_threads()
+        super().__init__(Medium(), answers={ACTION: self._act}, clock=SteppedClock(), in_threads=True)
 
     def speak(self) -> None:
         for message in self.says:

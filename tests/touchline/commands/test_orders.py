@@ -26,8 +26,9 @@ class Host(FakeHost):
     def __init__(self) -> None:
         self.deaf: set[str] = set()
         self._acknowledged = 0
-        super().__init__(Medium(), answers={SETUP: lambda _: self._acknowledge()}, clock=SteppedClock())
-        self.serve_in_threads()
+        super().__init__(
+            Medium(), answers={SETUP: lambda _: self._acknowledge()}, clock=SteppedClock(), in_threads=True
+        )
 
     def _acknowledge(self) -> Setup:
         for side, order in self.given_orders[self._acknowledged :]:

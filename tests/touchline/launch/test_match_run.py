@@ -185,7 +185,7 @@ def test_a_lost_recording_fails_the_match_that_was_to_be_recorded(
         stage(tmp_path, monkeypatch, FULL_TIME, recorder=LOSES).play()
 
 
-def test_ctrl_c_ends_everybody_and_hands_the_signal_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ctrl_c_ends_all_processes_and_is_passed_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     before = signal.getsignal(signal.SIGINT)
     with pytest.raises(InterruptedMatchError) as stopped:
         stage(tmp_path, monkeypatch, INTERRUPTED).play()

@@ -106,7 +106,7 @@ def test_a_crashed_recorder_is_reported_and_not_launched_again() -> None:
     assert len(stage.cast["recorder"]) == 1
 
 
-def test_nobody_is_launched_again_for_a_host_that_is_gone() -> None:
+def test_no_process_is_restarted_for_a_host_that_is_gone() -> None:
     stage = Stage()
     stage.end("cyan1", 1)
     stage.end("host", 3)
@@ -139,7 +139,7 @@ def test_after_the_match_a_recorder_has_time_to_finish_while_agents_are_sent_awa
     assert stage.supervisor.ended["cyan1"] == -signal.SIGKILL
 
 
-def test_nobody_who_left_by_itself_gets_a_signal() -> None:
+def test_a_process_that_has_ended_gets_no_signal() -> None:
     stage = Stage()
     for name in stage.cast:
         stage.end(name, 0)
@@ -147,7 +147,7 @@ def test_nobody_who_left_by_itself_gets_a_signal() -> None:
     assert all(actors[-1].heard == [] for actors in stage.cast.values())
 
 
-def test_somebody_in_a_hurry_does_not_wait_for_the_recorder() -> None:
+def test_a_second_interrupt_does_not_wait_for_the_recorder() -> None:
     stage = Stage()
     stage.end("host", 0)
     stage.supervisor.end(AFTER_THE_MATCH, hurried=lambda: stage.clock.now() > 3.0)

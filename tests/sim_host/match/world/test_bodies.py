@@ -157,7 +157,7 @@ ORDERS = st.lists(st.tuples(st.floats(-20, 20), st.floats(-20, 20), st.floats(-2
 
 @settings(max_examples=6)
 @given(orders=ORDERS)
-def test_whatever_robots_are_told_they_stay_apart_upright_and_within_the_walls(
+def test_under_any_commands_robots_stay_apart_upright_and_within_the_walls(
     orders: list[tuple[float, float, float]],
 ) -> None:
     """Ten robots, two with frames, an obstacle of each shape; every robot gets a new demand each half second."""

@@ -56,7 +56,7 @@ def field(request: pytest.FixtureRequest) -> Iterator[WorldRig]:
     field.world.close()
 
 
-def test_robots_of_each_model_drive_as_they_are_told_in_their_own_frame(field: WorldRig) -> None:
+def test_robots_of_each_model_reach_the_demanded_velocity_in_their_own_frame(field: WorldRig) -> None:
     """Body-frame velocities in m/s and rad/s, after a second within 2 %."""
     field.place(cyan1=(0, 0, 2.0))
     field.run(1.0, cyan1=drive(1.0, 0.5, 0.8))

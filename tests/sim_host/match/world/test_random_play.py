@@ -369,7 +369,7 @@ def fixed(test: Callable[[Random], None]) -> Callable[[Random], None]:
 )
 @fixed
 @given(st.randoms(use_true_random=False))
-def test_whatever_ten_robots_are_told_the_world_stays_a_world(random: Random) -> None:
+def test_under_any_commands_of_ten_robots_the_world_keeps_its_invariants(random: Random) -> None:
     """Nothing leaves the walls or explodes, no body sinks into another, and energy comes from drives and kicks alone.
 
     Robots stay upright, and the ball is carried through no body.

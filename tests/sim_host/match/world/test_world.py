@@ -144,7 +144,7 @@ def test_nothing_leaves_the_boundary(rig: WorldRig) -> None:
     assert abs(end.x) < field.goal_line + field.border and abs(end.y) < field.touch_line + field.border
 
 
-def test_who_touched_the_ball_last_comes_from_contacts(rig: WorldRig) -> None:
+def test_the_last_touch_of_the_ball_comes_from_contacts(rig: WorldRig) -> None:
     rig.place(cyan1=(0, 0, 0), ball=(1, 0, 0))
     touches: list[str] = []
     for _ in range(round(1 / rig.profile.time.tick)):
@@ -213,7 +213,7 @@ def test_a_heavier_ball_or_another_size_is_a_matter_of_the_profile() -> None:
 
 
 @pytest.mark.parametrize(("apart", "touch"), [(0.01, True), (0.2, False)])
-def test_the_world_says_which_robots_touch_each_other(rig: WorldRig, apart: float, touch: bool) -> None:
+def test_the_snapshot_has_the_pairs_of_robots_that_touch(rig: WorldRig, apart: float, touch: bool) -> None:
     """Pairs of places in the roster, the first one first; a robot that presses against another touches it."""
     away = rig.profile.robot.radius + 0.5 * apart
     rig.place(cyan2=(away, 0, math.pi), magenta1=(-away, 0, 0), ball=(0, 4, 0))
