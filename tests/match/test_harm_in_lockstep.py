@@ -85,7 +85,7 @@ class Story:
         self.heard.update()
         before = self.heard.robot("cyan3").answers
         os.kill(self.program.process("cyan3"), signal.SIGKILL)
-        self.heard.until(lambda heard: not heard.robot("cyan3").answering, "cyan3 falling silent")
+        self.heard.until(lambda heard: heard.silences("cyan3"), "cyan3 falling silent")
         self.program.says("cyan3 was ended by SIGKILL; started again (1 of 3)")
         self.heard.until(
             lambda heard: heard.robot("cyan3").answering and heard.robot("cyan3").answers > before + 100,

@@ -98,8 +98,6 @@ class Story:
     def killed(self):
         before = self.heard.robot("magenta1").answers
         os.kill(self.program.process("magenta1"), signal.SIGKILL)
-        self.heard.until(lambda heard: not heard.robot("magenta1").alive, "magenta1 leaving")
-        self.without = self.heard.tick
         self.program.says("magenta1 was ended by SIGKILL; started again (1 of 3)")
         self.heard.until(lambda heard: heard.robot("magenta1").answers > before + 20, "answers of the new magenta1")
 
@@ -202,10 +200,9 @@ def test_the_others_play_on_meanwhile(inputs, story):
     assert sum(given.drive == CIRCLES and given.answers_tick is not None for given in stopped) > 100
 
 
-def test_a_killed_agent_is_started_again_and_its_robot_rests_meanwhile(inputs, story):
+def test_a_killed_agent_is_started_again_and_plays_on(story):
+    """A new agent may answer before the watchdog would have stopped the robot."""
     assert "magenta1 was ended by SIGKILL; started again (1 of 3)" in story.program.err
-    assert "agent: magenta1 does not answer, its robot stops" in story.program.err
-    assert any(inputs[tick]["magenta1"].drive == Drive() for tick in range(story.without, max(inputs)))
     assert story.heard.robot("magenta1").alive
 
 

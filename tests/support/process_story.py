@@ -13,7 +13,9 @@ from typing import Any
 from recordings.reading.recording import RecordedMessage
 from schemas.bus.contract import ReceivedMessage, Subscription
 from schemas.bus.zenoh.bus import ZenohBus, open_client
+from schemas.game import EventKind
 from schemas.messages.applied import Applied
+from schemas.messages.game import GameEvent
 from schemas.messages.health import Health, Invalid, RobotHealth
 from schemas.messages.world import World
 from schemas.process.clock import WallClock
@@ -206,6 +208,10 @@ class Listener:
         return self.said["host/health"]
 
     @property
+    def events(self) -> Sequence[GameEvent]:
+        return self.said["game/event"]
+
+    @property
     def invalid(self) -> Sequence[Invalid]:
         return self.said["host/invalid"]
 
@@ -217,3 +223,10 @@ class Listener:
     def robot(self, name: str) -> RobotHealth:
         """What the host says last of one robot's agent."""
         return self.healths[-1].robots[name] if self.healths else RobotHealth()
+
+    def silences(self, robot: str) -> int:
+        """The number of times that the host reported a robot as silent; its health may miss a short silence."""
+        return sum(
+            event.kind is EventKind.AGENT and event.robot == robot and "does not answer" in event.text
+            for event in self.events
+        )
