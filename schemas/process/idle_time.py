@@ -11,15 +11,16 @@ import os
 import sys
 import threading
 import time
-from collections.abc import Callable
-from contextlib import suppress
-from pathlib import Path
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, suppress
 from queue import SimpleQueue
 
 Step = Callable[[], bool]
 """Does a part of the work; returns whether that was the last."""
 CoreWait = Callable[[], float | None]
 """Returns the wall time that the calling thread has waited for a core so far, in s; None if it is not known."""
+CoreWaitMeter = Callable[[], AbstractContextManager[CoreWait]]
+"""Opens the core wait of the calling thread."""
 
 _MAX_WAIT_S = 0.25
 """Longest wall time that a step may wait for a core; with a dozen processes of a match on two cores it waits a tenth of
@@ -30,15 +31,32 @@ _RETRY_S = 30.0
 _thread_state = threading.local()
 
 
-def core_wait_s() -> float | None:
-    """Time that this thread has waited for a core while ready to run, in s; None without a report of the kernel."""
+@contextmanager
+def core_wait() -> Iterator[CoreWait]:
+    """The time that this thread has waited for a core while ready to run, as the kernel reports it.
+
+    The kernel's file stays open: opening it for each step would take a tenth of a recorder's CPU time.
+    """
     try:
-        return int(Path("/proc/thread-self/schedstat").read_text().split()[1]) * 1e-9
-    except (OSError, ValueError, IndexError):
+        descriptor = os.open("/proc/thread-self/schedstat", os.O_RDONLY)
+    except OSError:
+        yield lambda: None
+        return
+    try:
+        yield lambda: _waited_s(os.pread(descriptor, 100, 0))
+    finally:
+        os.close(descriptor)
+
+
+def _waited_s(schedstat: bytes) -> float | None:
+    """The second figure of a thread's `schedstat`, in s."""
+    try:
+        return int(schedstat.split()[1]) * 1e-9
+    except (ValueError, IndexError):
         return None
 
 
-def run_in_idle_time(step: Step, *, retry_s: float = _RETRY_S, waited_s: CoreWait = core_wait_s) -> None:
+def run_in_idle_time(step: Step, *, retry_s: float = _RETRY_S, meter: CoreWaitMeter = core_wait) -> None:
     """Run steps until the last: in idle time where this thread has the batch policy, otherwise in this thread.
 
     The error of a step ends the work and is raised here. Steps must not depend on the thread that runs them. Idle time
@@ -46,14 +64,19 @@ def run_in_idle_time(step: Step, *, retry_s: float = _RETRY_S, waited_s: CoreWai
     """
     done = False
     while not done:
-        idles = is_batch_scheduled() and waited_s() is not None
+        idles = is_batch_scheduled() and _is_reported(meter)
         if idles:
-            done = _IdleWorker(step, waited_s).work()
+            done = _IdleWorker(step, meter).work()
         again_at = time.monotonic() + retry_s if idles else math.inf
         while not done:
             done = step()
             if time.monotonic() >= again_at:
                 break
+
+
+def _is_reported(meter: CoreWaitMeter) -> bool:
+    with meter() as waited_s:
+        return waited_s() is not None
 
 
 def start_thread(thread: threading.Thread) -> None:
@@ -73,9 +96,9 @@ def is_batch_scheduled() -> bool:
 class _IdleWorker:
     """A thread that works in idle time, for a waiting thread that has kept its policy."""
 
-    def __init__(self, step: Step, waited_s: CoreWait) -> None:
+    def __init__(self, step: Step, meter: CoreWaitMeter) -> None:
         self._step = step
-        self._waited_s = waited_s
+        self._meter = meter
         self._thread = threading.Thread(target=self._run, name="idle time", daemon=True)
         self._asked: SimpleQueue[tuple[threading.Thread, threading.Event] | None] = SimpleQueue()
         self._done = False
@@ -104,13 +127,18 @@ class _IdleWorker:
         try:
             with suppress(OSError):  # forbidden in some sandboxes
                 os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
-            waited = self._waited_s() or 0.0
-            while not self._done:
-                self._done = self._step()
-                before, waited = waited, self._waited_s() or 0.0
-                if waited - before > _MAX_WAIT_S:
-                    break
+            with self._meter() as waited_s:
+                self._work_while_idle(waited_s)
         except BaseException as error:  # raised again in the waiting thread
             self._error = error
         finally:
             self._asked.put(None)
+
+    def _work_while_idle(self, waited_s: CoreWait) -> None:
+        """Run steps until the last, or until one has waited too long for a core."""
+        waited = waited_s() or 0.0
+        while not self._done:
+            self._done = self._step()
+            before, waited = waited, waited_s() or 0.0
+            if waited - before > _MAX_WAIT_S:
+                break

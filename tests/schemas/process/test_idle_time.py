@@ -4,10 +4,11 @@ import os
 import sys
 import threading
 from collections.abc import Iterator
+from contextlib import nullcontext
 
 import pytest
 
-from schemas.process.idle_time import CoreWait, core_wait_s, run_in_idle_time, start_thread
+from schemas.process.idle_time import CoreWaitMeter, core_wait, run_in_idle_time, start_thread
 from schemas.process.scheduling import use_batch_scheduling
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="a policy of the Linux kernel")
@@ -40,10 +41,10 @@ class Work:
 
 
 @pytest.fixture
-def busy() -> CoreWait:
+def busy() -> CoreWaitMeter:
     """A machine on which each step waits half a second for a core."""
     waits = iter(range(1000))
-    return lambda: 0.5 * next(waits)
+    return lambda: nullcontext(lambda: 0.5 * next(waits))
 
 
 def test_a_program_that_takes_turns_works_in_idle_time_and_keeps_its_own_rank():
@@ -62,20 +63,20 @@ def test_a_program_that_takes_no_turns_does_it_at_once_and_itself():
 
 def test_where_there_is_too_little_idle_time_the_one_who_waits_goes_on(busy):
     work = Work(6)
-    run_in_idle_time(work.step, waited_s=busy)
+    run_in_idle_time(work.step, meter=busy)
     assert work.policies == [os.SCHED_IDLE] + [os.SCHED_BATCH] * 5
     assert {thread for thread, _ in work.by[1:]} == {threading.get_ident()}
 
 
 def test_a_machine_that_was_busy_is_tried_again(busy):
     work = Work(3)
-    run_in_idle_time(work.step, retry_s=0.0, waited_s=busy)
+    run_in_idle_time(work.step, retry_s=0.0, meter=busy)
     assert work.policies == [os.SCHED_IDLE, os.SCHED_BATCH, os.SCHED_IDLE]
 
 
 def test_a_kernel_that_does_not_report_waits_is_not_trusted():
     work = Work(3)
-    run_in_idle_time(work.step, retry_s=0.0, waited_s=lambda: None)
+    run_in_idle_time(work.step, retry_s=0.0, meter=lambda: nullcontext(lambda: None))
     assert work.policies == [os.SCHED_BATCH] * 3
 
 
@@ -103,8 +104,8 @@ def test_a_thread_started_in_idle_time_has_the_rank_of_who_asked_for_the_work():
 
 
 def test_the_kernel_reports_how_long_this_thread_has_waited_for_a_core():
-    before = core_wait_s()
-    after = core_wait_s()
+    with core_wait() as waited_s:
+        before, after = waited_s(), waited_s()
     assert before is not None
     assert after is not None
     assert 0.0 <= before <= after
