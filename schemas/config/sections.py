@@ -125,7 +125,12 @@ class DriveLimits:
     deceleration: Annotated[float, Quantity("m/s²", "change of velocity that loses speed", 0.1, 50)]
     turn_acceleration: Annotated[float, Quantity("rad/s²", "change of the turn rate", 0.1, 200)]
     model: Annotated[
-        str, Choice("velocity sets the velocity within the limits, omni drives wheels toward it", ("velocity", "omni"))
+        str,
+        Choice(
+            "velocity sets the velocity, its change limited in the turning body frame; traction limits the change as a "
+            "vector in the field frame; omni drives wheels toward it",
+            ("velocity", "traction", "omni"),
+        ),
     ] = "velocity"
 
 

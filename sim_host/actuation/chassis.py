@@ -7,9 +7,16 @@ from schemas.config.sections import TimeSteps
 from schemas.messages.applied import AppliedInput
 from sim_host.actuation.omni_drive import OmniDrive
 from sim_host.actuation.stuck_detector import StuckDetector
+from sim_host.actuation.traction_drive import TractionDrive
 from sim_host.actuation.velocity_drive import VelocityDrive
 from sim_host.physics.vectors import FieldTwist
 from sim_host.snapshot import RobotState, RobotStates
+
+_DIRECT: dict[str, type[VelocityDrive] | type[TractionDrive]] = {"velocity": VelocityDrive, "traction": TractionDrive}
+"""Drive models that set the velocity of the body."""
+_MODELS = (*_DIRECT, "omni")
+Plan = tuple[list[int], list[list[FieldTwist]]]
+"""Indices of robots, and their velocities per physics step."""
 
 
 class Chassis:
@@ -18,15 +25,22 @@ class Chassis:
     def __init__(self, time: TimeSteps, models: Sequence[RobotModel], now: Callable[[int], RobotState]) -> None:
         """`now` returns the state of a robot between two physics steps."""
         self._now = now
-        self._velocity_driven = [index for index, model in enumerate(models) if model.drive.model == "velocity"]
-        self._omni_driven = [index for index, model in enumerate(models) if model.drive.model == "omni"]
-        self._velocity = VelocityDrive(time, [models[index] for index in self._velocity_driven])
+        self._steps = time.steps_per_tick
+        driven = {name: [i for i, model in enumerate(models) if model.drive.model == name] for name in _MODELS}
+        self._direct = [
+            (indices, kind(time, [models[index] for index in indices]))
+            for name, kind in _DIRECT.items()
+            if (indices := driven[name])
+        ]
+        """Drives that plan a whole tick at once: the indices of their robots, and the drive."""
+        self._omni_driven = driven["omni"]
         self._omni = OmniDrive(time, [models[index] for index in self._omni_driven])
         self._detector = StuckDetector(len(models), time.tick)
 
     def reset(self) -> None:
         """Clear the memory: the next tick begins from the measured velocities."""
-        self._velocity.reset()
+        for _, drive in self._direct:
+            drive.reset()
         self._omni.reset()
         self._detector.reset()
 
@@ -37,23 +51,30 @@ class Chassis:
     def plan(self, robots: RobotStates, inputs: Sequence[AppliedInput]) -> Iterable[Sequence[FieldTwist]]:
         """The velocities of one tick, per physics step and robot; iterate to each step when it begins."""
         demands = [one.drive for one in inputs]
-        if not self._omni_driven:
-            planned = self._velocity.plan(robots, demands)
-            self._detector.update(self._velocity_driven, self._velocity.held_back)
+        if len(self._direct) == 1 and not self._omni_driven:
+            indices, drive = self._direct[0]
+            planned = drive.plan(robots, demands)
+            self._detector.update(indices, drive.held_back)
             return planned
-        planned = self._velocity.plan(
-            RobotStates([robots[index] for index in self._velocity_driven]),
-            [demands[index] for index in self._velocity_driven],
-        )
+        plans = []
+        for indices, drive in self._direct:
+            its_robots = RobotStates([robots[index] for index in indices])
+            plans.append((indices, drive.plan(its_robots, [demands[index] for index in indices])))
+            self._detector.update(indices, drive.held_back)
         self._omni.plan([robots[index] for index in self._omni_driven], [demands[index] for index in self._omni_driven])
-        self._detector.update(self._velocity_driven, self._velocity.held_back)
         self._detector.update(self._omni_driven, self._omni.held_back)
-        return self._step_by_step(planned)
+        return self._step_by_step(len(robots), plans)
 
-    def _step_by_step(self, planned: Sequence[Sequence[FieldTwist]]) -> Iterator[Sequence[FieldTwist]]:
-        for number, of_velocity_drives in enumerate(planned):
-            of_omni_drives = self._omni.step(number, [self._now(index) for index in self._omni_driven])
-            drives = dict(
-                zip(self._velocity_driven + self._omni_driven, (*of_velocity_drives, *of_omni_drives), strict=True)
+    def _step_by_step(self, count: int, plans: Sequence[Plan]) -> Iterator[Sequence[FieldTwist]]:
+        """Per physics step: the velocities of all robots, those on wheels from their present states."""
+        for number in range(self._steps):
+            twists = dict(
+                zip(
+                    self._omni_driven,
+                    self._omni.step(number, [self._now(index) for index in self._omni_driven]),
+                    strict=True,
+                )
             )
-            yield [drives[index] for index in range(len(drives))]
+            for indices, planned in plans:
+                twists.update(zip(indices, planned[number], strict=True))
+            yield [twists[index] for index in range(count)]
