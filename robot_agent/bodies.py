@@ -3,6 +3,7 @@
 import math
 from typing import NamedTuple, Protocol
 
+from schemas.config.rolling import Rolling
 from schemas.messages.setup import Setup
 
 
@@ -47,18 +48,14 @@ class Ball(NamedTuple):
     vx: float = 0.0
     vy: float = 0.0
 
-    def after(self, time: float, deceleration: float) -> "Ball":
-        """The ball `time` s later, untouched, with a constant `deceleration` in m/s²."""
+    def after(self, time: float, rolling: Rolling) -> "Ball":
+        """The ball `time` s later, untouched."""
         x, y, vx, vy = self
         speed = math.hypot(vx, vy)
-        left = speed - deceleration * time
         if speed < 1e-6:
             return self
-        if left <= 0.0:
-            way = 0.5 * speed / deceleration
-            return Ball(x + vx * way, y + vy * way)
-        way = time * (0.5 * (speed + left)) / speed
-        kept = left / speed
+        left, distance = rolling.after(speed, time)
+        way, kept = distance / speed, left / speed
         return Ball(x + vx * way, y + vy * way, vx * kept, vy * kept)
 
 

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from robot_agent.bodies import Ball, Body
 from robot_agent.contract import Briefing
 from robot_agent.opponents import Opponents
+from schemas.config.rolling import Rolling
 from schemas.frames import wrap
 from schemas.messages.game import GameView
 from schemas.messages.radio import Motion
@@ -81,7 +82,7 @@ class WorldModel:
 
     def __init__(self, briefing: Briefing) -> None:
         self._teammates = briefing.teammates
-        self._deceleration = briefing.setup.ball.rolling_deceleration
+        self._rolling = Rolling.of(briefing.setup.ball)
         self._gap = briefing.setup.dribble.gap
         self._time: float | None = None
         self._me: Body | None = None
@@ -154,7 +155,7 @@ class WorldModel:
         if found is None:
             return None
         age, time, ball = found
-        return SeenBall(ball.after(time, self._deceleration), age)
+        return SeenBall(ball.after(time, self._rolling), age)
 
     def _smooth_ball(self, seen: BallSight, time: float, dt: float) -> Ball:
         """The own ball at `time`, s: a new picture is fused with the expected ball, an old one adds nothing."""
@@ -162,11 +163,11 @@ class WorldModel:
         is_new = pictured > self._pictured + 1e-6
         self._pictured = pictured
         if self._ball is not None and not is_new:
-            return self._ball.after(dt, self._deceleration)
-        now = Ball(seen.x, seen.y, seen.vx, seen.vy).after(seen.age, self._deceleration)
+            return self._ball.after(dt, self._rolling)
+        now = Ball(seen.x, seen.y, seen.vx, seen.vy).after(seen.age, self._rolling)
         if self._ball is None:
             return now
-        expected = self._ball.after(dt, self._deceleration)
+        expected = self._ball.after(dt, self._rolling)
         dvx, dvy = now.vx - expected.vx, now.vy - expected.vy
         dx, dy = now.x - expected.x, now.y - expected.y
         if math.hypot(dx, dy) > _JUMP or math.hypot(dvx, dvy) > _JUMP_SPEED:

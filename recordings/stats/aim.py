@@ -3,6 +3,7 @@
 import math
 from enum import Enum, auto
 
+from schemas.config.rolling import Rolling
 from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth
 
@@ -25,7 +26,7 @@ class Aim(Enum):
 def aim(ball: BallTruth, attack: int, setup: Setup) -> Aim:
     """Where the ball crosses the attacked goal line (`attack` is the sign of its x) if it rolls or flies freely.
 
-    The ball moves in a straight line and is slowed by rolling alone: a ball that stops before the line is aimed
+    The ball moves in a straight line and is slowed as a rolling one: a ball that stops before the line is aimed
     elsewhere. A flying ball follows a parabola without drag until it lands; after that it is below the bar.
     """
     pitch = setup.pitch
@@ -35,7 +36,7 @@ def aim(ball: BallTruth, attack: int, setup: Setup) -> Aim:
         return Aim.ELSEWHERE
     time = ahead / closing
     speed = math.hypot(ball.vx, ball.vy)
-    if speed * speed < 2 * setup.ball.rolling_deceleration * speed * time:
+    if Rolling.of(setup.ball).speed_to_arrive(0.0, speed * time) > speed:
         return Aim.ELSEWHERE
     beside = abs(ball.y + ball.vy * time) - pitch.goal_width / 2
     if beside > NEAR_MISS_M:

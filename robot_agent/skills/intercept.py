@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from robot_agent.bodies import Ball, DriveLimits, Moving
 from robot_agent.skills.braking import travel_time
+from schemas.config.rolling import Rolling
 
 TIMES = (0.0, 0.25, 0.5, 0.8, 1.2, 1.7, 2.4, 3.5)
 """s from now at which the ball's path is sampled; the meeting is interpolated between them."""
@@ -21,11 +22,11 @@ class Meeting(NamedTuple):
     time: float
 
 
-def way_of(ball: Ball, deceleration: float) -> list[Ball]:
+def way_of(ball: Ball, rolling: Rolling) -> list[Ball]:
     """The ball at each of `TIMES`."""
     if ball.vx == 0.0 == ball.vy:
         return [ball] * len(TIMES)
-    return [ball.after(time, deceleration) for time in TIMES]
+    return [ball.after(time, rolling) for time in TIMES]
 
 
 def meet(me: Moving, way: Sequence[Ball], reach: float, limits: DriveLimits) -> Meeting:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from robot_agent.bodies import DriveLimits, Moving
 from robot_agent.skills.kick_at import kick_at
 from robot_agent.skills.shoot import lane_width
+from schemas.config.rolling import Rolling
 from schemas.frames import wrap
 from schemas.messages.command import Drive, Kick
 from schemas.messages.setup import Setup
@@ -58,8 +59,7 @@ def is_open(ball: Point, receiver: Point, opponents: Sequence[Point], ease: floa
 
 def pass_speed(distance: float, setup: Setup, arriving: float = ARRIVING) -> float:
     """The exit speed in m/s of a ball that still rolls at `arriving` m/s after `distance` m."""
-    speed = math.sqrt(arriving * arriving + 2.0 * setup.ball.rolling_deceleration * distance)
-    return min(setup.kicker.max_ground_speed, speed)
+    return min(setup.kicker.max_ground_speed, Rolling.of(setup.ball).speed_to_arrive(arriving, distance))
 
 
 def pass_to(

@@ -21,6 +21,7 @@ from robot_agent.skills.search import search_place
 from robot_agent.skills.take_ball import HAS_IT, take_ball
 from robot_agent.teams.action import Action
 from robot_agent.world_model import WorldBelief
+from schemas.config.rolling import Rolling
 from schemas.frames import wrap
 from schemas.game import Point
 from schemas.messages.coach import CoachOrder, CoachTest
@@ -239,7 +240,7 @@ def _fetch(now: Situation) -> Action:
 
 def _take(now: Situation, ball: Ball) -> Drive:
     me, gap = now.belief.me, now.setup.dribble.gap
-    meeting = meet(me, way_of(ball, now.setup.ball.rolling_deceleration), gap, now.limits)
+    meeting = meet(me, way_of(ball, Rolling.of(now.setup.ball)), gap, now.limits)
     clearance = 2.0 * now.setup.robot.reach + _AIR / 2.0
     opponents = now.belief.opponents if now.order.avoid else ()
     return take_ball(me, ball, meeting, gap, opponents, clearance, now.limits)

@@ -16,6 +16,7 @@ from robot_agent.teams import coach_tests, shoot_out
 from robot_agent.teams.action import Action
 from robot_agent.teams.set_piece import PENALTIES
 from robot_agent.world_model import WorldBelief, WorldModel
+from schemas.config.rolling import Rolling
 from schemas.config.roster import goalkeeper_of
 from schemas.game import GameStage, TeamPhase
 from schemas.messages.coach import CoachMode, CoachOrder
@@ -74,6 +75,7 @@ class Player(ABC):
         self._world = WorldModel(briefing)
         self._rule_limits = RuleLimits.of(briefing.setup)
         self._counts_ways = self._rule_limits.counts_ways
+        self._rolling = Rolling.of(self.setup.ball)
         self._goal_area = Area.goal(self.setup.pitch)
         self._penalty_area = Area.penalty(self.setup.pitch)
         self._carry: Carry | None = None

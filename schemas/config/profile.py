@@ -32,7 +32,7 @@ from schemas.config.sections import (
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.wire.field_docstrings import Described
 
-SHIPPED = ("msl", "omni", "omni3", "paper")
+SHIPPED = ("msl", "ideal", "omni", "omni3", "paper")
 """The profiles that the package ships."""
 
 STANDARD = "standard"

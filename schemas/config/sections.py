@@ -109,10 +109,13 @@ class Ball:
     rolling_deceleration: Annotated[float, Quantity("m/s²", "loss of speed of a ball that rolls freely", 0, 10)]
     net_deceleration: Annotated[float, Quantity("m/s²", "loss of speed of a ball that rolls in the net", 0, 50)]
     air_density: Annotated[float, Quantity("kg/m³", "density of the air", 0, 2)] = 0.0
-    drag_coefficient: Annotated[float, Quantity("1", "drag over ½·density·π·radius²·speed²", 0, 2)] = 0.0
+    drag_coefficient: Annotated[
+        float, Quantity("1", "drag over ½·density·π·radius²·speed², of a ball in flight", 0, 2)
+    ] = 0.0
     magnus_coefficient: Annotated[
         float, Quantity("1", "lift over the same, of a ball that spins as if it rolled; proportional to the spin", 0, 2)
     ] = 0.0
+    rolling_drag_coefficient: Annotated[float, Quantity("1", "drag over the same, of a ball on the ground", 0, 2)] = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -45,9 +45,11 @@ class FreeBall:
             mass = self._ball.mass
             return mass * ax, mass * ay, mass * az
         speed = math.hypot(velocity[0], velocity[1])
-        if speed == 0.0 or self._slides(velocity, spin):
+        if speed == 0.0:
             return 0.0, 0.0, 0.0
-        push = -self._rolling_mass * min(self._deceleration(position), speed / self._step) / speed
+        push = -self._ball.mass * self._air.ground_drag * speed
+        if not self._slides(velocity, spin):
+            push -= self._rolling_mass * min(self._deceleration(position), speed / self._step) / speed
         return push * velocity[0], push * velocity[1], 0.0
 
     def sudden_change(self, position: Vector, velocity: Vector, spin: Vector) -> tuple[Vector, Vector] | None:

@@ -166,7 +166,7 @@ class NuBot(Player):
 
     def _meet(self, belief: WorldBelief, ball: SeenBall) -> Drive:
         """CHASE_BALL in a match: the paper's ball lies still, this one rolls, or an opponent has it."""
-        way = way_of(ball.now, self.setup.ball.rolling_deceleration)
+        way = way_of(ball.now, self._rolling)
         gap, clearance = self.setup.dribble.gap, 2.0 * self.setup.robot.reach + 0.05
         meeting = meet(belief.me, way, gap, self.limits)
         foes, mates = belief.opponents, places_of(belief.mates).values()
@@ -206,7 +206,7 @@ class NuBot(Player):
             return Action(PLAYS, "step in", motion, dribble=True)
         mode, speed = KickMode.GROUND, min(pass_speed(math.dist(spot, target), self.setup), _RESTART_SPEED)
         if belief.game.phase is TeamPhase.OUR_KICK_OFF:
-            speed = math.sqrt(2.0 * self.setup.ball.rolling_deceleration * _KICK_OFF_ROLLS)
+            speed = self._rolling.speed_to_arrive(0.0, _KICK_OFF_ROLLS)
         if belief.game.phase is TeamPhase.OUR_PENALTY:
             mode, speed = KICK.mode, KICK.speed
         motion, kick = kick_at(belief.me, target, speed, _RESTART_ERROR, self.limits, mode)

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from robot_agent.bodies import Ball, Body, DriveLimits
 from robot_agent.skills.intercept import meeting_time, way_of
+from schemas.config.rolling import Rolling
 
 
 class Role(StrEnum):
@@ -44,10 +45,10 @@ _TIE = 1e-6
 
 
 def striker_of(
-    candidates: Mapping[str, Candidate], ball: Ball, deceleration: float, reach: float, limits: DriveLimits
+    candidates: Mapping[str, Candidate], ball: Ball, rolling: Rolling, reach: float, limits: DriveLimits
 ) -> str:
     """The robot that is first at the ball, and so plays it; ties by name."""
-    way = way_of(ball, deceleration)
+    way = way_of(ball, rolling)
     first, least = "", math.inf
     for name in sorted(candidates, key=lambda name: candidates[name].role != Role.STRIKER):
         body, role, is_receiver = candidates[name]

@@ -15,6 +15,7 @@ from robot_agent.skills.shoot import best_place, lane_width
 from robot_agent.teams.action import Action
 from robot_agent.teams.simple.roles import Role
 from robot_agent.world_model import Teammate, places_of
+from schemas.config.rolling import Rolling
 from schemas.config.sections import Pitch
 from schemas.messages.command import Kick, KickMode
 from schemas.messages.setup import Setup
@@ -124,7 +125,7 @@ def _can_knock_on(situation: StrikerSituation, ball: Point, setup: Setup) -> boo
 
 def _knock_on(situation: StrikerSituation, setup: Setup, limits: DriveLimits) -> Action:
     """Leave a duel: kick the ball past the opponent, and follow it."""
-    speed = math.sqrt(2.0 * setup.ball.rolling_deceleration * 2.0 * KNOCK_ON)
+    speed = Rolling.of(setup.ball).speed_to_arrive(0.0, 2.0 * KNOCK_ON)
     motion = drive(situation.me, situation.me.vx, situation.me.vy, 0.0, limits)
     kick = Kick(mode=KickMode.GROUND, speed=speed)
     return Action(Role.STRIKER, "knock on", motion, dribble=True, kick=kick)

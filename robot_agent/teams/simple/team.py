@@ -83,7 +83,7 @@ class Simple(Player):
                 candidates[name] = Candidate(mate.body, mate.role, receiver == name)
         if belief.game.phase is not TeamPhase.PLAY:
             ball = Ball(*spot)
-        striker = striker_of(candidates, ball, self.setup.ball.rolling_deceleration, self._gap, self.limits)
+        striker = striker_of(candidates, ball, self._rolling, self._gap, self.limits)
         if striker == me:
             return Role.STRIKER, self._before_own_goal(spot)
         del candidates[striker]
@@ -119,7 +119,7 @@ class Simple(Player):
         return Action(Role.STRIKER, "get the ball", self._get(belief, ball), dribble=True)
 
     def _get(self, belief: WorldBelief, ball: Ball) -> Drive:
-        way = way_of(ball, self.setup.ball.rolling_deceleration)
+        way = way_of(ball, self._rolling)
         meeting = meet(belief.me, way, self._gap, self.limits)
         foes, mates = belief.opponents, places_of(belief.mates).values()
         return take_ball(belief.me, ball, meeting, self._gap, foes, self._clearance, self.limits, mates)
