@@ -245,7 +245,7 @@ class MatchConfig(Part):
         """
         if self.profile_tables is None:
             return load_profile(self.profile)
-        return profile_of(self.profile, self.profile_tables)
+        return profile_of(self.profile, self.profile_tables, recorded=True)
 
     @property
     def speed(self) -> float | None:
@@ -292,6 +292,7 @@ def _with_profile(content: dict[str, Any], where: str) -> dict[str, Any]:
     profile = content.get("profile")
     if not isinstance(profile, str) or profile in SHIPPED:
         return content
+    load_profile(profile)  # each number of a file is required
     return content | {"profile_tables": profile_tables(profile)}
 
 

@@ -106,15 +106,18 @@ def load_profile(name: str) -> Profile:
     return profile_of(name, profile_tables(name))
 
 
-def profile_of(name: str, tables: Mapping[str, Any]) -> Profile:
+def profile_of(name: str, tables: Mapping[str, Any], *, recorded: bool = False) -> Profile:
     """The profile of these tables, as `profile_tables` returns them.
+
+    In `recorded` tables, numbers that have a default may be missing: the recording is older than they are.
 
     Raises:
         TouchlineError: they are invalid.
     """
     origins: dict[str, str] = {}
     sections: dict[str, Any] = {
-        key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins) for key, cls in SECTIONS.items()
+        key: read_section(cls, tables.get(key, {}), f"{name}: {key}", origins, recorded=recorded)
+        for key, cls in SECTIONS.items()
     }
     types = read_types(tables.get("types", {}), name, origins)
     known = (*SECTIONS, "types")
