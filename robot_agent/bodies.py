@@ -52,7 +52,7 @@ class Ball(NamedTuple):
         """The ball `time` s later, untouched."""
         x, y, vx, vy = self
         speed = math.hypot(vx, vy)
-        if speed < 1e-6:
+        if speed < 1e-6 or time == 0.0:
             return self
         left, distance = rolling.after(speed, time)
         way, kept = distance / speed, left / speed

@@ -22,8 +22,10 @@ from sim_host.snapshot import RobotMotions, RobotStates
 _twist = attrgetter("vx", "vy", "omega")
 _UNDISTURBED = 1e-3
 """m/s and rad/s; a robot whose measured motion differs by no more from the set one was not disturbed."""
+_STANDS = 1e-3
+"""m/s; a slower robot moves in no direction yet, and gains speed in any."""
 _TINY = 1e-12
-"""s; avoids a division by zero for a velocity that does not change."""
+"""m/s or s; avoids a division by zero for a velocity that does not change."""
 
 
 class TractionDrive:
@@ -66,10 +68,16 @@ class TractionDrive:
         return planned
 
     def _toward(self, now: Vectors, demand: Vectors) -> Vectors:
-        """Velocities after each step, shape (steps, n), on the way from the present to the demanded ones."""
+        """Velocities after each step, shape (steps, n), on the way from the present to the demanded ones.
+
+        The change along the motion and the change across it share the grip: half a circle for a robot that brakes, half
+        an ellipse for one that gains speed.
+        """
         change = demand - now
-        faster = np.abs(demand) - np.abs(now)
-        duration = np.maximum(np.abs(change) / self._grip, faster / self._gain) + _TINY
+        along = np.where(np.abs(now) > _STANDS, now, change)
+        parts = change * along.conj() / (np.abs(along) + _TINY)
+        limit = np.where(parts.real > 0.0, self._gain, self._grip)
+        duration = np.hypot(parts.real / limit, parts.imag / self._grip) + _TINY
         after: Vectors = now + change * np.minimum(self._elapsed / duration, 1.0)
         return after
 

@@ -7,9 +7,13 @@ from msgspec.structs import replace
 from robot_agent.bodies import Ball
 from robot_agent.opponents import REMEMBERED
 from robot_agent.world_model import LOST, STALE, WorldModel
+from schemas.config.profile import load_profile
+from schemas.config.rolling import Rolling
 from schemas.game import Point, TeamPhase
 from schemas.messages.radio import BallBelief
 from schemas.messages.sight import BallSight, Motion, ReceivedRadio
+
+ROLLING = Rolling.of(load_profile("msl").ball)
 
 
 @pytest.fixture
@@ -68,7 +72,7 @@ def test_an_unseen_ball_is_where_the_teammate_that_saw_it_last_believes_it_extra
     }
     ball = world.update(sight_of(ball=own, radio=radio)).ball
     assert ball.age == pytest.approx(0.5)
-    assert ball.now.x == pytest.approx(1.0 + 2.0 * 0.1 - 0.25 * 0.01)
+    assert ball.now.x == pytest.approx(Ball(1.0, 0.0, 2.0, 0.0).after(0.1, ROLLING).x)
 
 
 def test_an_own_ball_in_sight_is_believed_before_any_teammates(world, sight_of):
@@ -81,7 +85,7 @@ def test_a_picture_is_extrapolated_by_its_age_and_a_repeated_one_adds_nothing(wo
     first = world.update(sight_of(5, ball=seen)).ball.now
     assert first.x == pytest.approx(2.0 + 3.0 * 0.02, abs=1e-3)
     again = world.update(sight_of(6, ball=replace(seen, age=0.04))).ball.now
-    assert again == pytest.approx(Ball(*first).after(0.02, 0.5))
+    assert again == pytest.approx(Ball(*first).after(0.02, ROLLING))
 
 
 def test_a_ball_just_lost_rolls_on_before_any_teammates_word_counts(world, sight_of):

@@ -13,28 +13,30 @@ from robot_agent.skills.line_up import behind, line_up
 from robot_agent.skills.pass_to import ARRIVING, best_receiver, pass_speed
 from robot_agent.skills.shoot import best_place, lane_width
 from robot_agent.skills.take_ball import front_of_holder, take_ball
+from schemas.config.rolling import Rolling
 
 GAP = 0.35
+GROUND = Rolling(0.5)
 
 
 def test_a_ball_at_rest_is_met_where_it_lies(limits):
-    meeting = meet(Body(0.0, 0.0, 0.0), way_of(Ball(2.0 + GAP, 0.0), 0.5), GAP, limits)
+    meeting = meet(Body(0.0, 0.0, 0.0), way_of(Ball(2.0 + GAP, 0.0), GROUND), GAP, limits)
     assert meeting[:2] == pytest.approx((2.0 + GAP, 0.0))
     assert meeting.time == pytest.approx(math.sqrt(2.0 * 2.0 / limits.acceleration), abs=0.15)
 
 
 def test_a_ball_that_rolls_by_is_met_ahead_of_where_it_is(limits):
     ball = Ball(3.0, -2.0, 0.0, 2.0)
-    meeting = meet(Body(0.0, 0.0, 0.0), way_of(ball, 0.5), GAP, limits)
-    there = ball.after(meeting.time, 0.5)
+    meeting = meet(Body(0.0, 0.0, 0.0), way_of(ball, GROUND), GAP, limits)
+    there = ball.after(meeting.time, GROUND)
     assert (meeting.x, meeting.y) == pytest.approx((there.x, there.y), abs=0.05)
     assert -1.5 < meeting.y < 2.0
 
 
 def test_a_ball_out_of_reach_on_its_path_is_met_where_it_stops(limits):
     ball = Ball(4.0, 0.0, 9.0, 0.0)
-    meeting = meet(Body(-9.0, 0.0, 0.0), way_of(ball, 0.5), GAP, limits)
-    assert meeting.x == pytest.approx(way_of(ball, 0.5)[-1].x)
+    meeting = meet(Body(-9.0, 0.0, 0.0), way_of(ball, GROUND), GAP, limits)
+    assert meeting.x == pytest.approx(way_of(ball, GROUND)[-1].x)
 
 
 @pytest.mark.parametrize("start", [(-2.0, 0.5, 2.0), (1.0, 2.0, 0.0), (3.0, -1.0, -1.0)])
@@ -45,7 +47,7 @@ def test_a_robot_comes_to_hold_a_ball_at_rest(plant, limits, setup, start):
         away, bearing = math.hypot(me.x, me.y), math.atan2(-me.y, -me.x) - me.heading
         if away <= setup.dribble.distance and abs(math.remainder(bearing, math.tau)) <= setup.dribble.cone / 2:
             break
-        robot.step(take_ball(me, ball, meet(me, way_of(ball, 0.5), GAP, limits), GAP, [], 0.55, limits))
+        robot.step(take_ball(me, ball, meet(me, way_of(ball, GROUND), GAP, limits), GAP, [], 0.55, limits))
     else:
         pytest.fail(f"never held; ended at {me}")
     assert away > setup.robot.radius + setup.ball.radius - 0.02  # it did not run the ball over
@@ -58,7 +60,7 @@ def test_the_way_to_the_ball_leads_round_a_teammate_that_stands_in_it(plant, lim
     for _ in range(250):
         me = robot.body
         nearest = min(nearest, math.dist(me[:2], mate))
-        robot.step(take_ball(me, ball, meet(me, way_of(ball, 0.5), GAP, limits), GAP, [], 0.55, limits, [mate]))
+        robot.step(take_ball(me, ball, meet(me, way_of(ball, GROUND), GAP, limits), GAP, [], 0.55, limits, [mate]))
     assert nearest > 0.5
     assert math.dist(robot.body[:2], ball[:2]) < 2.0 * GAP
 
@@ -108,9 +110,9 @@ def test_a_kick_waits_until_the_axis_points_at_the_target(plant, limits):
 def test_a_pass_arrives_with_the_speed_it_is_meant_to(setup):
     start = Ball(0.0, 0.0, pass_speed(5.0, setup), 0.0)
     time = 0.0
-    while start.after(time, setup.ball.rolling_deceleration).x < 5.0:
+    while start.after(time, Rolling.of(setup.ball)).x < 5.0:
         time += 0.001
-    assert start.after(time, setup.ball.rolling_deceleration).vx == pytest.approx(ARRIVING, abs=0.01)
+    assert start.after(time, Rolling.of(setup.ball)).vx == pytest.approx(ARRIVING, abs=0.01)
     assert pass_speed(1000.0, setup) == setup.kicker.max_ground_speed
 
 
@@ -175,7 +177,7 @@ def test_a_keeper_runs_to_a_shot(plant, limits, setup):
 @pytest.mark.parametrize("ball", [Ball(0.0, 0.0), Ball(1.0, -2.0, 2.5, 1.0), Ball(-4.0, 3.0, 0.0, -6.0)])
 @pytest.mark.parametrize("me", [Body(0.2, 0.1, 0.0), Body(-3.0, 1.0, 0.0, 1.5, 0.5), Body(9.0, -6.0, 1.0, 0.0, -2.0)])
 def test_a_meeting_is_timed_exactly_unless_it_is_later_than_asked_for(limits, me, ball):
-    way = way_of(ball, 0.5)
+    way = way_of(ball, GROUND)
     exact = meet(me, way, GAP, limits).time
     assert meeting_time(me, way, GAP, limits, by=math.inf) == exact
     for by in (0.0, 0.3, 0.9, 2.0):

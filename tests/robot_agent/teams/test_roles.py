@@ -3,6 +3,7 @@ import pytest
 from robot_agent.bodies import Ball, Body
 from robot_agent.teams.simple.formation import places
 from robot_agent.teams.simple.roles import STAYS, Candidate, Role, share_places, striker_of
+from schemas.config.rolling import Rolling
 
 
 def at(x, y, role="", **more):
@@ -11,7 +12,7 @@ def at(x, y, role="", **more):
 
 @pytest.fixture
 def pick(limits):
-    return lambda candidates, ball=(0.0, 0.0): striker_of(candidates, Ball(*ball), 0.5, 0.35, limits)
+    return lambda candidates, ball=(0.0, 0.0): striker_of(candidates, Ball(*ball), Rolling(0.5), 0.35, limits)
 
 
 def test_the_robot_that_is_first_at_the_ball_is_the_striker(pick):

@@ -127,16 +127,21 @@ SCRUM: Poses = APART | {
 }
 SCENES = {
     "driving": Scene(APART | {"ball": (0.0, -6.0, 0.0)}, driving, 100, 1e-9, 1e-9),
-    "dribbling": Scene(WITH_BALL, dribbling, 100, 1e-9, 1e-9),
-    "ground kick": Scene(WITH_BALL, kicking(KickMode.GROUND), 60, 1e-9, 1e-9),
-    "lob": Scene(WITH_BALL, kicking(KickMode.LOB), 60, 1e-9, 1e-9),
-    "loft": Scene(WITH_BALL, kicking(KickMode.LOFT), 60, 1e-9, 1e-9),
+    "dribbling": Scene(WITH_BALL, dribbling, 100, 1e-4, 1e-4),
+    "ground kick": Scene(WITH_BALL, kicking(KickMode.GROUND), 60, 1e-4, 1e-4),
+    "lob": Scene(WITH_BALL, kicking(KickMode.LOB), 60, 1e-4, 1e-4),
+    "loft": Scene(WITH_BALL, kicking(KickMode.LOFT), 60, 1e-4, 1e-4),
     "pushing": Scene(WITH_BALL, pushing, 100, 2e-3, 5e-3),
     "rebounding": Scene(WITH_BALL | {"magenta3": (-4.0, 0.95, 2.0)}, rebounding, 50, 0.015, 0.03),
     "scrambling": Scene(SCRUM, scrambling, 60, 2e-3, 5e-3),
 }
-"""Times and tolerances, m."""
-DRIVES = {"velocity": ("velocity",) * 6, "omni": ("omni",) * 6, "mixed": ("velocity", "omni", "velocity") * 2}
+"""Times and tolerances, m; where bodies touch, the engine's solver adds its own."""
+DRIVES = {
+    "velocity": ("velocity",) * 6,
+    "traction": ("traction",) * 6,
+    "omni": ("omni",) * 6,
+    "mixed": ("velocity", "omni", "traction") * 2,
+}
 
 
 def begin(scene: Scene, drives: dict[str, str], mirror: Mirror | None) -> World:

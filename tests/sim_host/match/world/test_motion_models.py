@@ -17,7 +17,7 @@ from schemas.messages.command import Drive
 from sim_host.snapshot import RobotState, Roster
 from support.world_rig import WorldRig, two_a_side
 
-VELOCITY, OMNI, THREE = (load_profile(name) for name in ("msl", "omni", "omni3"))
+VELOCITY, TRACTION, OMNI, THREE = (load_profile(name) for name in ("ideal", "msl", "omni", "omni3"))
 REST = AppliedInput(Drive(), dribble=False)
 NAMES = ("cyan1", "cyan2", "magenta1", "magenta2")
 
@@ -49,7 +49,7 @@ def push_each_other(field: WorldRig, seconds: float = 3.0) -> float:
     return (field.at("cyan1").x + field.at("magenta1").x) / 2
 
 
-@pytest.fixture(params=["msl", "omni", "omni3"])
+@pytest.fixture(params=["msl", "ideal", "omni", "omni3"])
 def field(request: pytest.FixtureRequest) -> Iterator[WorldRig]:
     field = field_of(profile=load_profile(request.param))
     yield field
@@ -212,7 +212,9 @@ def played(profile: Profile, mirrored: bool = False) -> tuple[list[RobotState], 
     return [at._replace(y=sign * at.y, vy=sign * at.vy, omega=sign * at.omega, heading=0.0) for at in states], chain
 
 
-@pytest.mark.parametrize("profile", [VELOCITY, OMNI, THREE], ids=["velocity", "four wheels", "three wheels"])
+@pytest.mark.parametrize(
+    "profile", [VELOCITY, TRACTION, OMNI, THREE], ids=["velocity", "traction", "four wheels", "three wheels"]
+)
 def test_the_mirrored_scene_with_mirrored_commands_is_the_mirrored_world(profile: Profile) -> None:
     """Left for right, collision and all, to 1 cm after 2.4 s."""
     one, other = played(profile)[0], played(profile, mirrored=True)[0]
@@ -220,7 +222,9 @@ def test_the_mirrored_scene_with_mirrored_commands_is_the_mirrored_world(profile
         assert (a.x, a.y) == approx((b.x, b.y), abs=0.01)
 
 
-@pytest.mark.parametrize("profile", [VELOCITY, OMNI, THREE], ids=["velocity", "four wheels", "three wheels"])
+@pytest.mark.parametrize(
+    "profile", [VELOCITY, TRACTION, OMNI, THREE], ids=["velocity", "traction", "four wheels", "three wheels"]
+)
 def test_the_same_twice_is_the_same_to_the_last_bit(profile: Profile) -> None:
     assert played(profile) == played(profile)
 

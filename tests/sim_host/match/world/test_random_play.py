@@ -32,7 +32,7 @@ from sim_host.snapshot import RobotState, Roster, Snapshot
 
 NAMES = tuple(f"{side.value}{number}" for side in Side for number in range(1, 6))
 SIDES = tuple(side for side in Side for _ in range(5))
-MOTIONS = ("velocity", "omni", "mixed")
+MOTIONS = ("velocity", "traction", "omni", "mixed")
 METHODS = {name: meaning for name, meaning in meanings(Dribble).items() if isinstance(meaning, Choice)}[
     "method"
 ].options
@@ -205,7 +205,7 @@ def models(play: Play, profile: Profile) -> Iterator[RobotModel]:
     for place, method in enumerate(play.methods):
         is_keeper = place % 5 == 0 and play.profile == "msl"
         model = RobotModel.of_type(wide, "keeper") if is_keeper else RobotModel.standard(profile)
-        motion = play.motion if play.motion != "mixed" else ("velocity", "omni")[place % 2]
+        motion = play.motion if play.motion != "mixed" else ("velocity", "omni", "traction")[place % 3]
         drive, dribble = replace(model.drive, model=motion), replace(model.dribble, method=method)
         yield replace(model, drive=drive, dribble=dribble)
 
@@ -317,8 +317,8 @@ class Watch:
     def _work(self, robot: RobotState, model: RobotModel, in_touch: bool) -> float:
         """What a drive can do in a tick: as much as its limits, or the grip of its wheels, change speed and turn.
 
-        The drive `velocity` sets what it planned for the tick in each of its steps, whatever is in the way, and so
-        gives as often all that this robot has lost to another, or to the ball: it has no measure of what it pushes.
+        The drives `velocity` and `traction` set what they planned in each step, whatever is in the way, and so give
+        as often all that this robot has lost to another, or to the ball: it has no measure of what it pushes.
         Who touches neither is given nothing again, and in `omni` nobody is.
         """
         body, drive, wheels = model.body, model.drive, model.wheels
@@ -327,7 +327,7 @@ class Watch:
             gain = wheels.traction * GRAVITY
             turn_gain = gain * body.mass * wheels.arm / body.inertia_zz
         gain, turn_gain = gain * self.tick, turn_gain * self.tick
-        if in_touch and drive.model == "velocity":
+        if in_touch and drive.model != "omni":
             again = (self.profile.time.steps_per_tick - 1) * robot_energy(robot, model)
         else:
             again = 0.0
