@@ -40,8 +40,11 @@ def test_away_from_the_goal_and_behind_the_line_is_elsewhere(aimed) -> None:
 
 
 def test_a_ball_that_comes_to_rest_before_the_line_is_not_aimed_at_it(aimed, script) -> None:
-    """A ball that loses a in m/s² from v rolls v²/2a."""
-    enough = math.sqrt(2 * script.setup.ball.rolling_deceleration * script.setup.pitch.goal_line)
+    """A ball that loses a + k·v² in m/s² rolls ln(1 + k·v²/a) / 2k."""
+    ball, distance = script.setup.ball, script.setup.pitch.goal_line
+    area = math.pi * ball.radius**2
+    k = 0.5 * ball.air_density * ball.rolling_drag_coefficient * area / (ball.mass + ball.inertia / ball.radius**2)
+    enough = math.sqrt(ball.rolling_deceleration * (math.exp(2 * k * distance) - 1) / k)
     assert aimed(vx=1.01 * enough) is Aim.AT_GOAL
     assert aimed(vx=0.99 * enough) is Aim.ELSEWHERE
 
