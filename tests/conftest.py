@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import signal
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
@@ -26,7 +27,13 @@ settings.load_profile("steady")
 
 
 def pytest_configure() -> None:
-    """Zenoh chooses its threads when the first session of a process is opened."""
+    """Zenoh chooses its threads when the first session of a process is opened.
+
+    Shells start background jobs with SIGINT ignored, and programs that they start inherit that. A signal with a handler
+    has its default in them.
+    """
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, lambda *_: None)
     open_host("first", WallClock(), with_free_port("tcp/127.0.0.1:0")).close()
 
 

@@ -47,7 +47,7 @@ class ClientSettings(Settings):
 class ListenSettings(Settings):
     """Settings of a process that listens for the others of its match."""
 
-    listen: Endpoint = DEFAULT_ENDPOINT
-    """Endpoint of the host; port 0 picks a free one."""
+    listen: Endpoint | None = None
+    """Endpoint of the host; port 0 takes a free one. By default tcp/127.0.0.1:7447, or a free port if it is in use."""
     insecure: bool = False
     """Accept connections of other machines, without authentication."""

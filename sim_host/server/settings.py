@@ -1,5 +1,7 @@
 """What a host process is started with."""
 
+from pathlib import Path
+
 from pydantic import Field
 
 from schemas.bus.settings import ListenSettings
@@ -11,3 +13,7 @@ class HostSettings(ListenSettings):
 
     config: MatchConfig = Field(default_factory=MatchConfig)
     """The match."""
+    launch_token: str | None = None
+    """Secret of the launch: only agents that know it may play. None admits every agent."""
+    announcement: Path | None = None
+    """File in which the host announces its endpoint as soon as it listens."""

@@ -17,6 +17,5 @@ def host(match: options.MatchOptions) -> None:
     Example: touchline host cup.toml --pace realtime --listen tcp/192.168.1.5:7447 --insecure
     """
     config, endpoint = match.read(), match.endpoint()
-    typer.echo(f'match "{config.name}" on {endpoint}', err=True)
     settings = HostSettings(config=config, listen=endpoint, insecure=match.listening.insecure)
     raise typer.Exit(run(settings))

@@ -50,6 +50,8 @@ PROCESSES: dict[ProcessKind, ProcessRow] = {
 }
 """ProcessKind → its row, in the order they are launched."""
 
+ANNOUNCEMENT = "endpoint.json"
+"""The file in which the host of a run announces its endpoint, in the run's folder."""
 TOKENS = "tokens.json"
 """The file of a run's tokens, in its folder."""
 
@@ -60,6 +62,10 @@ COMMON_ENVIRONMENT = {
     "OMP_NUM_THREADS": "1",
 }
 """Environment of every process of a match."""
+
+# A fixed hash seed: a brain that iterates over a set of strings has the same order in every run.
+ROBOT_ENVIRONMENT = {**COMMON_ENVIRONMENT, "PYTHONHASHSEED": "0"}
+"""Environment of every robot, without its own name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +89,9 @@ class MatchPlan:
     """A match ready to launch."""
 
     config: MatchConfig
-    listen: str
+    listen: str | None
+    """The endpoint to listen on, with port 0 for a free one; None for the default. Where the host listens, once it
+    does."""
     folder: Path
     """Holds the settings and the logs of all processes."""
     recording: Path | None
@@ -94,11 +102,19 @@ class MatchPlan:
     """The match's page; None for no page."""
     bridges: BridgeOptions = NO_BRIDGES
     """The bridges beside the page."""
+    launch_token: str | None = None
+    """Secret by which the host knows the agents of this launch; None admits every agent."""
 
     @property
     def connect(self) -> str:
-        """The host's endpoint for processes on the same machine."""
+        """The endpoint for processes on the same machine of a host that listens."""
+        assert self.listen is not None
         return local_endpoint(self.listen)
+
+    @property
+    def announcement(self) -> Path:
+        """The file in which the host announces its endpoint."""
+        return self.folder / ANNOUNCEMENT
 
     @property
     def recording_files(self) -> list[Path]:
@@ -125,13 +141,24 @@ def check_robot_names(config: MatchConfig) -> None:
             raise TouchlineError(f'a robot is named "{name}", as a process of the match is; rename it')
 
 
-def processes_of(plan: MatchPlan) -> list[Process]:
-    """All programs of a match, in the order they are launched."""
+def host_process(plan: MatchPlan) -> Process:
+    """The host of a match, which is launched first."""
+    host = HostSettings(
+        config=plan.config,
+        listen=plan.listen,
+        # --insecure was checked when the plan was made
+        insecure=plan.listen is not None and not is_loopback(plan.listen),
+        launch_token=plan.launch_token,
+        announcement=plan.announcement,
+    )
+    return _process("host", ProcessKind.HOST, host, plan.folder)
+
+
+def client_processes(plan: MatchPlan) -> list[Process]:
+    """The other programs of a match, whose host listens, in the order they are launched."""
     config, folder = plan.config, plan.folder
     connect, match = plan.connect, config.name
-    open_to_others = not is_loopback(plan.listen)  # --insecure was checked when the plan was made
-    host = HostSettings(config=config, listen=plan.listen, insecure=open_to_others)
-    processes = [_process("host", ProcessKind.HOST, host, folder)]
+    processes = []
     if plan.recording is not None:
         recorder = RecorderSettings(
             connect=connect, match=match, out=plan.recording, record=config.record, config=config
@@ -157,17 +184,24 @@ def _robot_process(robot: str, side: Side, plan: MatchPlan) -> Process:
     """A robot's brain, or its team's own program, which reads the robot's name from its environment."""
     team = plan.config.team(side)
     environment = {
+        **ROBOT_ENVIRONMENT,
         "TOUCHLINE_CONNECT": plan.connect,
         "TOUCHLINE_MATCH": plan.config.name,
         "TOUCHLINE_ROBOT": robot,
         "TOUCHLINE_SIDE": side.value,
-        # A fixed hash seed: a brain that iterates over a set of strings has the same order in every run.
-        "PYTHONHASHSEED": "0",
     }
+    if plan.launch_token is not None:
+        environment["TOUCHLINE_LAUNCH_TOKEN"] = plan.launch_token
     if team.command:
         restarts = PROCESSES[ProcessKind.AGENT].restarts
-        return Process(robot, ProcessKind.AGENT, tuple(team.command), {**COMMON_ENVIRONMENT, **environment}, restarts)
-    settings = AgentSettings(connect=plan.connect, match=plan.config.name, robot=robot, brain=team.brain or "")
+        return Process(robot, ProcessKind.AGENT, tuple(team.command), environment, restarts)
+    settings = AgentSettings(
+        connect=plan.connect,
+        match=plan.config.name,
+        robot=robot,
+        brain=team.brain or "",
+        launch_token=plan.launch_token,
+    )
     return _process(robot, ProcessKind.AGENT, settings, plan.folder, environment)
 
 

@@ -22,7 +22,7 @@ from schemas.process.clock import WallClock
 from schemas.topics import SETUP
 from touchline.launch.child_process import ChildProcess, ProcessHandle
 from touchline.launch.fork_server import ForkedRobot, ForkServer
-from touchline.launch.processes import MatchPlan, Process, ProcessKind, processes_of
+from touchline.launch.processes import MatchPlan, Process, ProcessKind, client_processes
 
 pytestmark = [
     pytest.mark.processes,
@@ -165,7 +165,9 @@ def test_forked_or_not_a_robot_has_the_same_environment_module_path_and_order_of
     (tmp_path / "mind.py").write_text(BRAIN)
     monkeypatch.chdir(tmp_path)
     endpoint = with_free_port("tcp/127.0.0.1:0")
-    process = processes_of(MatchPlan(load_match(None, {"teams.cyan.brain": "mind:Brain"}), endpoint, tmp_path, None))[1]
+    process = client_processes(
+        MatchPlan(load_match(None, {"teams.cyan.brain": "mind:Brain"}), endpoint, tmp_path, None)
+    )[0]
     said = []
     with open_host("friendly", WallClock(), endpoint) as host:
         server = host.serve(SETUP)
@@ -195,7 +197,7 @@ SUPERVISOR = """
 import os, signal, sys
 from pathlib import Path
 from touchline.launch.fork_server import ForkServer
-from touchline.launch.processes import ProcessKind, MatchPlan, Process, processes_of
+from touchline.launch.processes import ProcessKind, MatchPlan, Process, client_processes
 from robot_agent.settings import AgentSettings
 folder, server = Path(sys.argv[1]), ForkServer()
 for name in sys.argv[2:]:

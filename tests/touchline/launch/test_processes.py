@@ -22,7 +22,8 @@ from touchline.launch.processes import (
     Process,
     ProcessKind,
     check_robot_names,
-    processes_of,
+    client_processes,
+    host_process,
 )
 from touchline.launch.run_folder import prepare_run
 
@@ -34,11 +35,11 @@ def plan(
 
 
 def by_name(plan: MatchPlan) -> dict[str, Process]:
-    return {process.name: process for process in processes_of(plan)}
+    return {process.name: process for process in (host_process(plan), *client_processes(plan))}
 
 
 def test_a_friendly_has_a_host_a_recorder_and_ten_agents() -> None:
-    names = [process.name for process in processes_of(plan())]
+    names = [process.name for process in (host_process(plan()), *client_processes(plan()))]
     assert names == ["host", "recorder", *(f"{side}{n}" for side in ("cyan", "magenta") for n in range(1, 6))]
 
 
