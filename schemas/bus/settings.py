@@ -7,7 +7,7 @@ from pydantic import AfterValidator
 
 from schemas.bus.contract import BusError
 from schemas.bus.endpoint import DEFAULT_ENDPOINT, parse_endpoint
-from schemas.config.settings import DEFAULT_MATCH, CommandLine, Settings
+from schemas.config.settings import CommandLine, Settings
 
 
 def _endpoint(endpoint: str) -> str:
@@ -38,10 +38,10 @@ MatchName = Annotated[str, AfterValidator(match_name)]
 class ClientSettings(Settings):
     """Settings of a process that joins a match."""
 
-    connect: Annotated[Endpoint, CommandLine(environment="TOUCHLINE_CONNECT")] = DEFAULT_ENDPOINT
-    """Endpoint of the host."""
-    match: Annotated[MatchName, CommandLine(environment="TOUCHLINE_MATCH")] = DEFAULT_MATCH
-    """Name of the match."""
+    connect: Annotated[Endpoint | None, CommandLine(environment="TOUCHLINE_CONNECT")] = None
+    """Endpoint of the host; by default that of the running match on this machine."""
+    match: Annotated[MatchName | None, CommandLine(environment="TOUCHLINE_MATCH")] = None
+    """Name of the match; by default the match that the host plays."""
 
 
 class ListenSettings(Settings):

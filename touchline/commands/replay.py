@@ -104,7 +104,8 @@ def replay(
     )
     opened = Replay(settings)
     clock = WallClock()
-    name = from_options(ClientSettings, match=prefix + (match or opened.recording.manifest.match)).match
+    name = prefix + (match or opened.recording.manifest.match)
+    from_options(ClientSettings, match=name)
     listen = options.endpoint_of(listening) if connect is None else None
     with ExitStack() as stack:
         bus = stack.enter_context(_open_bus(name, clock, connect, listen))

@@ -18,7 +18,7 @@ from schemas.bus.contract import (
     check_publishable,
     full_key,
 )
-from schemas.bus.endpoint import DEFAULT_ENDPOINT
+from schemas.bus.find_host import endpoint_of
 from schemas.bus.mailbox import EveryMailbox
 from schemas.bus.zenoh.match_at import match_at
 from schemas.bus.zenoh.newest import ZenohNewest
@@ -47,12 +47,16 @@ def open_host(match: str, clock: Clock, listen: str | None = None) -> "ZenohBus"
     return ZenohBus(match, clock, session, endpoint, is_client=False)
 
 
-def open_client(match: str | None, clock: Clock, connect: str = DEFAULT_ENDPOINT, patience: float = 10.0) -> "ZenohBus":
-    """Open a client's bus, with attempts for `patience` s of wall time; None is the match that the host plays.
+def open_client(match: str | None, clock: Clock, connect: str | None = None, patience: float = 10.0) -> "ZenohBus":
+    """Open a client's bus, with attempts for `patience` s of wall time.
+
+    Without an endpoint it connects to the running match of this machine, without a name to the match at the endpoint.
 
     Raises:
-        BusError: no host answers at that endpoint; with None, no match is played there.
+        TouchlineError: no endpoint is given, and several matches run on this machine.
+        BusError: no host answers at the endpoint, or no match is played there.
     """
+    connect = connect or endpoint_of(match)
     deadline = clock.now() + patience
     session = open_connection(connect, clock, patience)
     try:
