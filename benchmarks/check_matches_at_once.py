@@ -74,10 +74,8 @@ def main() -> int:
                 together = dict(zip(seeds, pool.map(play_seed, seeds), strict=True))
             different = {seed: outcome for seed, outcome in together.items() if outcome != alone[seed]}
             wrong += len(different)
-            print(
-                f"round {number}: {len(seeds) - len(different)} of {len(seeds)} right, {time.monotonic() - began:.1f} s",
-                flush=True,
-            )
+            took = time.monotonic() - began
+            print(f"round {number}: {len(seeds) - len(different)} of {len(seeds)} right, {took:.1f} s", flush=True)
             for seed, outcome in different.items():
                 print(f"  seed {seed} alone: {alone[seed]}\n  at once: {outcome}")
     print(f"{wrong} of {options.rounds * len(seeds)} matches differ from the match of the same seed alone")

@@ -45,7 +45,7 @@ def answer(sight: dict[str, Any], goal_x: float) -> dict[str, Any]:
     return command
 
 
-def query(session: zenoh.Session, key: str, **request: str | None) -> dict[str, Any]:
+def query(session: zenoh.Session, key: str, request: dict[str, Any]) -> dict[str, Any]:
     """The host's reply to a request; queries the host until it replies."""
     while True:
         payload = json.dumps({"version": "2.0", **request})
@@ -59,7 +59,7 @@ def query(session: zenoh.Session, key: str, **request: str | None) -> dict[str, 
 def claim(session: zenoh.Session, name: str) -> None:
     """Claim the robot for the session of this name, whose liveliness token exists."""
     secret = os.environ.get("TOUCHLINE_LAUNCH_TOKEN")
-    reply = query(session, "claim", robot=ROBOT, session=name, launch_token=secret, source="plain_robot.py")
+    reply = query(session, "claim", {"robot": ROBOT, "session": name, "launch_token": secret})
     if not reply["accepted"]:
         raise SystemExit(f"{ROBOT}: refused by the host: {reply['reason']}")
 
@@ -70,7 +70,7 @@ def main() -> None:
     for key, value in SETTINGS.items():
         config.insert_json5(key, json.dumps(value))
     with zenoh.open(config) as session:
-        goal_x = query(session, "setup")["pitch"]["length"] / 2
+        goal_x = query(session, "setup", {})["pitch"]["length"] / 2
         sights = session.declare_subscriber(f"{ROOT}/robot/{ROBOT}/sight", zenoh.handlers.RingChannel(1))
         commands = session.declare_publisher(
             f"{ROOT}/robot/{ROBOT}/command",

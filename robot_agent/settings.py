@@ -17,6 +17,6 @@ class AgentSettings(ClientSettings):
     brain: Annotated[str, CommandLine(environment="TOUCHLINE_BRAIN")]
     """module:Class, or module:function of a plain act(sight)."""
     launch_token: Annotated[str | None, CommandLine(environment="TOUCHLINE_LAUNCH_TOKEN")] = None
-    """Secret of the launch that the agent belongs to; by default none."""
+    """Secret of the host that the agent joins; by default none."""
     patience: Annotated[float, Field(ge=0)] = 10.0
     """s of wall time to wait for a host that is not there."""

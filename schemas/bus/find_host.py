@@ -1,4 +1,4 @@
-"""Finds the host that a client connects to when no endpoint is given: the running match of this user on this machine."""
+"""Finds the host of a client without an endpoint: the running match of this user on this machine."""
 
 from collections.abc import Iterable
 
