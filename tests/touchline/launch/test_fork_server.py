@@ -246,3 +246,40 @@ def test_the_fork_server_s_own_function_is_imported_without_anything_heavy() -> 
     code = "import sys, touchline.launch.fork_server; print(*{'zenoh', 'pybullet', 'mcap', 'numpy'} & set(sys.modules))"
     printed = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, check=True, text=True).stdout
     assert printed.split() == []
+
+
+UNDER_NOHUP = """
+import signal, sys, time
+from pathlib import Path
+from robot_agent.settings import AgentSettings
+from touchline.launch.child_process import ChildProcess
+from touchline.launch.fork_server import ForkServer
+from touchline.launch.processes import Process, ProcessKind
+for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):
+    signal.signal(number, signal.SIG_IGN)
+folder = Path(sys.argv[1])
+settings = AgentSettings(connect="tcp/127.0.0.1:1", match="m", robot="cyan1", brain="no:Brain", patience=600)
+robot = Process("cyan1", ProcessKind.AGENT, ("none",), {}, 3, settings, folder / "cyan1.json")
+code = "import signal; print('rests', flush=True); signal.pause()"
+host = Process("host", ProcessKind.HOST, (sys.executable, "-c", code), {})
+for number in (signal.SIGINT, signal.SIGTERM):
+    forked, program = ForkServer().launch(robot, folder / "cyan1.log"), ChildProcess(host, folder / "host.log")
+    while Path(f"/proc/{forked.pid}/comm").read_text().strip() != "cyan1" or not program.last_lines():
+        time.sleep(0.01)
+    for child in (forked, program):
+        child.send(signal.SIGHUP)
+        assert child.status() is None
+        child.send(number)
+        while child.status() is None:
+            time.sleep(0.01)
+        print(number.name, type(child).__name__)
+"""
+
+
+def test_processes_are_ended_by_signals_that_their_launcher_ignores(tmp_path: Path) -> None:
+    """Shells start background jobs with SIGINT ignored; what `nohup` ignores, SIGHUP, stays ignored."""
+    command = [sys.executable, "-c", UNDER_NOHUP, str(tmp_path)]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=_LIMIT_S, check=False)
+    assert ended.stdout.splitlines() == [
+        f"{number} {kind}" for number in ("SIGINT", "SIGTERM") for kind in ("ForkedRobot", "ChildProcess")
+    ], ended.stderr
