@@ -17,7 +17,7 @@ from schemas.topics import ACTION, ORDER, PARAMETERS, REPLAY_CONTROL, SCENE, SET
 from schemas.wire.faults import FaultError, validated
 from schemas.wire.message import BadMessageError, WireMessage
 
-_LOOK_S = 0.02
+_POLL_S = 0.02
 """s of wall time between two looks for acknowledgements."""
 
 
@@ -117,7 +117,7 @@ class HostClient:
             receipt = self.orders.book.receipt(side, order.sequence)
             if receipt.is_final or clock.now() >= deadline:
                 return receipt
-            clock.sleep_until(clock.now() + _LOOK_S)
+            clock.sleep_until(clock.now() + _POLL_S)
 
     def _next_number(self, side: Side, setup: Setup) -> int:
         """The number of the next order: wall time in ms, or one more than a larger number that is active.

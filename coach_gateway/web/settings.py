@@ -27,7 +27,7 @@ class WebSettings(Settings):
     """How the page is served."""
 
     port: Annotated[int, Field(ge=0, le=65_535)] = DEFAULT_PORT
-    """Port of the page; 0 takes a free one."""
+    """Port of the page; 0 selects a free one."""
     listen_web: str = LOOPBACK
     """Address to serve the page on; 0.0.0.0 lets other machines see it."""
     allow_origin: list[str] = Field(default_factory=list)

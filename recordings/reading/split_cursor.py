@@ -133,7 +133,7 @@ class SplitCursor:
         self._at = at
         cursor = self._cursors[at]
         cursor.rewind()
-        for _ in range(self._recordings[at].manifest.standing if at else 0):
+        for _ in range(self._recordings[at].manifest.latched_count if at else 0):
             if cursor.peek() is not None:
                 cursor.skip()
 

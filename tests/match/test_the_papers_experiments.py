@@ -21,7 +21,7 @@ from robot_agent.teams.nubot import NuBot
 from robot_agent.teams.nubot.machine import State
 from robot_agent.teams.nubot.trajectory import ROTATION, TRANSLATION
 from schemas.bus.contract import Bus, PendingReply
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.config.scene import Scene, load_scene
 from schemas.game import ActionName, Phase, TeamPhase
@@ -47,7 +47,7 @@ class Experiment:
         brains = {f"teams.{side}.brain": "robot_agent.teams.nubot:NuBot" for side in Side}
         config = load_match(None, {"scene": scene, "referee.mode": "manual", **brains, **flags})
         self.scene: Scene = load_scene(scene)
-        medium = Medium()
+        medium = SharedState()
         coach = self._attended(medium.open_bus(config.name, SteppedClock()))
         self.client, self.seen = HostClient(coach), MatchFollower(coach, details=True)
         self.client.orders.update()

@@ -15,7 +15,7 @@ from recordings.recorder.recorder import Recorder
 from recordings.recorder.sink import ONE_FILE, FileLimits
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.game import Phase, Score
 from schemas.messages.command import Command
@@ -41,7 +41,7 @@ def make_rig(tmp_path: Path) -> Iterator[RigMaker]:
         limits: FileLimits = ONE_FILE,
         selection: KeySelection = EVERYTHING,
     ) -> RecorderRig:
-        medium = Medium()
+        medium = SharedState()
         wall = SteppedClock()
         host_bus, robot_bus = medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", SteppedClock())
         bus = medium.open_bus("friendly", wall)
@@ -109,7 +109,7 @@ def record_match(
 
     `between` is called before each tick, for what operators do.
     """
-    medium = Medium()
+    medium = SharedState()
     host_bus, bus = medium.open_bus(config.name, SteppedClock()), medium.open_bus(config.name, SteppedClock())
     table, server = InProcessMatch(config), host_bus.serve(SETUP)
     simulation = table.simulation

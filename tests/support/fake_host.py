@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from schemas.bus.contract import Bus, Publisher, Query
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
@@ -33,7 +33,7 @@ class FakeHost:
 
     def __init__(
         self,
-        medium: Medium,
+        medium: SharedState,
         config: MatchConfig | None = None,
         answers: Mapping[Topic, Answer] | None = None,
         *,

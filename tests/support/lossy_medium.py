@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from schemas.bus.contract import Publisher, Stamp
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.process.clock import Clock
 from schemas.topic import Topic
 
@@ -19,7 +19,7 @@ class Losses:
 
 
 @dataclass(eq=False)
-class LossyMedium(Medium):
+class LossyMedium(SharedState):
     """Loses nothing until it is told to."""
 
     losses: dict[str, Losses] = field(default_factory=dict)
@@ -35,7 +35,7 @@ class LossyMedium(Medium):
 
 
 class _LossyBus(InProcessBus):
-    def __init__(self, match: str, clock: Clock, medium: Medium, losses: dict[str, Losses]) -> None:
+    def __init__(self, match: str, clock: Clock, medium: SharedState, losses: dict[str, Losses]) -> None:
         super().__init__(match, clock, medium)
         self._losses = losses
 

@@ -10,7 +10,7 @@ from coach_gateway.web.binding import bind_page
 from coach_gateway.web.server import WebServer
 from coach_gateway.web.settings import WebSettings
 from coach_gateway.web.waiting_page import WaitingPage
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.process.clock import WallClock
 
 SOON = 20.0
@@ -30,7 +30,7 @@ def tokens_in(folder: Path) -> Path:
 class Gateway:
     """The page's server in a thread of its own; without a medium it waits for a host that does not come."""
 
-    def __init__(self, medium: Medium | None, settings: WebSettings, tokens: Path | None) -> None:
+    def __init__(self, medium: SharedState | None, settings: WebSettings, tokens: Path | None) -> None:
         self.said: list[str] = []
         self.binding = bind_page(settings, tokens_of(tokens), tokens)
         self.origin = self.binding.origin

@@ -9,7 +9,7 @@ from recordings.recorder.recorder import Recorder, RecordingSummary
 from recordings.recorder.sink import Sink
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, Publisher, Server
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
@@ -57,7 +57,7 @@ class PublisherLog(InProcessBus):
     """The publishers of another bus, kept by their keys."""
 
     def __init__(self, bus: Bus) -> None:
-        super().__init__(bus.match, bus.clock, Medium())
+        super().__init__(bus.match, bus.clock, SharedState())
         self.made: dict[str, Publisher] = {}
         self._bus = bus
 

@@ -8,7 +8,7 @@ import pytest
 from recordings.recorder.batch_reader import ANSWER_S, GIVE_UP_S, QUIET_S, BatchReader
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, Query
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.messages.record_batch import RecordBatchesRequest, write_batch, write_reply
 from schemas.process.clock import SteppedClock
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
@@ -67,7 +67,7 @@ class Link:
 
 @pytest.fixture
 def link() -> Link:
-    medium = Medium()
+    medium = SharedState()
     link = Link(medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", SteppedClock()))
     link.publish(0, 1, 2)
     assert link.read() == [0, 1, 2]
@@ -194,7 +194,7 @@ def test_another_host_is_found_by_its_answer(link):
 
 
 def test_a_reader_that_never_heard_a_batch_asks_for_those_since_it_began():
-    medium = Medium()
+    medium = SharedState()
     host = medium.open_bus("friendly", SteppedClock())
     batches = BatchPublisher(host)
     batches.send()

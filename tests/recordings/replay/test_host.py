@@ -13,7 +13,7 @@ from recordings.recorder.recorder import Recorder
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from schemas.bus.contract import NoReplyError
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.errors import TouchlineError
 from schemas.game import ActionName
 from schemas.messages.game import RefereeAction
@@ -27,7 +27,7 @@ class Room:
     """A replay and those who listen to it, in one process, on one clock."""
 
     def __init__(self, match: str = "friendly") -> None:
-        self.medium, self.clock, self.match = Medium(), SteppedClock(), match
+        self.medium, self.clock, self.match = SharedState(), SteppedClock(), match
 
     def seat(self) -> InProcessBus:
         return self.medium.open_bus(self.match, SteppedClock())

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from schemas.bus import batch_publisher as module
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import NoReplyError, ReceivedMessage, Stamp
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.messages.command import Command
 from schemas.messages.record_batch import (
     Entry,
@@ -27,7 +27,7 @@ KEY = "robot/cyan1/command"
 
 @pytest.fixture
 def seat():
-    return Medium().open_bus("friendly", SteppedClock())
+    return SharedState().open_bus("friendly", SteppedClock())
 
 
 @pytest.fixture
@@ -219,13 +219,13 @@ def test_batches_from_before_a_time_are_left_out(batches, seat):
 
 
 def test_a_reply_holds_at_least_one_batch_and_no_more_bytes_than_a_limit(batches, seat, monkeypatch):
-    monkeypatch.setattr(module, "_REPLY", 2500)
+    monkeypatch.setattr(module, "_MAX_REPLY_BYTES", 2500)
     publish(batches, 6, size=700)
     numbers = ask(batches, seat, first=0)[1]
     assert numbers == list(range(len(numbers)))
     assert 1 < len(numbers) < 6
     assert ask(batches, seat, first=numbers[-1] + 1)[1][0] == numbers[-1] + 1
-    monkeypatch.setattr(module, "_REPLY", 1)
+    monkeypatch.setattr(module, "_MAX_REPLY_BYTES", 1)
     assert ask(batches, seat, first=2)[1] == [2]
 
 

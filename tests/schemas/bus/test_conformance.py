@@ -10,7 +10,7 @@ import pytest
 
 from schemas.bus.contract import Bus, BusError, NoReplyError, Subscription
 from schemas.bus.endpoint import with_free_port
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.bus.zenoh.bus import open_client, open_host
 from schemas.game import ActionName, Phase
 from schemas.messages.coach import CoachOrder
@@ -39,7 +39,7 @@ class Buses:
 def buses(request: pytest.FixtureRequest) -> Iterator[Buses]:
     taken: list[Bus] = []
     if request.param == "in_process":
-        medium = Medium()
+        medium = SharedState()
         host: Bus = medium.open_bus("test", WallClock())
 
         def join(match: str = "test") -> Bus:

@@ -6,7 +6,7 @@ import pytest
 
 from schemas.bus.contract import PresenceKind
 from schemas.bus.host_watch import LINK_GRACE_S, HostWatch
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.process.clock import SteppedClock
 
 
@@ -41,7 +41,7 @@ class Client:
 
 @pytest.fixture
 def client() -> Client:
-    medium = Medium()
+    medium = SharedState()
     return Client(medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", SteppedClock()))
 
 

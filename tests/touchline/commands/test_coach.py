@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.game import ActionName, Phase, Score
 from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.messages.health import Health, RobotHealth
@@ -33,7 +33,7 @@ class Host(FakeHost):
 
     def __init__(self) -> None:
         self.says: list[GameState | Health] = []
-        super().__init__(Medium(), answers={ACTION: self._act}, clock=SteppedClock(), in_threads=True)
+        super().__init__(SharedState(), answers={ACTION: self._act}, clock=SteppedClock(), in_threads=True)
 
     def speak(self) -> None:
         for message in self.says:

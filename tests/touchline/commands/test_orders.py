@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
@@ -27,7 +27,7 @@ class Host(FakeHost):
         self.deaf: set[str] = set()
         self._acknowledged = 0
         super().__init__(
-            Medium(), answers={SETUP: lambda _: self._acknowledge()}, clock=SteppedClock(), in_threads=True
+            SharedState(), answers={SETUP: lambda _: self._acknowledge()}, clock=SteppedClock(), in_threads=True
         )
 
     def _acknowledge(self) -> Setup:

@@ -11,7 +11,7 @@ from pytest import approx
 from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.config.scene import shipped_scenes
 from schemas.process.clock import SteppedClock
@@ -27,7 +27,7 @@ from touchline.play import InProcessMatch, play_match
 def simulation(monkeypatch: pytest.MonkeyPatch) -> Iterator[Simulation]:
     """Answers as a host does."""
     simulation = Simulation(load_match(None))
-    medium = Medium()
+    medium = SharedState()
     bus = medium.open_bus("friendly", SteppedClock())
     server = bus.serve(SCENE)
 

@@ -134,7 +134,7 @@ def test_whoever_does_not_listen_is_killed_within_two_seconds() -> None:
 def test_after_the_match_a_recorder_has_time_to_finish_while_agents_are_sent_away() -> None:
     stage = Stage(deaf_to=frozenset({signal.SIGTERM}))
     stage.end("host", 0)
-    stage.supervisor.end(AFTER_THE_MATCH, hurried=lambda: stage.clock.now() > 20.0)
+    stage.supervisor.end(AFTER_THE_MATCH, should_abort=lambda: stage.clock.now() > 20.0)
     assert stage.cast["recorder"][-1].heard == []
     assert stage.supervisor.ended["cyan1"] == -signal.SIGKILL
 
@@ -150,7 +150,7 @@ def test_a_process_that_has_ended_gets_no_signal() -> None:
 def test_a_second_interrupt_does_not_wait_for_the_recorder() -> None:
     stage = Stage()
     stage.end("host", 0)
-    stage.supervisor.end(AFTER_THE_MATCH, hurried=lambda: stage.clock.now() > 3.0)
+    stage.supervisor.end(AFTER_THE_MATCH, should_abort=lambda: stage.clock.now() > 3.0)
     assert stage.clock.now() < 4.0
     assert "recorder" not in stage.supervisor.ended
     stage.supervisor.end(AT_ONCE)

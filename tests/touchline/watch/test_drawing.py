@@ -9,7 +9,7 @@ from rich.text import Text
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.orders import OrderBook
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, OffField, Phase, Point, Score
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
@@ -91,7 +91,7 @@ def test_a_restart_shows_how_far_opponents_stay(setup: Setup) -> None:
 
 @pytest.mark.parametrize("size", [(1, 1), (20, 5), (80, 24), (120, 40), (200, 60), (300, 20), (40, 100)])
 def test_a_picture_fits_its_terminal(setup: Setup, size: tuple[int, int]) -> None:
-    medium = Medium()
+    medium = SharedState()
     host = medium.open_bus("friendly", SteppedClock())
     seen = MatchFollower(medium.open_bus("friendly", SteppedClock()), details=True)
     say(host, world(cyan1=robot(-30.0, 2.0), magenta5=robot(3.0, 99.0)), state())
@@ -107,7 +107,7 @@ def say(host: Bus, world: World, state: GameState) -> None:
 
 
 def test_a_picture_says_score_phase_events_and_how_the_host_is_doing(setup: Setup) -> None:
-    medium = Medium()
+    medium = SharedState()
     host = medium.open_bus("friendly", SteppedClock())
     seen = MatchFollower(medium.open_bus("friendly", SteppedClock()), details=True)
     say(host, world(cyan2=robot(1.0, 0.0)), state(Phase.THROW_IN, side=Side.MAGENTA, score=Score(cyan=2, magenta=1)))
@@ -181,7 +181,7 @@ class HostOfTicks(SteppedClock):
 def test_a_match_is_drawn_until_its_host_goes_and_its_last_picture_stays(
     setup: Setup, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    medium, clock = Medium(), HostOfTicks()
+    medium, clock = SharedState(), HostOfTicks()
     clock.host, clock.tick = medium.open_bus("friendly", SteppedClock()), 0
     clock.host.declare_alive("host", "host")
     monkeypatch.setattr("coach_gateway.match.host_client.HostClient.setup", lambda self: setup)
@@ -193,4 +193,4 @@ def test_a_match_is_drawn_until_its_host_goes_and_its_last_picture_stays(
 
 def test_a_match_that_nobody_plays_is_wrong_input() -> None:
     with pytest.raises(TouchlineError, match='match "cup": no process answers host/setup'):
-        watch_on(Medium().open_bus("cup", SteppedClock()), Console(file=io.StringIO()))
+        watch_on(SharedState().open_bus("cup", SteppedClock()), Console(file=io.StringIO()))
