@@ -30,7 +30,7 @@ def log(real: Recording, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def back(log: Path) -> Recording:
-    imported = IMPORTERS["msl-log"]([log], log.with_name("back.mcap"), "msl", None)
+    imported = IMPORTERS["msl-log"].import_log([log], log.with_name("back.mcap"), "msl", None)
     assert (imported.lost, imported.coped) == ([], [])
     return open_recording(imported.out)
 
