@@ -11,11 +11,10 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from schemas.bus.contract import ReceivedMessage, Stamp
+from schemas.recovery_window import GIVE_UP_S
 
 RETRY_S = 0.2
 """Wall time between an incomplete reply and the next request."""
-GIVE_UP_S = 20.0
-"""Wall time after which missing messages are given up: longer than a link takes to recover."""
 LOOKBACK = 100
 """Messages of a key that are requested before the first that arrived: as many as are lost while a link is busy."""
 

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 
 import pytest
 
-from recordings.recorder.batch_reader import ANSWER_S, GIVE_UP_S, QUIET_S, BatchReader
+from recordings.recorder.batch_reader import QUIET_S, REPLY_S, BatchReader
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, Query
 from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.messages.record_batch import RecordBatchesRequest, write_batch, write_reply
 from schemas.process.clock import SteppedClock
+from schemas.recovery_window import GIVE_UP_S
 from schemas.topics import RECORD_BATCH, RECORD_BATCHES
 
 
@@ -104,9 +105,9 @@ def test_an_answer_that_never_came_is_asked_again(link):
     link.publish(5)
     link.read()
     assert link.asked() == [(3, 4)]
-    link.wait(ANSWER_S + 0.05)
+    link.wait(REPLY_S + 0.05)
     assert link.asked() == [(3, 4)]
-    link.wait(ANSWER_S + 0.05)
+    link.wait(REPLY_S + 0.05)
     assert link.answer(3, 4) == [(3, 4)]
     assert link.read() == [3, 4, 5]
 

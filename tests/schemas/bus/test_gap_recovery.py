@@ -3,7 +3,8 @@
 import pytest
 
 from schemas.bus.contract import ReceivedMessage, Stamp
-from schemas.bus.gap_recovery import GIVE_UP_S, LOOKBACK, RETRY_S, Gap, GapRecovery
+from schemas.bus.gap_recovery import LOOKBACK, RETRY_S, Gap, GapRecovery
+from schemas.recovery_window import GIVE_UP_S
 from schemas.topics import WORLD
 
 SUBSCRIBED_NS = 5
