@@ -14,8 +14,9 @@ from schemas.messages.setup import Setup, SetupRequest
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import ACTION, ORDER, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
-from schemas.wire.faults import FaultError, validated
+from schemas.wire.faults import FaultError
 from schemas.wire.message import BadMessageError, WireMessage
+from schemas.wire.struct_faults import validated
 
 _POLL_S = 0.02
 """s of wall time between two looks for acknowledgements."""

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 from typing import Protocol
 
-from schemas.config.match_config import Patience
+from schemas.config.match_parts import Patience
 from schemas.messages.command import Command
 from schemas.process.clock import Clock
 from schemas.recovery_window import RUN_AHEAD_TICKS

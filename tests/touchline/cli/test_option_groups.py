@@ -14,7 +14,8 @@ from coach_gateway.settings import BridgeOptions, GatewaySettings
 from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import AgentSettings
 from schemas.bus.settings import ClientSettings, ListenSettings
-from schemas.config.match_config import MatchConfig, RecordingConfig
+from schemas.config.match_config import MatchConfig
+from schemas.config.match_parts import RecordingConfig
 from schemas.config.settings import CommandLine, RecordOptions, Settings
 from schemas.errors import TouchlineError
 from schemas.wire.field_docstrings import field_docstrings
