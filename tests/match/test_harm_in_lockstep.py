@@ -170,7 +170,7 @@ def test_ctrl_c_ends_all_processes_soon_with_status_130(story, is_running):
     assert [pid for pid in story.processes if is_running(pid)] == []
 
 
-def test_ctrl_c_leaves_a_finished_recording_and_says_where(recording, story, folder):
+def test_ctrl_c_leaves_a_finished_recording_and_prints_its_path(recording, story, folder):
     assert recording.complete
     assert recording.result.ended in (EndReason.HOST_GONE, EndReason.STOPPED)
     assert "touchline: match interrupted; see m.mcap" in story.program.err

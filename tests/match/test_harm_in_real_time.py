@@ -226,7 +226,7 @@ def test_late_ticks_are_counted_and_published(story):
         ("state", '"phase":"free_kick"'),
     ],
 )
-def test_the_coach_at_the_command_line_is_heard(story, case, words):
+def test_commands_of_the_coach_at_the_terminal_take_effect(story, case, words):
     status, out, err = story.coach[case]
     assert (status, err) == (0, "")
     assert words in out

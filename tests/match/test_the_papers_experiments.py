@@ -226,7 +226,7 @@ def test_one_every_robot_receives_the_coachs_command(static: Experiment, action:
 
 
 @pytest.mark.parametrize("robot", CYAN)
-def test_two_each_robot_moves_as_the_state_machine_of_the_real_code_says(static: Experiment, robot: str) -> None:
+def test_two_each_robot_moves_as_in_the_state_machine_of_the_real_code(static: Experiment, robot: str) -> None:
     """Figure 5 of the paper with the constants of its code."""
     static.order(mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a=robot)
     began = len(static.trace)

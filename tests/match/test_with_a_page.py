@@ -115,7 +115,7 @@ def config(tmp_path: Path) -> Path:
     return file
 
 
-def test_a_match_with_a_page_says_where_it_is_lives_through_the_server_s_death_and_leaves_nothing(
+def test_a_match_with_a_page_prints_its_address_survives_a_crash_of_the_server_and_leaves_no_process(
     start: Callable[..., Any], config: Path, tmp_path: Path, is_running: Callable[[int], bool]
 ) -> None:
     match = start(
@@ -243,7 +243,7 @@ PathFinder.find_spec = lambda name, *more: None if name.partition(".")[0] in gon
 """As `sitecustomize`, makes the packages of the extra `coach` such as are not installed."""
 
 
-def test_without_the_extra_a_page_says_how_to_get_it_and_everything_else_goes_on(
+def test_without_the_extra_a_warning_names_the_remedy_and_the_match_continues(
     start: Callable[..., Any], config: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "sitecustomize.py").write_text(NO_WEB)

@@ -141,7 +141,7 @@ def test_the_topic_table_is_printed_whole() -> None:
         assert any(line.split()[:2] == [name, topic.key] for line in lines)
 
 
-def test_the_topic_table_as_json_says_who_may_read() -> None:
+def test_the_topic_table_as_json_has_the_readers_of_each_topic() -> None:
     rows = {row["name"]: row for row in json.loads(touchline("topics", "--json").stdout)}
     assert set(rows) == set(TOPICS)
     assert rows["command"]["key"] == "robot/{robot}/command"

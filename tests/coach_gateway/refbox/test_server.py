@@ -100,7 +100,7 @@ def world_state(team: str, **more: Any) -> dict[str, Any]:
     }
 
 
-def test_a_whole_game_is_told_to_both_teams_in_the_leagues_words(boxed: Any, until: Any) -> None:
+def test_a_whole_game_is_sent_to_both_teams_in_the_leagues_terms(boxed: Any, until: Any) -> None:
     """Cards and repairs follow at the next change of the game, as in RefBox."""
 
     async def play() -> None:
@@ -152,7 +152,7 @@ def test_a_team_may_be_called_by_an_address_of_its_own(boxed: Any, until: Any) -
     asyncio.run(play())
 
 
-def test_a_team_against_itself_is_told_apart_by_its_suffix(boxed: Any) -> None:
+def test_a_team_against_itself_is_distinguished_by_its_suffix(boxed: Any) -> None:
     """RefBox tells teams apart by the network they connect from; here the address does not matter."""
 
     async def play() -> None:

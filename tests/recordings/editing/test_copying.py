@@ -159,7 +159,7 @@ def test_two_runs_of_one_match_are_not_merged(run, make_rig, tmp_path):
     assert not list(tmp_path.glob("merged*"))
 
 
-def test_a_file_that_was_cut_off_can_be_filtered_and_says_so(run, tmp_path):
+def test_a_truncated_file_can_be_filtered_and_is_reported_as_truncated(run, tmp_path):
     (recording,) = run("a")
     cut = tmp_path / "cut.mcap"
     data = recording.path.read_bytes()

@@ -194,7 +194,7 @@ def test_another_host_is_found_by_its_answer(link):
     assert link.read() == [0, 1, 2, 3, 4]
 
 
-def test_a_reader_that_never_heard_a_batch_asks_for_those_since_it_began():
+def test_a_reader_without_any_batch_requests_those_since_its_start():
     medium = SharedState()
     host = medium.open_bus("friendly", SteppedClock())
     batches = BatchPublisher(host)

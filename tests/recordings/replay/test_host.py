@@ -51,7 +51,7 @@ def room() -> Iterator[Room]:
     yield Room()
 
 
-def test_what_is_recorded_is_heard_on_its_keys_in_its_order(recorded, room):
+def test_recorded_messages_are_published_on_their_keys_in_their_order(recorded, room):
     listener = room.seat()
     worlds, commands = listener.subscribe(WORLD), listener.subscribe(COMMAND)
     room.host(recorded.path, rate=None).run()
@@ -175,7 +175,7 @@ def test_a_newcomer_gets_the_latched_messages_while_it_is_paused(recorded, room)
     assert events.receive() is None
 
 
-def test_to_a_recorder_nothing_is_said_twice_while_it_stands_still(recorded, room):
+def test_a_paused_replay_publishes_no_message_twice_while_a_recorder_listens(recorded, room):
     host = room.host(recorded.path, start="1.0", paused=True)
     recorder = room.seat()
     recorder.declare_alive("recorder", "recorder")
@@ -218,7 +218,7 @@ def test_it_follows_a_match_that_is_still_recorded(rig, room, wait_until_written
         ({"start": "goal:7"}, "goal happened 1 times"),
     ],
 )
-def test_what_cannot_be_replayed_is_said_in_one_line(recorded, wanted, word):
+def test_an_impossible_replay_is_reported_in_one_line(recorded, wanted, word):
     with pytest.raises(TouchlineError) as error:
         Replay(ReplaySettings(recorded.path, **wanted))
     assert word in str(error.value) and "\n" not in str(error.value)

@@ -15,7 +15,7 @@ def ask(make_player_rig, operation: ReplayOperation, **more):
 
 
 @pytest.mark.parametrize("rate", [0.25, 1.0, 7.0, 1000.0, math.inf])
-def test_at_any_rate_everything_is_said_in_the_recorded_order(make_player_rig, recorded, rate):
+def test_at_any_rate_all_messages_are_published_in_the_recorded_order(make_player_rig, recorded, rate):
     played = make_player_rig(rate=rate)
     played.finish()
     assert played.heard == list(recorded.messages())

@@ -72,7 +72,7 @@ def test_what_others_say_is_noted_as_it_came_with_what_travelled_beside_it(batch
     ]
 
 
-def test_what_the_host_says_goes_out_at_once_and_is_noted_if_it_is_recorded(batches, heard, seat):
+def test_messages_of_the_host_are_published_at_once_and_added_to_the_batch_if_recorded(batches, heard, seat):
     world, sight = batches.publisher(WORLD), batches.publisher(SIGHT, robot="cyan1")
     worlds, sights = seat.subscribe(WORLD), seat.subscribe(SIGHT)
     stamps = [world.put_payload(b'{"tick":1}'), sight.put_payload(b"{}"), world.put_payload(b'{"tick":2}')]
@@ -185,7 +185,7 @@ def test_without_a_last_number_all_newer_batches_are_given(batches, seat):
     assert ask(batches, seat, first=2, last=1)[1] == []
 
 
-def test_a_host_that_has_published_nothing_says_so(batches, seat):
+def test_a_host_without_batches_replies_with_none(batches, seat):
     reply, numbers = ask(batches, seat, first=0)
     assert (reply.oldest, numbers) == (0, [])
 

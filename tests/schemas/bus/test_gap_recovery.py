@@ -146,7 +146,7 @@ def test_a_gap_in_one_key_holds_no_other_back(reader):
     assert reader.hear(1, 2, key="host/applied") == [1, 2]
 
 
-def test_a_writer_that_begins_anew_is_not_asked_for_what_another_said(reader):
+def test_a_restarted_publisher_is_not_queried_for_messages_of_its_predecessor(reader):
     reader.hear(10, 11)
     (gap,) = reader.recovery.due_requests(0.0)
     assert reader.hear(0, writer="b") == [10, 11, 0]

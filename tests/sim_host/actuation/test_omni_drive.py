@@ -79,7 +79,7 @@ def in_body(robot: RobotState) -> complex:
 
 
 @BOTH
-def test_from_rest_to_three_metres_a_second_takes_as_long_as_the_limit_says(model: RobotModel) -> None:
+def test_from_rest_to_three_metres_a_second_takes_the_time_of_the_limit(model: RobotModel) -> None:
     """v / a = 1.2 s to 97 % and 3 m/s within 0.1 s more: the wheels follow the limited demand by some 0.02 s.
 
     simatch's limiter reached 2.97 m/s with the first command.

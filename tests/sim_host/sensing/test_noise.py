@@ -123,7 +123,7 @@ def test_one_reading_in_a_hundred_is_noisy_with_simatchs_noise(errors):
 DRIFT = {"drift_position": 0.05, "drift_heading": 0.01, "drift_time": 1.0}
 
 
-def test_drift_is_as_large_as_it_says_at_any_time_and_slow(errors):
+def test_drift_has_its_configured_size_at_any_time_and_is_slow(errors):
     """20,000 ticks are 400 drift times; 4 standard errors of about as many independent values.
 
     Per tick it changes by at most |d/dt (k₀ cos + k₁ sin)| = π/2 · |k| / drift time, |k| below 5 sigma.

@@ -100,7 +100,7 @@ def test_equal_seeds_perceive_equally_and_others_do_not(world):
     assert looks(77) != looks(78)
 
 
-def test_a_robot_that_is_left_out_changes_nobody_elses_noise(scenery):
+def test_a_robot_that_is_left_out_changes_the_noise_of_no_other_robot(scenery):
     """A draw left out shifts no other: what two robots perceive of themselves, each other and the ball stays."""
     seen = {}
     for robots in (ROBOTS[:2], (*ROBOTS[:2], (-8.0, -3.0), (-8.0, 3.0))):

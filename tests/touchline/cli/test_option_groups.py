@@ -196,6 +196,6 @@ def test_a_value_that_a_model_refuses_is_named_by_its_option(content: dict[str, 
         from_options(House, **content)
 
 
-def test_values_that_do_not_agree_are_told_as_the_model_does() -> None:
+def test_contradicting_values_are_reported_in_the_words_of_the_model() -> None:
     with pytest.raises(TouchlineError, match="keep 2 needs several files; add split_size, split_duration"):
         from_options(RecorderSettings, out="a", record={"keep": 2})

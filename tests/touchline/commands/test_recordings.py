@@ -42,7 +42,7 @@ def test_recordings_that_say_the_same_are_identical(tmp_path: Path) -> None:
     assert (result.exit_code, result.stdout) == (0, "identical: 50 messages on 1 keys\n")
 
 
-def test_the_first_difference_is_a_failure_that_says_where_what_and_by_how_much(tmp_path: Path) -> None:
+def test_the_first_difference_is_a_failure_with_place_field_and_amount(tmp_path: Path) -> None:
     one, other = write(tmp_path / "a.mcap"), write(tmp_path / "b.mcap", changed_at=20)
     result = touchline("diff", one, other)
     assert result.exit_code == 1

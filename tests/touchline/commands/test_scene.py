@@ -112,7 +112,7 @@ def test_the_shipped_teams_play_every_scene(name: str) -> None:
     assert all(ways[side] > 0.05 for side in Side if config.robots(side))
 
 
-def test_the_scene_says_which_profile_and_rules_unless_the_match_does() -> None:
+def test_the_scene_selects_profile_and_rules_unless_the_match_does() -> None:
     assert (load_match(None, {"scene": "paper_static"}).profile, load_match(None).profile) == ("paper", "msl")
     assert load_match(None, {"scene": "paper_static", "profile": "msl"}).profile == "msl"
 

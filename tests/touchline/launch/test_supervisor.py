@@ -178,7 +178,7 @@ def test_a_child_has_its_own_environment_log_and_exit_status(tmp_path: Path) -> 
 
 
 @pytest.mark.processes
-def test_a_child_that_does_not_exist_says_so_in_its_log(tmp_path: Path) -> None:
+def test_a_program_that_does_not_exist_is_reported_in_its_log(tmp_path: Path) -> None:
     child = ChildProcess(Process("cyan1", ProcessKind.AGENT, ("no-such-program",), {}), tmp_path / "cyan1.log")
     assert wait_for(child) == 127
     assert child.last_lines() == ["no-such-program: No such file or directory"]
