@@ -143,7 +143,7 @@ class PageBroadcaster:
             await asyncio.sleep(_POLL_S)
 
     def _show(self) -> None:
-        """Send everybody the newest frame, put together once for all roles that see the same."""
+        """Send the newest frame to all pages; it is encoded once for all roles with the same view."""
         made: dict[tuple[Side, ...], str | None] = {}
         for role in self._pages.roles():
             sides = tuple(self._beliefs_of(role))

@@ -78,15 +78,15 @@ class Story:
         self.at_bad_messages = self.heard.tick
 
     def crashes(self):
-        self.program.says("cyan2 ended with status 1; not started again")
-        self.program.says("silent: cyan2")
+        self.program.wait_for_error("cyan2 ended with status 1; not started again")
+        self.program.wait_for_error("silent: cyan2")
 
     def killed(self):
         self.heard.update()
         before = self.heard.robot("cyan3").answers
         os.kill(self.program.process("cyan3"), signal.SIGKILL)
         self.heard.until(lambda heard: heard.silences("cyan3"), "cyan3 falling silent")
-        self.program.says("cyan3 was ended by SIGKILL; started again (1 of 3)")
+        self.program.wait_for_error("cyan3 was ended by SIGKILL; started again (1 of 3)")
         self.heard.until(
             lambda heard: heard.robot("cyan3").answering and heard.robot("cyan3").answers > before + 100,
             "answers of the new cyan3",

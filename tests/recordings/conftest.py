@@ -1,4 +1,4 @@
-"""A match made by hand on the in-process bus, for the recorder to record: every message is built here."""
+"""Recordings of matches on the in-process bus."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -80,13 +80,13 @@ def recorded(rig: RecorderRig) -> Recording:
 
 @pytest.fixture
 def make_fake_host() -> Callable[[Bus, Bus], FakeHost]:
-    """Seats a hand-made host on a bus of the test's own."""
+    """Makes a fake host on a bus of the test."""
     return lambda bus, robots: FakeHost(bus, robots, make_setup())
 
 
 @pytest.fixture
 def wait_until_written() -> Callable[[Any], None]:
-    """Waits until what a recorder has handed on is in its file."""
+    """Waits until the messages of a recorder are in its file."""
 
     def wait(rig) -> None:
         done = Event()

@@ -22,7 +22,7 @@ from sim_host.server.pace import Lockstep
 from support.fake_host import MATCH, FakeHost
 
 LIMIT_S = 90.0
-"""Only what never comes fails: a match that is stepped beside the bridges may take long on a busy machine."""
+"""Patience in s, longer than any wait on a busy machine: a test fails only if something never happens."""
 
 
 async def until(condition: Callable[[], Any], what: str = "") -> None:
@@ -38,7 +38,7 @@ class Attentive:
 
     def __init__(self) -> None:
         self.orders: list[CoachOrder] = []
-        """All that it was given, in order."""
+        """All received orders, in order."""
 
     def act(self, sight: Sight) -> Command:
         if sight.order is not None and (not self.orders or self.orders[-1] != sight.order):
@@ -48,7 +48,7 @@ class Attentive:
 
 
 class Pitch:
-    """A real host with a robot agent on every robot, stepped as fast as it goes."""
+    """A real host with a robot agent on every robot, stepped as fast as possible."""
 
     def __init__(self, medium: SharedState, config: MatchConfig) -> None:
         clock = SteppedClock()
@@ -88,7 +88,7 @@ class Bench:
     live: LiveMatch
     stop: asyncio.Event = field(default_factory=asyncio.Event)
     tasks: list[asyncio.Task[None]] = field(default_factory=list)
-    said: list[str] = field(default_factory=list)
+    logged: list[str] = field(default_factory=list)
     """Lines that services logged."""
 
     def start(self, service: Any) -> asyncio.Task[None]:

@@ -1,4 +1,4 @@
-"""A medium that loses messages on the way, as a network does."""
+"""An in-process bus that loses messages, as a network does."""
 
 from dataclasses import dataclass, field
 
@@ -10,20 +10,20 @@ from schemas.topic import Topic
 
 @dataclass
 class Losses:
-    """What is lost of one key."""
+    """The lost messages of one key."""
 
     numbers: set[int]
-    """Of the messages that do not arrive, from 1."""
+    """Numbers of the messages that do not arrive, from 1."""
     sent: list[bytes] = field(default_factory=list)
     """All payloads that were sent, lost or not."""
 
 
 @dataclass(eq=False)
 class LossyMedium(SharedState):
-    """Loses nothing until it is told to."""
+    """Loses the messages that `lose` names."""
 
     losses: dict[str, Losses] = field(default_factory=dict)
-    """By key below the match."""
+    """Key below the match → its losses."""
 
     def open_bus(self, match: str, clock: Clock) -> InProcessBus:
         return _LossyBus(match, clock, self, self.losses)

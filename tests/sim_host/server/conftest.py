@@ -1,4 +1,4 @@
-"""A host on the in-process bus: robots, recorders and strangers are seats beside it, and time passes by steps."""
+"""A host on the in-process bus with its clients; time passes in steps."""
 
 from collections.abc import Callable, Iterator
 from typing import Any

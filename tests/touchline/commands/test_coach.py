@@ -125,7 +125,7 @@ def test_the_state_of_a_match_that_waits_for_robots_has_the_number_of_present_on
     assert result.stderr == 'touchline: match "friendly" has not begun: 1 of 2 robots are connected\n'
 
 
-def test_a_host_that_does_not_reply_is_named(host: Host) -> None:
+def test_a_host_that_publishes_no_state_is_reported(host: Host) -> None:
     result = touchline("state")
     assert result.exit_code == 2
     assert 'match "friendly": the host publishes no state of it' in result.stderr
