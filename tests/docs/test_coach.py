@@ -1,4 +1,4 @@
-"""What the page on the coach gateway says: its tables name all that there is, its command lines can be typed."""
+"""The page on the coach gateway: its tables are complete, its command lines are valid."""
 
 import re
 from collections.abc import Callable

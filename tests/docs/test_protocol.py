@@ -1,4 +1,4 @@
-"""The protocol page: as fresh as the code, and what its text says of the code is so."""
+"""The protocol page: generated from this code, and its text agrees with the code."""
 
 import json
 import re

@@ -1,4 +1,4 @@
-"""The page on the rules is what the rules and rule books say now, and says of each what it has to say."""
+"""The page on the rules is generated from this code, and documents each rule completely."""
 
 from dataclasses import fields
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Test mode in the simulated world: each test does what its name says, in every team that ships.
+"""Test mode in the simulated world: each test performs its task, in every shipped team.
 
 The test modes are those of the NuBot coach, by name. The robots of the paper's first scene show them, with the
 noise of their profile, beside rivals that stand still.
@@ -21,7 +21,7 @@ from touchline.play import InProcessMatch
 
 BRAINS = {"simple": "robot_agent.teams.simple:Simple", "nubot": "robot_agent.teams.nubot:NuBot"}
 UNDISTURBED = {"rules": "friendly", "referee.mode": "manual"}
-"""Nobody stops the game for a ball that lies still."""
+"""No rule stops the game for a ball that lies still."""
 NEAR = 0.2
 """m; how near to its point a robot comes to rest, with the noise of its profile."""
 

@@ -55,7 +55,7 @@ RUBBISH = {
 
 
 class Story:
-    """What is done to the match, and what was heard of it; ticks are those at which the host was heard to say so."""
+    """Faults injected into the match, and the messages received; ticks are those of the host's messages."""
 
     def __init__(self, program, listener):
         self.program, self.heard = program, listener
@@ -136,7 +136,7 @@ def recording(story, folder):
 
 @pytest.fixture(scope="module")
 def inputs(recording):
-    """Tick → robot → what it was told."""
+    """Tick → robot → its input."""
     return {applied.tick: applied.inputs for _, applied in recording.decoded("host/applied") if applied.tick > 0}
 
 
@@ -146,7 +146,7 @@ def worlds(recording):
 
 
 def silences(recording, robot):
-    """Ticks at which a robot was said to fall silent and to answer, in turn."""
+    """Ticks at which a robot was reported silent and answering, in turn."""
     events = [event for _, event in recording.decoded("game/event") if event.kind == "agent" and event.robot == robot]
     assert [("does not" in event.text) for event in events] == [place % 2 == 0 for place in range(len(events))]
     return [event.tick for event in events]
@@ -269,5 +269,5 @@ def test_no_other_robot_missed_a_tick_meanwhile(story):
 
 def test_a_recorder_that_stood_still_for_a_moment_has_lost_nothing(recording):
     lost = {key: count.lost for key, count in recording.result.keys.items() if count.lost}
-    lost.pop("robot/magenta1/command", None)  # what its agent says first after its stop may go to a link that is gone
+    lost.pop("robot/magenta1/command", None)  # its agent's first message after its stop may be lost with the old link
     assert lost == {}

@@ -57,7 +57,7 @@ ASKED = {
 
 
 class Story:
-    """What is done to the match, and what was heard of it."""
+    """Faults injected into the match, and the messages received."""
 
     def __init__(self, program, listener, start, endpoint):
         self.program, self.heard, self._start, self._endpoint = program, listener, start, endpoint
@@ -135,7 +135,7 @@ def ball_lies(heard):
 
 
 def told_otherwise(inputs, robot):
-    """Ticks in which a robot was not told to circle though its newest answer was young, or to though it was old."""
+    """Ticks in which a robot did not circle although its newest command was young, or circled although it was old."""
     ticks = [tick for tick in inputs if inputs[tick][robot].answers_tick is not None]
     newest, wrong = inputs[ticks[0]][robot].answers_tick, []
     for tick in range(ticks[0], max(inputs) + 1):
@@ -158,7 +158,7 @@ def story(start, listen, folder, endpoint):
 
 @pytest.fixture(scope="module")
 def inputs(story):
-    """Tick → robot → what it was told."""
+    """Tick → robot → its input."""
     return {applied.tick: applied.inputs for applied in story.heard.applied if applied.tick > 0}
 
 

@@ -87,7 +87,7 @@ class Experiment:
         return False
 
     def _attended(self, coach: Bus) -> Bus:
-        """A seat whose questions are answered in the next tick: how long asking takes changes nothing of the match."""
+        """A bus whose queries are answered in the next tick: their duration does not change the match."""
         query = coach.query
 
         def query_and_tick(*words: Any, **more: Any) -> PendingReply:
@@ -205,7 +205,7 @@ COMMANDS = {
     ActionName.PENALTY: (Side.MAGENTA, Phase.PENALTY, TeamPhase.THEIR_PENALTY),
     ActionName.DROP_BALL: (None, Phase.DROP_BALL, TeamPhase.DROP_BALL),
 }
-"""The coach's basic commands: for whom, the phase they lead to, and that phase as cyan's robots are told of it."""
+"""The coach's basic commands: side, resulting phase, and that phase in the sights of cyan's robots."""
 
 
 @pytest.mark.parametrize("action", COMMANDS)
@@ -219,7 +219,7 @@ def test_one_every_robot_receives_the_coachs_command(static: Experiment, action:
     assert static.seen.state is not None and static.seen.state.phase is phase
     if phase is Phase.STOPPED:
         return
-    assert static.play(static.ball_lies_on_its_spot, 20.0)  # as soon as nobody stands there
+    assert static.play(static.ball_lies_on_its_spot, 20.0)  # as soon as no robot stands there
     reply = static.client.act(RefereeAction(action=ActionName.START))
     assert reply.accepted, reply.reason
     assert static.play(lambda: all(static.sights[name].game.running for name in CYAN), 1.0)

@@ -32,7 +32,7 @@ size = 1
 
 
 class Page:
-    """An open page that reads what it is told."""
+    """An open page that reads its messages."""
 
     def __init__(self, socket: ClientConnection, token: str) -> None:
         self.socket = socket
@@ -40,7 +40,7 @@ class Page:
         self._kept: list[dict[str, Any]] = []
 
     def wait_for_match(self) -> None:
-        """Until it is told what is played; that welcome is still to be heard."""
+        """Read until the welcome of a match, which is left to be read."""
         while (welcome := self.hear("welcome"))["setup"] is None:
             pass
         self._kept.append(welcome)
@@ -71,7 +71,7 @@ class Page:
 
 @contextmanager
 def page_at(address: str) -> Iterator[Page]:
-    """A page opened at the address that was said; like any page it comes again when it is sent away."""
+    """A page opened at the printed address; like any page it reconnects when it is disconnected."""
     origin, _, token = address.partition("/#token=")
     deadline = time.monotonic() + LIMIT
     while True:
@@ -92,7 +92,7 @@ def page_at(address: str) -> Iterator[Page]:
 
 
 def said_address(program: Any) -> str:
-    """Where a program says the referee's page is."""
+    """The address of the referee's page that a program prints."""
     deadline = time.monotonic() + LIMIT
     while True:
         found = re.search(r"(http://127\.0\.0\.1:\d+/#token=\S+)", program.out + program.err)

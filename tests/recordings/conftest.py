@@ -153,7 +153,7 @@ def record_match(
 
 @pytest.fixture(scope="session")
 def match_recorder() -> Callable[..., None]:
-    """Records any match in this process, as `record_match` says."""
+    """Records any match in this process; see `record_match`."""
     return record_match
 
 

@@ -153,7 +153,7 @@ def test_a_team_may_be_called_by_an_address_of_its_own(boxed: Any, until: Any) -
 
 
 def test_a_team_against_itself_is_distinguished_by_its_suffix(boxed: Any) -> None:
-    """RefBox tells teams apart by the network they connect from; here the address does not matter."""
+    """RefBox distinguishes teams by the network they connect from; here the address does not matter."""
 
     async def play() -> None:
         async with boxed(names={"teams.cyan.name": "Twins", "teams.magenta.name": "Twins"}) as (_, _, come):

@@ -1,4 +1,4 @@
-"""A page's server on a real port of loopback, a host that is a seat beside it, and visitors with real WebSockets."""
+"""A page's server on a port of loopback, a fake host on its bus, and visitors with real WebSockets."""
 
 import threading
 from collections.abc import Callable, Iterator

@@ -107,7 +107,7 @@ def test_a_filtered_recording_has_the_chosen_keys_and_seconds_byte_for_byte(run,
     assert part.manifest.made == "filtered"
     assert part.manifest.setup == recording.manifest.setup
     assert part.attachments == recording.attachments
-    assert part.manifest.latched_count == 1  # the state that was said at tick 0
+    assert part.manifest.latched_count == 1  # the state of tick 0
     wanted = [m for m in told(recording) if m[0].startswith("robot/") and 1_000_000_000 <= m[3] < 2_000_000_000]
     assert told(part)[1:] == wanted
     assert told(part)[0][0] == "game/state"

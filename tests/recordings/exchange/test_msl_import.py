@@ -1,4 +1,4 @@
-"""Real logs deviate from their schema: what can be read is, what cannot is counted and told."""
+"""Real logs deviate from their schema: readable data is read, the rest is counted and reported."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""The cursor: every message, from any time, of whole, cut and growing files; what is damaged is said."""
+"""The cursor: every message, from any time, of complete, truncated and growing files; damage is reported."""
 
 import random
 

@@ -17,7 +17,7 @@ from schemas.topics import RECORD_BATCH, RECORD_BATCHES
 
 @dataclass
 class Link:
-    """A host made by hand, and a reader whose link loses what it is told to lose."""
+    """A fake host, and a reader whose link loses chosen batches."""
 
     host: InProcessBus
     bus: InProcessBus

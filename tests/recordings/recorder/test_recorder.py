@@ -436,7 +436,7 @@ def test_a_recorder_that_stood_still_fetches_what_it_missed_however_long_that_wa
 
 
 def test_another_host_is_followed_from_its_beginning(rig):
-    """It counts its batches from 0 again; what the first had said last and was lost stays lost."""
+    """It counts its batches from 0 again; the last messages of the first host, which were lost, stay lost."""
     rig.play(range(20))
     break_link(rig)()
     first = rig.host

@@ -1,4 +1,4 @@
-"""What a recorder writes when it is told to choose, to split, to keep, to take snapshots, to pause."""
+"""The files of a recorder that selects keys, splits, keeps the newest files, takes snapshots or pauses."""
 
 import pytest
 from pydantic import ValidationError

@@ -1,4 +1,4 @@
-"""A recording of 200 ticks, a clock that passes when it is told to, and a player whose messages are kept."""
+"""A recording of 200 ticks, a stepped clock, and a player whose messages are kept."""
 
 from collections.abc import Callable
 

@@ -45,7 +45,7 @@ def test_a_match_of_ghosts_alone_is_the_recorded_match(played):
 
 
 def test_one_side_of_ghosts_does_what_it_did_whatever_the_other_does(played):
-    """Live robots see other noise from another seed: the world diverges, and ghosts are told what they were told."""
+    """Live robots see other noise from another seed: the world diverges, and ghosts keep their recorded inputs."""
     recorded, again = chains(played, ["magenta1", "magenta2"], seed=99)
     assert again[0] == recorded[0] and again[-1] != recorded[-1]
     ghost = Ghost("magenta1", inputs_of(played))

@@ -1,4 +1,4 @@
-"""The host of a replay, on the in-process bus: what is heard, who is answered, and what a recorder makes of it."""
+"""The host of a replay, on the in-process bus: its messages, its replies, and a recording of it."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -204,7 +204,7 @@ def test_it_follows_a_match_that_is_still_recorded(rig, room, wait_until_written
     heard = []
     while (received := worlds.receive()) is not None:
         heard.append(received.message().tick)
-    assert list(dict.fromkeys(heard)) == list(range(heard[0], 200))  # while it stood still, it said where again
+    assert list(dict.fromkeys(heard)) == list(range(heard[0], 200))  # a paused replay repeats its latched messages
 
 
 @pytest.mark.parametrize(

@@ -34,7 +34,7 @@ class Viewer:
         """Topic → log time and payload of what came."""
         self.sessions: list[str] = []
         self.states: list[tuple[int, int, float]] = []
-        """Status, time in ns and speed, as they were told."""
+        """Status, time in ns and speed, as published."""
         self.time_ns = -1
 
     def until(self, happened: Callable[[], object]) -> None:

@@ -1,4 +1,4 @@
-"""The player: what is said when, in which order, and what its controls do."""
+"""The player: times and order of its messages, and its controls."""
 
 import math
 
@@ -23,7 +23,7 @@ def test_at_any_rate_all_messages_are_published_in_the_recorded_order(make_playe
 
 @pytest.mark.parametrize("rate", [0.5, 1.0, 4.0])
 def test_messages_are_spaced_as_they_were(make_player_rig, rate):
-    """A message is said no sooner than its time and at the first look behind it, here of 1 ms."""
+    """A message is published not before its time, and at the first poll after it; polls are 1 ms apart."""
     played, said_at = make_player_rig(rate=rate), []
     for _ in range(round(4.2 / rate / 0.001)):
         before = len(played.published)

@@ -53,7 +53,7 @@ class Opened:
         self.until("window.touchline !== undefined && document.getElementById('pitch').style.height !== ''")
 
     def until(self, holds: str) -> None:
-        """Wait for the page; its own rules let nobody evaluate a text in it, so it is asked from outside."""
+        """Wait; the page's content security policy forbids evaluating text in it, so it is polled from outside."""
         for _ in range(500):
             if self.page.evaluate(holds):
                 return

@@ -1,4 +1,4 @@
-"""`touchline verify`: identical, or the first tick that differs, whoever changed what."""
+"""`touchline verify`: identical, or the first tick that differs, for every kind of change."""
 
 import math
 from pathlib import Path

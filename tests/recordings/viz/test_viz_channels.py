@@ -1,4 +1,4 @@
-"""What viewers draw, in the file: read with the stock readers alone, and in nobody's way."""
+"""The channels for viewers in a file: stock readers read them, and other tools ignore them."""
 
 from pathlib import Path
 

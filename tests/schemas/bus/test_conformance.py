@@ -68,7 +68,7 @@ def put_until_heard(put: Callable[[], None], subscription: Subscription) -> Any:
         count += 1
         first = subscription.receive(0.1)
     last = first
-    while last.stamp.sequence < count - 1:  # after the first all are heard, and in order
+    while last.stamp.sequence < count - 1:  # after the first, all arrive in order
         received = subscription.receive(SOON)
         assert received is not None
         last = received

@@ -47,7 +47,7 @@ class Reader:
 
 @pytest.fixture
 def reader() -> Reader:
-    """One who began before message 5, and has heard all since."""
+    """A reader that began before message 5 and has received all since."""
     reader = Reader()
     assert reader.hear(4, 5, 6, 7) == [4, 5, 6, 7]
     return reader

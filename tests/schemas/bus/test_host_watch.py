@@ -1,4 +1,4 @@
-"""Whether a host is there: a link that breaks is no farewell."""
+"""Presence of a host: a broken link does not mean that the host has left."""
 
 from dataclasses import dataclass, field
 
@@ -12,7 +12,7 @@ from schemas.process.clock import SteppedClock
 
 @dataclass
 class Client:
-    """A seat whose link can break, and the host's token."""
+    """A bus whose link can break, and the host's token."""
 
     host: InProcessBus
     bus: InProcessBus

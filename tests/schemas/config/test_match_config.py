@@ -1,4 +1,4 @@
-"""The match file: what it says is what is played, and a wrong word is named with file, key, value and remedy."""
+"""The match file: its values take effect, and a wrong one is reported with file, key, value and remedy."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""A coach's order says what it means, or is refused with the reason."""
+"""A coach's order is consistent, or refused with the reason."""
 
 import math
 from typing import Any

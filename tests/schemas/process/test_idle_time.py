@@ -1,4 +1,4 @@
-"""Work that can wait: done where nobody else wants a core, and all the same where there is none."""
+"""Work that can wait: done while a core is idle, and also where no core ever is."""
 
 import os
 import sys

@@ -1,4 +1,4 @@
-"""Robots off the field in a running simulation: set down beside it, at rest, told why, and back in time."""
+"""Robots off the field in a simulation: beside it, at rest, with the reason in their sights, and back in time."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -24,7 +24,7 @@ def simulation() -> Iterator[Simulation]:
 
 
 def step(simulation: Simulation, *actions: RefereeAction, silent: tuple[str, ...] = ()) -> TickResult:
-    """Everybody whose program is there drives ahead."""
+    """All robots with a program drive ahead."""
     tick = simulation.now.tick
     told = {
         name: Command(answers_tick=tick, drive=Drive(vx=0.5), radio=Radio(role="any"))

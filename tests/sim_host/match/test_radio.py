@@ -53,7 +53,7 @@ def test_a_delay_between_two_ticks_ends_at_the_later_one() -> None:
 
 
 def arrivals(air: RadioAir, words: int) -> dict[str, list[tuple[int, int]]]:
-    """Listener → (tick in which a word was said, ticks until it was heard) of cyan1's words, one in every tick.
+    """Receiver → (tick of sending, ticks until delivery) of cyan1's radio messages, one in every tick.
 
     A word that another has overtaken is never heard.
     """
@@ -96,7 +96,7 @@ def test_jitter_is_uniform_and_different_for_each_listener() -> None:
 
 
 def test_an_overtaken_radio_message_is_not_delivered() -> None:
-    """A listener keeps what was said last, and so hears ever newer words."""
+    """A receiver keeps the newest message, so messages only get newer."""
     came = arrivals(radio(replace(CLEAR, jitter=0.2)), 500)
     for times in came.values():
         said = [tick for tick, _ in times]

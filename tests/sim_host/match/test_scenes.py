@@ -59,7 +59,7 @@ def robot(name: str, x: float, y: float, **more: Any) -> SceneRobot:
 
 
 def busy(simulation: Simulation, ticks: int) -> list[TickResult]:
-    """Everybody drives about, dribbles, kicks and speaks."""
+    """All robots drive, dribble, kick and send radio messages."""
     played = []
     for count in range(ticks):
         said = {

@@ -1,4 +1,4 @@
-"""Sights as they are sent: what the sensors gave, as the message that `schemas.messages.sight` says."""
+"""Sights as they are sent: percepts in the message of `schemas.messages.sight`."""
 
 import math
 from collections.abc import Iterator

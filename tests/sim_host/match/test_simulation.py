@@ -55,7 +55,7 @@ def sight(tick: TickResult, robot: str) -> Sight:
 
 
 def play(simulation: Simulation, ticks: int) -> list[str]:
-    """Everybody drives and speaks; the hash chain of every tick."""
+    """All robots drive and send radio messages; the hash chain of every tick."""
     chains = []
     for _ in range(ticks):
         said = {

@@ -227,7 +227,7 @@ def test_a_forfeit_takes_nothing_from_a_greater_lead_and_turns_a_deficit_round(r
 
 
 def test_where_both_sides_have_as_few_robots_left_neither_wins(rig):
-    """Nobody is favoured by coming first in the roster."""
+    """The first robots of the roster have no advantage."""
     rig.playing()
     gone = [f"{side.value}{number}" for side in Side for number in range(2, 6)]
     for _ in range(round((rig.book.people.silent_limit + 1.0) / rig.dt)):

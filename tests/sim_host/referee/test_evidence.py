@@ -10,7 +10,7 @@ CYAN, MAGENTA = Side.CYAN, Side.MAGENTA
 
 @pytest.fixture
 def played(new_rig):
-    """A rig of the league in play, where nobody is near the ball."""
+    """A rig of the league in play, with no robot near the ball."""
     return new_rig().playing((1.0, 0.0))
 
 

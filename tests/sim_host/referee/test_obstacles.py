@@ -117,7 +117,7 @@ def test_placing_the_ball_on_an_occupied_place_is_refused(new_rig):
 
 
 def test_no_robot_with_a_wrong_position_is_placed_in_an_obstacle(new_rig):
-    """A wall on one side of the ball: whoever is moved goes to the other."""
+    """A wall on one side of the ball: robots that are moved go to the other side."""
     rig = new_rig()
     walls = tuple(pillar(x / 2, y, 0.25) for x in range(-12, 13) for y in (2.6, 3.1, 3.6))
     rig.tick((3.0, 3.0))

@@ -13,7 +13,7 @@ SPOT = (2.0, 1.0)
 
 
 def taken(rig, phase="free_kick", side=CYAN, spot=SPOT):
-    """A restart of a side has been started and nobody has touched the ball."""
+    """A restart of a side has been started and no robot has touched the ball."""
     rig.playing()
     rig.ask(phase, side, None if phase in ("penalty", "kick_off") else spot)
     rig.until(lambda state: state.running)

@@ -167,7 +167,7 @@ def test_every_number_of_sensing_changes_what_is_perceived(world):
         made[field.name] = world(sensing=replace(base, **{field.name: changed}))
     same = set(made)
     for tick in range(300):
-        if tick == 100:  # somebody steps before the ball
+        if tick == 100:  # a robot steps before the ball
             for one in (plain, *made.values()):
                 one.move(1, -1.0, 1.5)
         expected = plain.look()

@@ -25,7 +25,7 @@ def rig_of() -> Iterator[Callable[..., HostRig]]:
 
 @pytest.fixture
 def rig(rig_of: Callable[..., HostRig]) -> HostRig:
-    """A small lockstep match at tick 0, everybody there."""
+    """A small lockstep match at tick 0 with all agents."""
     rig = rig_of()
     rig.join_all()
     rig.begin()

@@ -1,4 +1,4 @@
-"""What the host tells coaches of their orders.
+"""The host's messages about the orders of coaches.
 
 Several robots receive each order; in the paper, the coach's socket reached one robot only. Each
 order has a number, and each robot acknowledges it.
@@ -16,7 +16,7 @@ from schemas.topics import ACTIVE_ORDER, INVALID, ORDER, SETUP
 
 
 class Obedient:
-    """Acknowledges each order, unless told not to."""
+    """Acknowledges each order, unless disabled."""
 
     def __init__(self) -> None:
         self.deaf = False

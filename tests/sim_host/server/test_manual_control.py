@@ -12,7 +12,7 @@ from touchline.drive.keys import Speeds
 
 
 class Talker:
-    """Drives ahead and says so."""
+    """Drives ahead and sends a radio message."""
 
     def act(self, sight):
         return Command(answers_tick=sight.tick, drive=Drive(vx=1.0), radio=Radio(role="talker"))
@@ -89,7 +89,7 @@ def typed(rig, *texts):
 
 
 def attended(rig):
-    """A seat from which a question is answered while it waits."""
+    """A bus whose queries are answered while it waits."""
     bus = rig.seat()
     query = bus.query
 

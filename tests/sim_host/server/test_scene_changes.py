@@ -1,4 +1,4 @@
-"""Scenes on the bus: robots come and go while the host runs, and everybody is told."""
+"""Scenes on the bus: robots come and go while the host runs, and all clients are notified."""
 
 import pytest
 

@@ -19,7 +19,7 @@ from touchline.commands import coach
 
 
 class TalkingClock(SteppedClock):
-    """Lets the host say its piece whenever somebody waits."""
+    """Lets the host publish whenever a client waits."""
 
     __slots__ = ("host",)
 

@@ -23,7 +23,7 @@ def touchline(*words: str | Path) -> Result:
 
 
 def write(path: Path, *, changed_at: int = -1, count: int = 50, missing: int = 0) -> Path:
-    """Game states, one in each tick; one of them says something else, and some numbers are missing at the end."""
+    """Game states, one in each tick; one of them differs, and some numbers are missing at the end."""
     clock = SteppedClock()
     writer = RecordingWriter(path, clock, "friendly")
     writer.begin(make_manifest("friendly", "test", clock, None, load_match(None), sights=False), {})

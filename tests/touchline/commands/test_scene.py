@@ -98,7 +98,7 @@ def test_the_scenes_are_listed_with_a_sentence_each_and_shown() -> None:
 
 @pytest.mark.parametrize("name", shipped_scenes())
 def test_the_shipped_teams_play_every_scene(name: str) -> None:
-    """Somebody of each side that has an agent moves within two seconds."""
+    """A robot of each side that has an agent moves within two seconds."""
     config = load_match(None, {"scene": name})
     ways = dict.fromkeys(Side, 0.0)
     table = InProcessMatch(config)

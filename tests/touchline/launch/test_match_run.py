@@ -57,7 +57,7 @@ LOSES = "import sys; sys.exit('disk full')"
 
 
 class WatchedScreen(PlainScreen):
-    """Leaves a file for the host when play is seen and `awaited` was said, so that its next words come in time."""
+    """Leaves a file for the host when play is seen and `awaited` was printed, so that its next lines come in time."""
 
     def __init__(self, words: io.StringIO, clock: WallClock, seen: Path, awaited: str) -> None:
         super().__init__(words, clock)

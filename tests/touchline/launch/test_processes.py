@@ -44,7 +44,7 @@ def test_a_friendly_has_a_host_a_recorder_and_ten_agents() -> None:
 
 @pytest.mark.parametrize("name", ["host", "recorder", "page", "bridges"])
 def test_no_robot_is_called_as_another_process_of_the_match(name: str) -> None:
-    """The supervisor knows processes by their names: such a robot took the host's place, and nobody played."""
+    """The supervisor knows processes by their names: such a robot took the host's place, and no match was played."""
     with pytest.raises(TouchlineError, match=f'a robot is named "{name}", as a process of the match is; rename it'):
         check_robot_names(load_match(None, {"teams.magenta.robots": ["magenta1", name]}))
     check_robot_names(load_match(None))

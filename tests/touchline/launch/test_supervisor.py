@@ -11,7 +11,7 @@ from touchline.launch.supervisor import AFTER_THE_MATCH, AT_ONCE, Supervisor
 
 
 class Actor:
-    """A process that plays its part: runs until it is told to end, or ends with a status when the test says so."""
+    """A process that plays its part: runs until it is signalled, or ends with a status when the test sets one."""
 
     def __init__(self, name: str, clock: SteppedClock, deaf_to: frozenset[signal.Signals] = frozenset()) -> None:
         self.name = name

@@ -122,7 +122,7 @@ def test_no_message_is_lost_if_the_link_breaks_again_during_recovery(ends: tuple
             say(1000)
         cable.left, cable.whole = carried, True
         while cable.left is not None:
-            say(2)  # whoever hears this sees what is missing
+            say(2)  # its reader detects the gap
             time.sleep(0.05)
         say(2)
         heard += hear(reader, said - 1 - heard[0])
@@ -131,7 +131,7 @@ def test_no_message_is_lost_if_the_link_breaks_again_during_recovery(ends: tuple
 
 
 def test_the_first_message_of_a_key_arrives_even_if_the_link_was_down_when_it_was_sent(ends: tuple[Bus, Cable]) -> None:
-    """Before a first message nobody sees a gap, unless its number says that it is not the first."""
+    """Before a first message no gap is visible, unless its number shows that it is not the first."""
     host, cable = ends
     with open_client("test", WallClock(), cable.endpoint, patience=LIMIT) as client:
         reader = client.subscribe(STATE)

@@ -63,7 +63,7 @@ with open_host("test", WallClock(), sys.argv[1]) as bus:
     print("said", flush=True)
     sys.stdin.read()
 """
-"""A host that said more than a socket swallows before anybody came, and keeps it for those who come late."""
+"""A host that published more than a socket buffers before any client joined, and keeps it for late ones."""
 LATE = """
 import sys
 from schemas.bus.zenoh.bus import open_client

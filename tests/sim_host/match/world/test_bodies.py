@@ -1,4 +1,4 @@
-"""Bodies of robots and of what stands on the pitch: as the profile says, upright, and never in each other."""
+"""Bodies of robots and fixed objects: sized as in the profile, upright, and never in each other."""
 
 import itertools
 import math
