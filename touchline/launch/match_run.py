@@ -103,7 +103,7 @@ class MatchRun:
                 self._supervisor.end(AT_ONCE)
                 raise
             if follower is not None:  # without a host there is no match to record
-                self._supervisor.end(AFTER_THE_MATCH, hurried=lambda: stop.received is not None)
+                self._supervisor.end(AFTER_THE_MATCH, should_abort=lambda: stop.received is not None)
             self._supervisor.end(AT_ONCE)  # the remaining processes, after an interrupt
         if stop.received is not None:
             raise InterruptedMatchError(stop.received)
@@ -115,7 +115,7 @@ class MatchRun:
     def _launch_clients(self, stop: StopSignals) -> bool:
         """Launch all other processes as soon as the host listens; False if it never does."""
         self._screen.status("waiting for the host")
-        while self._is_going(stop):
+        while self._poll_processes(stop):
             announcement = announcement_in(self._plan.announcement)
             if announcement is not None:
                 self._plan = replace(self._plan, listen=announcement.endpoint)
@@ -131,7 +131,7 @@ class MatchRun:
             return None
         with bus:
             follower = MatchFollower(bus)
-            while self._is_going(stop):
+            while self._poll_processes(stop):
                 self._show(follower)
                 self._clock.sleep_until(self._clock.now() + _POLL)
             deadline = self._clock.now() + _LAST_MESSAGES
@@ -141,7 +141,7 @@ class MatchRun:
         return follower
 
     def _connect(self, stop: StopSignals) -> Bus | None:
-        while self._is_going(stop):
+        while self._poll_processes(stop):
             self._screen.status("waiting for the host")
             try:
                 return open_client(self._plan.config.name, self._clock, self._plan.connect, patience=0.0)
@@ -149,7 +149,7 @@ class MatchRun:
                 self._clock.sleep_until(self._clock.now() + _POLL)
         return None
 
-    def _is_going(self, stop: StopSignals) -> bool:
+    def _poll_processes(self, stop: StopSignals) -> bool:
         for notice in self._supervisor.check():
             self._screen.warn(notice.sentence)
             for line in notice.log:
@@ -170,7 +170,7 @@ class MatchRun:
         status = self._supervisor.host_status
         if status == 0 and follower is not None and not follower.finished:
             # this process may have missed the last messages if it was stalled; the host waits for the recorder
-            self._report(follower, follower.complete(self._recorded(self._plan)))
+            self._report(follower, follower.merge_recorded(self._recorded(self._plan)))
         if status == 0 and follower is not None and follower.finished:
             return self._result(follower)
         log = self._supervisor.last_lines("host")

@@ -19,7 +19,7 @@ from schemas.bus.contract import (
     full_key,
 )
 from schemas.bus.find_host import endpoint_of
-from schemas.bus.mailbox import EveryMailbox
+from schemas.bus.mailbox import FifoMailbox
 from schemas.bus.zenoh.match_at import match_at
 from schemas.bus.zenoh.newest import ZenohNewest
 from schemas.bus.zenoh.presence import ZenohPresenceWatch
@@ -76,7 +76,7 @@ class ZenohBus(Bus):
         self.endpoint = endpoint
         """Where the host listens; of a client, where it is connected."""
         self._context = SessionContext(session, key_prefix(match), clock, is_client, WaitTimer(clock), self)
-        self._mailboxes: list[EveryMailbox[Any]] = []
+        self._mailboxes: list[FifoMailbox[Any]] = []
         self._subscriptions: list[ZenohReader] = []
         self._tokens: dict[str, zenoh.LivelinessToken] = {}
         _close_at_exit(self)
