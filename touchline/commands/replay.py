@@ -87,9 +87,9 @@ def replay(
     from recordings.replay.replay import Replay, ReplaySettings
     from schemas.process.clock import WallClock
     from touchline.launch.match_run import StopSignals
-    from touchline.launch.page import page_settings, serve_page_beside
+    from touchline.launch.page import open_page, serve_page_beside
 
-    web_settings = page_settings(page) if web else None
+    opened_page = open_page(page) if web else None
     settings = ReplaySettings(
         file,
         start=start,
@@ -111,10 +111,10 @@ def replay(
         bus = stack.enter_context(_open_bus(name, clock, connect, listen))
         stop = stack.enter_context(StopSignals())  # before any address is printed
         look_after: Callable[[], list[Notice]] = list
-        if web_settings is not None:
+        if opened_page is not None:
             log = partial(typer.echo, err=True)
             look_after = stack.enter_context(
-                serve_page_beside(name, local_endpoint(bus.endpoint), web_settings, clock, log)
+                serve_page_beside(name, local_endpoint(bus.endpoint), opened_page, clock, log)
             )
         view = stack.enter_context(_live_view(opened, foxglove_port)) if foxglove else None
         began = clock.now()

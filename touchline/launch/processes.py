@@ -1,5 +1,6 @@
 """The processes of a match: the table of kinds, and the programs to launch for a match file."""
 
+import socket
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -82,6 +83,17 @@ class Process:
     settings: Settings | None = None
     """The content of `settings_file`; None for a team's own program."""
     settings_file: Path | None = None
+    sockets: tuple[socket.socket, ...] = ()
+    """Bound sockets that it inherits, also when it is started again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """A page to be served."""
+
+    settings: WebSettings
+    listener: socket.socket
+    """A browser that connects before the page is served waits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,10 +110,12 @@ class MatchPlan:
     """The recording to write; None for no recording."""
     warning: str = ""
     """A warning to print before the match begins; empty for none."""
-    page: WebSettings | None = None
+    page: Page | None = None
     """The match's page; None for no page."""
     bridges: BridgeOptions = NO_BRIDGES
     """The bridges beside the page."""
+    bridge_sockets: tuple[socket.socket, ...] = ()
+    """The bound sockets of the bridges, in the order in which they are inherited."""
     launch_token: str | None = None
     """Secret by which the host knows the agents of this launch; None admits every agent."""
 
@@ -168,16 +182,17 @@ def client_processes(plan: MatchPlan) -> list[Process]:
         processes += [_robot_process(robot, side, plan) for robot in config.robots(side)]
     gateway = GatewaySettings(connect=connect, match=match, tokens=plan.tokens)
     if plan.page is not None:
-        processes.append(page_process(gateway.model_copy(update={"web": plan.page}), folder))
+        settings = gateway.model_copy(update={"web": plan.page.settings})
+        processes.append(page_process(settings, plan.page.listener, folder))
     if plan.bridges.wanted:
         bridges = gateway.model_copy(update={"bridges": plan.bridges})
-        processes.append(_process("bridges", ProcessKind.BRIDGES, bridges, folder))
+        processes.append(_process("bridges", ProcessKind.BRIDGES, bridges, folder, sockets=plan.bridge_sockets))
     return processes
 
 
-def page_process(settings: GatewaySettings, folder: Path) -> Process:
+def page_process(settings: GatewaySettings, listener: socket.socket, folder: Path) -> Process:
     """The program that serves the page of a match, or of a replay."""
-    return _process("page", ProcessKind.PAGE, settings, folder)
+    return _process("page", ProcessKind.PAGE, settings, folder, sockets=(listener,))
 
 
 def _robot_process(robot: str, side: Side, plan: MatchPlan) -> Process:
@@ -211,7 +226,8 @@ def _process(
     settings: Settings,
     folder: Path,
     environment: Mapping[str, str] = MappingProxyType({}),
+    sockets: tuple[socket.socket, ...] = (),
 ) -> Process:
     row, file = PROCESSES[kind], folder / f"{name}.json"
     command = (sys.executable, "-m", row.module, "--settings", str(file))
-    return Process(name, kind, command, {**COMMON_ENVIRONMENT, **environment}, row.restarts, settings, file)
+    return Process(name, kind, command, {**COMMON_ENVIRONMENT, **environment}, row.restarts, settings, file, sockets)

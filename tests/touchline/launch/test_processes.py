@@ -1,4 +1,5 @@
 import re
+import socket
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -19,6 +20,7 @@ from sim_host.server.settings import HostSettings
 from touchline.launch.processes import (
     PROCESSES,
     MatchPlan,
+    Page,
     Process,
     ProcessKind,
     check_robot_names,
@@ -97,7 +99,9 @@ def test_a_team_with_a_command_gets_its_robot_in_environment_variables() -> None
 def test_a_page_is_launched_where_one_is_wanted_with_its_tokens_in_a_file() -> None:
     assert "page" not in by_name(plan())
     web = WebSettings(port=8081)
-    page = by_name(replace(plan(), page=web))["page"]
+    with socket.socket() as listener:
+        page = by_name(replace(plan(), page=Page(web, listener)))["page"]
+    assert page.sockets == (listener,)
     assert page.settings == GatewaySettings(**JOINED, tokens=Path("runs/one/tokens.json"), web=web)
     assert page.restarts == 3
 
