@@ -10,6 +10,7 @@ from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import event_line
 from schemas.bus.announcement import announcement_in
 from schemas.bus.contract import Bus, BusError, ReceivedMessage
+from schemas.bus.endpoint import DEFAULT_ENDPOINT, local_endpoint
 from schemas.bus.zenoh.bus import open_client
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.game import GameEvent, GameState
@@ -118,6 +119,8 @@ class MatchRun:
         while self._poll_processes(stop):
             announcement = announcement_in(self._plan.announcement)
             if announcement is not None:
+                is_unexpected = announcement.endpoint != local_endpoint(self._plan.listen or DEFAULT_ENDPOINT)
+                self._screen.event(f'match "{announcement.match}" on {announcement.endpoint}', notable=is_unexpected)
                 self._plan = replace(self._plan, listen=announcement.endpoint)
                 self._supervisor.add(client_processes(self._plan))
                 return True
