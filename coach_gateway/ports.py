@@ -25,7 +25,11 @@ class InheritedSockets:
 
     def next(self) -> socket.socket | None:
         """The next socket, or None if there is no further one."""
-        return socket.socket(fileno=self._handles.pop(0)) if self._handles else None
+        if not self._handles:
+            return None
+        inherited = socket.socket(fileno=self._handles.pop(0))
+        inherited.set_inheritable(False)
+        return inherited
 
 
 def inheritance_of(sockets: Sequence[socket.socket]) -> dict[str, str]:

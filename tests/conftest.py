@@ -39,6 +39,11 @@ def pytest_configure() -> None:
     open_host("first", WallClock(), with_free_port("tcp/127.0.0.1:0")).close()
 
 
+def pytest_unconfigure() -> None:
+    """Remove the announcements of the tests' hosts."""
+    shutil.rmtree(os.environ["XDG_RUNTIME_DIR"], ignore_errors=True)
+
+
 @pytest.fixture(scope="session")
 def simulated_again() -> Callable[[MatchConfig, Sequence[bytes]], list[str]]:
     """Gives the hash chain of every tick of a match, from what a recording keeps of it alone."""

@@ -18,7 +18,6 @@ from schemas.bus.contract import (
     check_publishable,
     full_key,
 )
-from schemas.bus.find_host import endpoint_of
 from schemas.bus.mailbox import FifoMailbox
 from schemas.bus.zenoh.match_at import match_at
 from schemas.bus.zenoh.newest import ZenohNewest
@@ -56,7 +55,10 @@ def open_client(match: str | None, clock: Clock, connect: str | None = None, pat
         TouchlineError: no endpoint is given, and several matches run on this machine.
         BusError: no host answers at the endpoint, or no match is played there.
     """
-    connect = connect or endpoint_of(match)
+    if connect is None:
+        from schemas.bus.find_host import endpoint_of  # needs file locks, which not every system of a robot has
+
+        connect = endpoint_of(match)
     deadline = clock.now() + patience
     session = open_connection(connect, clock, patience)
     try:
