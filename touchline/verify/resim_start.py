@@ -14,11 +14,15 @@ from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.profile import STANDARD
 from schemas.config.roster import RosterEntry
 from schemas.errors import TouchlineError
+from schemas.messages.applied import Applied
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.wire.message import BadMessageError
 from sim_host.match.live_parameters import LiveParameters
+from sim_host.match.referee_factory import opening_state
 from sim_host.match.resimulation import CheckpointState, Conditions, ImpossibleTickError, parameters_of
+from sim_host.referee.game.referee_state import RefereeState
+from touchline.verify.verdict import Detail
 
 
 def resim_start(
@@ -42,6 +46,35 @@ def resim_start(
     for one in changes:
         conditions = conditions.after(one)
     return conditions, known
+
+
+def tick_length(recording: Recording) -> float:
+    """The control tick of the match in s.
+
+    Raises:
+        TouchlineError: the recording has neither setup nor match file.
+    """
+    setup, config = recording.manifest.setup, config_of(recording)
+    if setup is not None:
+        return setup.time.tick
+    if config is None:
+        raise TouchlineError(f"{recording.path}: the setup of the match is missing; record it with its host")
+    return config.load_profile().time.tick
+
+
+def opening_conflict(recording: Recording, applied: Applied, state: RefereeState) -> list[Detail]:
+    """Where tick 0 differs from the match file: its digest, and the state of the game that its scene begins with."""
+    config = config_of(recording)
+    if config is None or recording.manifest.missing_scene is not None:
+        return []
+    found = []
+    if applied.config and applied.config != config.digest():
+        found.append(Detail("match file", "digest", applied.config, config.digest()))
+    expected = opening_state(config)
+    if state != expected:
+        pairs = zip(RefereeState._fields, state, expected, strict=True)
+        found += [Detail("referee", name, theirs, ours) for name, theirs, ours in pairs if theirs != ours]
+    return found
 
 
 def config_of(recording: Recording) -> MatchConfig | None:
