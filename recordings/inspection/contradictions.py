@@ -1,7 +1,7 @@
 """Finds where a recording contradicts itself: its sealed result, its manifest, its attachments, its messages."""
 
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from itertools import islice
 from typing import Any
 
@@ -67,9 +67,9 @@ def record_faults(recording: Recording) -> list[str]:
         count = trackers[key].count() if key in trackers else KeyCount()
         sealed = result.keys.get(key, KeyCount())
         # a later file of a split recording, or a copy, does not show what was lost before its first message
-        names = ("messages", "bytes", "lost", "duplicates")
-        if sealed.lost and recording.manifest.part > 1:
-            names = ("messages", "bytes")
+        names = ["messages", "bytes"]
+        if not sealed.lost or recording.manifest.part == 1:
+            names += ["lost", "duplicates"]
         found += [
             f"{key}: {getattr(count, name)} {name} in the file, {getattr(sealed, name)} in the result"
             for name in names
@@ -156,11 +156,8 @@ def _of_ending(result: Result, recording: Recording) -> Iterator[str]:
         return
     state: GameState | None = _last(recording, STATE.key)
     if state is not None:
-        pairs: Iterable[tuple[str, Any, Any]] = (
-            ("score", result.score, state.score),
-            ("phase", result.phase, state.phase),
-        )
-        for name, sealed, recorded in pairs:
+        for name in ("score", "phase"):
+            sealed, recorded = getattr(result, name), getattr(state, name)
             if sealed != recorded:
                 yield f"the {name} is {_text(sealed)} in the result, {_text(recorded)} in the last {STATE.key}"
     applied: Applied | None = _last(recording, APPLIED.key)

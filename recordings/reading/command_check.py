@@ -72,8 +72,10 @@ class CommandCheck:
         kept = self._sent.setdefault(robot, {})
         sent = _SentCommand(recorded, fields)
         kept.setdefault(answers, []).append(sent)
-        if self._unsent.get(robot):
-            self._unsent[robot] = [one for one in self._unsent[robot] if not _has_radio(sent, one.radio, one.recorded)]
+        unsent = self._unsent.get(robot)
+        if unsent:
+            radio = fields.get("radio")
+            self._unsent[robot] = [one for one in unsent if one.radio != radio]
         if len(kept) > _KEPT:
             del kept[next(iter(kept))]
 
@@ -95,8 +97,27 @@ class CommandCheck:
             return
         radio = fields.get("radio")
         newest = islice(reversed(self._sent.get(robot, {}).values()), _RADIO_COMMANDS)
-        if not any(_has_radio(one, radio, recorded) for commands in newest for one in commands):
-            self._unsent.setdefault(robot, []).append(_PendingBelief(tick, recorded, radio))
+        if any(one.fields.get("radio") == radio for commands in newest for one in commands):
+            return
+        unsent = self._unsent.setdefault(robot, [])
+        unsent.append(_PendingBelief(tick, recorded, radio))
+        if len(unsent) > _KEPT // 2:
+            self._resolve_beliefs(robot)
+
+    def _resolve_beliefs(self, robot: str) -> None:
+        """Compare beliefs with commands as messages, whatever JSON the program writes that sent them."""
+        radios = []
+        for one in [one for commands in self._sent.get(robot, {}).values() for one in commands]:
+            if one.fields.get("radio") is not None:
+                with suppress(BadMessageError):
+                    radios.append(one.recorded.message().radio)
+        for belief in self._unsent.pop(robot, []):
+            try:
+                was_sent = belief.recorded.message().radio in radios
+            except BadMessageError:
+                was_sent = False
+            if not was_sent:
+                self._mismatches.append(CommandMismatch(belief.tick, robot, "belief", belief.radio, None))
 
     def mismatches(self) -> list[CommandMismatch]:
         """All mismatches by tick, after the last command and the last applied inputs were added."""
@@ -107,21 +128,9 @@ class CommandCheck:
             else:
                 self._mismatches += _compare(tick, robot, input_, sent)
         self._pending = {}
-        for robot, beliefs in self._unsent.items():
-            self._mismatches += [CommandMismatch(one.tick, robot, "belief", one.radio, None) for one in beliefs]
-        self._unsent = {}
+        for robot in list(self._unsent):
+            self._resolve_beliefs(robot)
         return sorted(self._mismatches, key=_tick_of)
-
-
-def _has_radio(sent: _SentCommand, radio: Any, belief: RecordedMessage) -> bool:
-    """Whether a command has the radio message of a belief, whatever JSON its program writes."""
-    if sent.fields.get("radio") == radio:
-        return True
-    if sent.fields.get("radio") is None:
-        return False
-    with suppress(BadMessageError):
-        return bool(sent.recorded.message().radio == belief.message().radio)
-    return False
 
 
 def _tick_of(candidate: CommandMismatch) -> int:

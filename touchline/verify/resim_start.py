@@ -134,14 +134,18 @@ def _robots(recording: Recording) -> Iterable[RosterEntry]:
     """
     manifest = recording.manifest
     for side in Side:
+        has_keeper = True
         if manifest.setup is not None:
+            has_keeper = manifest.setup.teams[side].goalkeeper
             names, types = manifest.setup.teams[side].robots, manifest.setup.teams[side].types
         elif manifest.config is not None:
             need_scene(recording)
             names, types = manifest.config.robots(side), manifest.config.team(side).types
         else:
             return
-        yield from (RosterEntry(name=name, side=side, type=types.get(name, STANDARD)) for name in names)
+        for number, name in enumerate(names):
+            keeper = has_keeper and number == 0
+            yield RosterEntry(name=name, side=side, type=types.get(name, STANDARD), keeper=keeper)
 
 
 def _obstacles(world: World) -> Iterable[StaticObstacle]:
