@@ -5,12 +5,10 @@ self-contained.
 """
 
 import tomllib
-from hashlib import blake2b
 from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import Field, field_validator, model_validator
-from pydantic_core import to_json
 
 from schemas.config.noise import PRESETS
 from schemas.config.obstacle import Shape, StaticObstacle
@@ -248,14 +246,6 @@ class MatchConfig(Part):
         if self.profile_tables is None:
             return load_profile(self.profile)
         return profile_of(self.profile, self.profile_tables)
-
-    def digest(self) -> str:
-        """blake2b of everything that influences the match but the profile, hex; values at their default do not count.
-
-        A later version with more keys computes the same digest for the same match file.
-        """
-        apart = {"profile_tables", "record", "patience"}
-        return blake2b(to_json(self.model_dump(mode="json", exclude=apart, exclude_defaults=True))).hexdigest()[:32]
 
     @property
     def speed(self) -> float | None:

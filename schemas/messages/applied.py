@@ -78,8 +78,6 @@ class Applied(Message):
     """The operators' changes before this tick, in their order."""
     referee: str = ""
     """At a checkpoint, the complete state of the referee before it judged this tick, as JSON; otherwise empty."""
-    config: str = ""
-    """At tick 0, the digest of the match file (`schemas.config.match_config.MatchConfig.digest`); otherwise empty."""
     chain: str
     """blake2b over the state of this tick and all other fields of this message, keyed with the chain before it; hex."""
 

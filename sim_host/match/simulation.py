@@ -201,7 +201,7 @@ class Simulation:
             sights=self._subsystems.sights.at(
                 snapshot, self.state, self.episode, stuck, self.orders, {}, {}, _discard_sight
             ),
-            **self._applied(snapshot, {}, changes, {"referee": state_json(self.state), "config": self.config.digest()}),
+            **self._applied(snapshot, {}, changes, self._officiating_inputs(changes, (), ())),
         )
 
     def _apply_pending(self) -> PendingChanges:

@@ -14,7 +14,6 @@ from schemas.config.obstacle import Shape, StaticObstacle
 from schemas.config.profile import STANDARD
 from schemas.config.roster import RosterEntry
 from schemas.errors import TouchlineError
-from schemas.messages.applied import Applied
 from schemas.messages.world import World
 from schemas.side import Side
 from schemas.wire.message import BadMessageError
@@ -62,19 +61,14 @@ def tick_length(recording: Recording) -> float:
     return config.load_profile().time.tick
 
 
-def opening_conflict(recording: Recording, applied: Applied, state: RefereeState) -> list[Detail]:
-    """Where tick 0 differs from the match file: its digest, and the state of the game that its scene begins with."""
+def opening_conflict(recording: Recording, state: RefereeState) -> list[Detail]:
+    """Where the state of the referee at tick 0 is not the one with which the match file begins."""
     config = config_of(recording)
     if config is None or recording.manifest.missing_scene is not None:
         return []
-    found = []
-    if applied.config and applied.config != config.digest():
-        found.append(Detail("match file", "digest", applied.config, config.digest()))
     expected = opening_state(config)
-    if state != expected:
-        pairs = zip(RefereeState._fields, state, expected, strict=True)
-        found += [Detail("referee", name, theirs, ours) for name, theirs, ours in pairs if theirs != ours]
-    return found
+    pairs = zip(RefereeState._fields, state, expected, strict=True)
+    return [Detail("referee", name, theirs, ours) for name, theirs, ours in pairs if theirs != ours]
 
 
 def config_of(recording: Recording) -> MatchConfig | None:

@@ -90,7 +90,7 @@ class SegmentCheck:
         if self._events:
             found += event_differences(record.events, judged)
         if applied.tick == 0 and self._referee is not None:
-            found += opening_conflict(self._recording, applied, self._referee.state)
+            found += opening_conflict(self._recording, self._referee.state)
         if not math.isclose(applied.time, applied.tick * self._tick_s, abs_tol=1e-9):
             found.append(Detail("host/applied", "time", applied.time, applied.tick * self._tick_s))
         return found

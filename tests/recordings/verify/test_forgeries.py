@@ -293,16 +293,6 @@ def test_info_and_verify_name_what_does_not_fit_the_messages(honest: Path, rewri
     assert f"the recording contradicts itself: {expected}" in text
 
 
-def test_a_seed_that_was_changed_everywhere_is_not_that_of_the_chain(honest: Path, rewritten) -> None:
-    def in_file(name: str, content: bytes) -> bytes:
-        return json.dumps(json.loads(content) | {"seed": 6}).encode() if name == "match.json" else content
-
-    path = rewritten(honest, lambda messages: messages, metadata=other_seed, attachment=in_file)
-    code, text = lines("verify", path, "--jobs", "1")
-    assert code == 1
-    assert "match file: digest is " in text
-
-
 def test_a_result_whose_seal_is_broken_is_damaged(honest: Path, tmp_path: Path) -> None:
     content = honest.read_bytes()
     path = tmp_path / "broken.mcap"
