@@ -29,5 +29,5 @@ EXPORTERS: dict[str, Exporter] = {
 }
 """Format → its exporter."""
 
-IMPORTERS: dict[str, Callable[[list[Path], Path, str, str | None], ImportSummary]] = {"msl-log": import_log}
+IMPORTERS: dict[str, Callable[[list[Path], Path, str | None, str | None], ImportSummary]] = {"msl-log": import_log}
 """Format → its importer, called with files of the log, the recording to write, profile of the pitch, name of team A."""
