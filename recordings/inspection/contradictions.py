@@ -50,7 +50,7 @@ def record_faults(recording: Recording) -> list[str]:
     trackers: dict[str, SequenceTracker] = {}
     found: list[str] = []
     log_ns, before = -1, ""
-    for recorded in islice(recording.messages(), recording.manifest.standing, None):
+    for recorded in islice(recording.messages(), recording.manifest.latched_count, None):
         if recorded.log_ns < log_ns and not found and not _was_paused(recording.result):
             found.append(
                 f"{recorded.key} {recorded.sequence} at {recorded.time:.9g} s follows {before} at {log_ns / 1e9:.9g} s"
@@ -133,7 +133,7 @@ def _profile(recording: Recording) -> Profile:
 
 def _of_counts(result: Result, recording: Recording) -> Iterator[str]:
     """The counts in the result, and those of the file."""
-    if _was_paused(result) or recording.manifest.standing:
+    if _was_paused(result) or recording.manifest.latched_count:
         return  # latched messages at the beginning of the file, or after a pause, are in no count
     there = {channel.key: channel.messages for channel in recording.channels if channel.messages}
     for key in sorted({*there, *result.keys}):

@@ -15,6 +15,8 @@ from schemas.messages.parameters import ParameterName, Setting
 from schemas.wire.message import BadMessageError, Message, Name
 from schemas.wire.struct import Struct, encode
 
+_UNCHAINED = ("chain", "changes")
+"""Fields that the chain does not cover: itself, and sentences that depend on the name of an operator."""
 _decode_fields = msgspec.json.Decoder(dict[str, Any]).decode
 
 
@@ -75,7 +77,7 @@ class Applied(Message):
     silent: list[Name] = Field(default_factory=list)
     """Robots that the referee knew to be without a responding agent in this tick."""
     changes: list[OperatorChange] = Field(default_factory=list)
-    """The operators' changes before this tick, in their order."""
+    """The operators' changes before this tick, in their order; the chain does not cover these sentences."""
     referee: str = ""
     """At a checkpoint, the complete state of the referee before it judged this tick, as JSON; otherwise empty."""
     chain: str
@@ -83,12 +85,12 @@ class Applied(Message):
 
 
 def chained_part(applied: Mapping[str, Any]) -> bytes:
-    """The bytes of an `Applied` that the hash chain covers: all fields but the chain, in their order.
+    """The bytes of an `Applied` that the hash chain covers: all fields but `chain` and `changes`, in their order.
 
     They are JSON without spaces, with the shortest form of each float, without the closing brace. The same fields give
     the same bytes, however the host that published them formats its JSON.
     """
-    return encode({name: value for name, value in applied.items() if name != "chain"})[:-1]
+    return encode({name: value for name, value in applied.items() if name not in _UNCHAINED})[:-1]
 
 
 def chained_part_of(payload: bytes) -> bytes:

@@ -6,7 +6,8 @@ from typing import Any, Self
 from pydantic import Field
 
 from schemas.config.foul_book import Areas, Fouls, Handling, Scoring
-from schemas.config.match_config import MatchConfig, OfficiatingConfig
+from schemas.config.match_config import MatchConfig
+from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import STANDARD, Profile
 from schemas.config.robot_model import RobotModel, types_of
 from schemas.config.rule_book import Periods, Restarts, RuleBook

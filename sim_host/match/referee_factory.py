@@ -1,6 +1,7 @@
 """Makes the referee of a match, for a running match and for its resimulation."""
 
-from schemas.config.match_config import MatchConfig, OfficiatingConfig
+from schemas.config.match_config import MatchConfig
+from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import Profile
 from schemas.config.rule_book import RuleBook, load_rule_book
 from sim_host.match.live_parameters import LiveParameters

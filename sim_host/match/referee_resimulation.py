@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from schemas.config.match_config import MatchConfig, OfficiatingConfig
+from schemas.config.match_config import MatchConfig
+from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import Profile
 from schemas.config.roster import Placement
 from schemas.config.rule_book import RuleBook, load_rule_book

@@ -6,7 +6,6 @@ segments in parallel.
 """
 
 import math
-import time
 from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
@@ -16,6 +15,7 @@ from recordings.inspection.contradictions import contradictions, record_faults
 from recordings.reading.recording import Recording, open_recording
 from recordings.reading.tick_index import Segment, TickIndex, tick_index_of
 from schemas.errors import TouchlineError
+from schemas.process.clock import WallClock
 from sim_host.match.referee_resimulation import OfficiatingSettings
 from sim_host.physics.fingerprint import fingerprint
 from sim_host.referee.fingerprint import referee_fingerprint
@@ -36,7 +36,8 @@ def verify(path: Path, from_kick_off: int | None = None, processes: int = 1, ref
         TouchlineError: not a recording, too few kick-offs, no tick can be simulated again, or `referee` is demanded of
             a recording without its settings or states.
     """
-    began = time.perf_counter()
+    clock = WallClock()
+    began = clock.now()
     recording = open_recording(path)
     index = tick_index_of(recording)
     since = _since(path, index, from_kick_off)
@@ -69,7 +70,7 @@ def verify(path: Path, from_kick_off: int | None = None, processes: int = 1, ref
         verdict.difference = result.difference
         if verdict.difference is not None:
             break
-    verdict.took = time.perf_counter() - began
+    verdict.took = clock.now() - began
     return verdict
 
 
