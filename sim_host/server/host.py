@@ -41,6 +41,7 @@ class Host:
             bus, self.inbox.agent_stats, config.patience.recorder, self._invalid_log, launch_token
         )
         self._manual = ManualControl(bus, self._invalid_log)
+        self._first = self.simulation.now, self.simulation.state
         self._config = config
         self._clock = bus.clock
         self._services = Services(bus, self.simulation, self._invalid_log, self._batches, self.presence.has_referee_box)
@@ -88,10 +89,10 @@ class Host:
     def begin(self) -> None:
         """Publish tick 0."""
         self._look_for_sight_recorders()
-        first = self.simulation.now
+        first, state = self._first
         for robot, sight in first.sights.items():
             self._send_sight(robot, sight)
-        self._outbox.publish_tick(first, self.simulation.state)
+        self._outbox.publish_tick(first, state)
         self._batches.end_tick(first.tick)
         self.pace.begin()
 
