@@ -1,7 +1,9 @@
 """A whole match: launches, watches and ends its processes, and returns the result."""
 
+import shutil
 import signal
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from types import FrameType, TracebackType
 from typing import Self
@@ -84,6 +86,7 @@ class MatchRun:
         self._losses = losses
         self._recorded = recorded
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
+        self._has_clients = False
         self._fork_server = ForkServer()
         self._supervisor = Supervisor([host_process(plan)], self._launch, clock)
 
@@ -115,7 +118,6 @@ class MatchRun:
 
     def _launch_clients(self, stop: StopSignals) -> bool:
         """Launch all other processes as soon as the host listens; False if it never does."""
-        self._screen.status("waiting for the host")
         while self._poll_processes(stop):
             announcement = announcement_in(self._plan.announcement)
             if announcement is not None:
@@ -123,6 +125,7 @@ class MatchRun:
                 self._screen.event(f'match "{announcement.match}" on {announcement.endpoint}', notable=is_unexpected)
                 self._plan = replace(self._plan, listen=announcement.endpoint)
                 self._supervisor.add(client_processes(self._plan))
+                self._has_clients = True
                 return True
             self._clock.sleep_until(self._clock.now() + _LOOK)
         return False
@@ -178,11 +181,19 @@ class MatchRun:
             return self._result(follower)
         log = self._supervisor.last_lines("host")
         if status == _WRONG_INPUT and log:
+            if not self._has_clients:
+                self._remove_folder()
             raise TouchlineError(log[-1].removeprefix("touchline: "))
         for line in log:
             self._screen.warn(f"  host: {line}")
         how = "was ended before full time" if status == 0 else f"ended with status {status}"
         raise MatchFailedError(f"match abandoned: the host {how}; its log is {self._plan.folder / 'host.log'}")
+
+    def _remove_folder(self) -> None:
+        """Remove the folder of a match whose host could not listen: its log is the error that is reported."""
+        shutil.rmtree(self._plan.folder)
+        with suppress(OSError):  # of other matches
+            self._plan.folder.parent.rmdir()
 
     def _result(self, follower: MatchFollower) -> MatchResult:
         recording = self._plan.recording
