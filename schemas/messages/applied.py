@@ -81,8 +81,8 @@ class Applied(Message):
     changes: list[OperatorChange] = Field(default_factory=list)
     """The operators' changes before this tick, in their order; the chain does not cover these sentences."""
     chain: str
-    """blake2b over the state of this tick and all other fields of this message but `changes`, keyed with the chain before
-    it; hex."""
+    """blake2b over the state of this tick and all other fields of this message but `changes`, keyed with the chain
+    before it; hex."""
 
 
 def chained_part(applied: Mapping[str, Any]) -> bytes:

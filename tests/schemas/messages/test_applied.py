@@ -21,7 +21,9 @@ def test_it_is_the_message_up_to_the_operators_changes_and_the_chain() -> None:
 
 
 def test_the_sentences_of_operators_are_not_part_of_it() -> None:
-    content = json.loads(PAYLOAD) | {"changes": [{"kind": "scene", "rule": "place", "text": "somebody places the ball"}]}
+    content = json.loads(PAYLOAD) | {
+        "changes": [{"kind": "scene", "rule": "place", "text": "somebody places the ball"}]
+    }
     assert chained_part_of(encode(content)) == chained_part_of(PAYLOAD)
 
 
