@@ -89,6 +89,8 @@ class Setup(Message):
     """Fingerprint of what computes the world: version of the engine, results of the maths library."""
     parameters: dict[ParameterName, Setting] = Field(default_factory=dict)
     """Live parameters that were changed since the match began → value; the numbers above include them."""
+    claims: bool = False
+    """Whether agents claim their robot on `host/claim`; False for hosts that are older than claims."""
     orders: dict[Side, int] = Field(default_factory=dict)
     """Side → sequence number of the coach's order in force; the next order needs a larger one."""
 
