@@ -3,7 +3,8 @@
 import signal
 from types import FrameType
 
-from robot_agent.contract import Brain, Briefing, load_brain
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Brain, Briefing
 from robot_agent.runner import serve
 from robot_agent.settings import AgentSettings
 from schemas.bus.zenoh.bus import open_client
@@ -25,7 +26,7 @@ def run(settings: AgentSettings) -> int:
 
             def build(setup: Setup) -> Brain:
                 use_batch_scheduling(setup.pace == LOCKSTEP)
-                return load_brain(settings.brain, Briefing.of(settings.robot, setup))
+                return load_brain(settings.brain, Briefing.of(settings.robot, setup), settings.brain_folder)
 
             return serve(bus, build, settings.robot, settings.patience)
     except KeyboardInterrupt:

@@ -1,5 +1,6 @@
 """What a robot's process is started with."""
 
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import Field
@@ -16,5 +17,7 @@ class AgentSettings(ClientSettings):
     """Name of the robot: cyan1, magenta3, …"""
     brain: Annotated[str, CommandLine(environment="TOUCHLINE_BRAIN")]
     """module:Class, or module:function of a plain act(sight)."""
+    brain_folder: Path | None = None
+    """Folder in which the module is looked for before the current directory; a match uses that of its file."""
     patience: Annotated[float, Field(ge=0)] = 10.0
     """s of wall time to wait for a host that is not there."""

@@ -4,7 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from robot_agent.contract import Brain, Briefing, load_brain
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Brain, Briefing
 from robot_agent.runner import Runner
 from schemas.bus.contract import Bus, ReceivedMessage
 from schemas.config.match_config import MatchConfig

@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from schemas.topics import TOPICS
-from touchline.__main__ import app
+from touchline.command_line import app
 
 COMMANDS = (
     "match",
@@ -129,7 +129,7 @@ def test_without_pybullet_the_pip_line_that_brings_it_is_named(command: str, mon
 
 def test_the_command_line_loads_nothing_heavy() -> None:
     heavy = {"zenoh", "pybullet", "mcap", "numpy", "matplotlib"}
-    code = f"import sys, touchline.__main__; print(*{heavy} & set(sys.modules))"
+    code = f"import sys, touchline.command_line; print(*{heavy} & set(sys.modules))"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.split() == []
 

@@ -68,11 +68,17 @@ def match(
     if ghost:
         _check_ghosts(config, ghost)
     check_robot_names(config)
-    check_teams(config)
+    brain_folder = played.file.parent if played.file is not None else None
+    check_teams(config, brain_folder, lambda line: typer.echo(line, err=True))
     endpoint = played.endpoint()
     clock = WallClock()
     served = _page_settings(page) if web else None
-    plan = replace(prepare_run(config, endpoint, record, clock, recorded=not no_record), page=served, bridges=bridges)
+    plan = replace(
+        prepare_run(config, endpoint, record, clock, recorded=not no_record),
+        page=served,
+        bridges=bridges,
+        brain_folder=brain_folder.resolve() if brain_folder is not None else None,
+    )
     if served is not None:
         _invite(plan, served, err=json)
     if bridges.wanted:

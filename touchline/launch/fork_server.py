@@ -14,7 +14,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from pathlib import Path
 
-from robot_agent.forked import PRELOAD, run_forked
+from robot_agent.forked import PRELOAD, SAFE_PATH, run_forked
 from robot_agent.settings import AgentSettings
 from touchline.launch.child_process import ChildProcess, ProcessHandle, write_settings_of
 from touchline.launch.processes import Process
@@ -72,12 +72,22 @@ class ForkServer:
         leads, held = self._context.Pipe(duplex=False)
         robot = self._context.Process(target=run_forked, args=(settings, process.environment, str(log), held))
         try:
-            with held, _environment(process.environment):
+            with held, _environment({**process.environment, SAFE_PATH: "1"}), _blocked(signal.SIGINT):
                 robot.start()
         except (OSError, EOFError):
             self._context = None
             return None
         return ForkedRobot(process, log, begin, robot, leads)
+
+
+@contextmanager
+def _blocked(number: signal.Signals) -> Iterator[None]:
+    """Block a signal within the block: the fork server would end with a traceback while it starts."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {number})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager

@@ -1,6 +1,5 @@
 """The processes of a match: the table of kinds, and the programs to launch for a match file."""
 
-import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
@@ -17,6 +16,7 @@ from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
+from touchline.launch.python_process import PYTHON, module_path_environment
 
 
 class ProcessKind(StrEnum):
@@ -36,7 +36,7 @@ class ProcessRow:
     """One kind of process."""
 
     module: str
-    """Started as `python -m MODULE --settings FILE`."""
+    """Started as `python -P -m MODULE --settings FILE`."""
     restarts: int = 0
     """Maximum number of restarts after crashes."""
 
@@ -60,6 +60,9 @@ COMMON_ENVIRONMENT = {
     "OMP_NUM_THREADS": "1",
 }
 """Environment of every process of a match."""
+
+BRAIN_ENVIRONMENT = {"PYTHONHASHSEED": "0"}
+"""Environment of every process with brains: one that iterates over a set of strings has the same order in every run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +97,8 @@ class MatchPlan:
     """The match's page; None for no page."""
     bridges: BridgeOptions = NO_BRIDGES
     """The bridges beside the page."""
+    brain_folder: Path | None = None
+    """Folder in which brains are looked for before the current directory: that of the match file."""
 
     @property
     def connect(self) -> str:
@@ -161,13 +166,18 @@ def _robot_process(robot: str, side: Side, plan: MatchPlan) -> Process:
         "TOUCHLINE_MATCH": plan.config.name,
         "TOUCHLINE_ROBOT": robot,
         "TOUCHLINE_SIDE": side.value,
-        # A fixed hash seed: a brain that iterates over a set of strings has the same order in every run.
-        "PYTHONHASHSEED": "0",
+        **BRAIN_ENVIRONMENT,
     }
     if team.command:
         restarts = PROCESSES[ProcessKind.AGENT].restarts
         return Process(robot, ProcessKind.AGENT, tuple(team.command), {**COMMON_ENVIRONMENT, **environment}, restarts)
-    settings = AgentSettings(connect=plan.connect, match=plan.config.name, robot=robot, brain=team.brain or "")
+    settings = AgentSettings(
+        connect=plan.connect,
+        match=plan.config.name,
+        robot=robot,
+        brain=team.brain or "",
+        brain_folder=plan.brain_folder,
+    )
     return _process(robot, ProcessKind.AGENT, settings, plan.folder, environment)
 
 
@@ -179,5 +189,6 @@ def _process(
     environment: Mapping[str, str] = MappingProxyType({}),
 ) -> Process:
     row, file = PROCESSES[kind], folder / f"{name}.json"
-    command = (sys.executable, "-m", row.module, "--settings", str(file))
-    return Process(name, kind, command, {**COMMON_ENVIRONMENT, **environment}, row.restarts, settings, file)
+    command = (*PYTHON, "-m", row.module, "--settings", str(file))
+    whole = {**COMMON_ENVIRONMENT, **module_path_environment(), **environment}
+    return Process(name, kind, command, whole, row.restarts, settings, file)

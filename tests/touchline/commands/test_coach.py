@@ -14,7 +14,7 @@ from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import ACTION, HEALTH, STATE
 from support.fake_host import FakeHost
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.commands import coach
 
 

@@ -53,7 +53,7 @@ def test_no_robot_is_called_as_another_process_of_the_match(name: str) -> None:
 def test_every_process_is_launched_with_a_settings_file_of_its_own_in_the_run_s_folder() -> None:
     for name, process in by_name(plan()).items():
         module = PROCESSES[process.kind].module
-        assert process.command == (sys.executable, "-m", module, "--settings", f"runs/one/{name}.json")
+        assert process.command == (sys.executable, "-P", "-m", module, "--settings", f"runs/one/{name}.json")
         assert process.settings_file == Path(f"runs/one/{name}.json")
 
 
