@@ -21,10 +21,7 @@ class _FunctionBrain:
     """A brain that is a plain function."""
 
     def __init__(self, function: Callable[[Sight], Command]) -> None:
-        self._function = function
-
-    def act(self, sight: Sight) -> Command:
-        return self._function(sight)
+        self.act = function
 
 
 def load_brain(spec: str, briefing: Briefing, beside_match: Path | None = None) -> Brain:

@@ -9,6 +9,9 @@ from schemas.bus.settings import ClientSettings
 from schemas.config.settings import CommandLine
 from schemas.wire.message import Name
 
+FIRST_SIGHT_FAILED = 3
+"""Exit status of an agent whose brain failed at its first sight: it would fail again."""
+
 
 class AgentSettings(ClientSettings):
     """One robot's process: its match, its name and its brain."""

@@ -23,17 +23,11 @@ def is_users(file: str) -> bool:
     return not file.startswith("<") and not is_other
 
 
-def users_frames(error: BaseException) -> list[traceback.FrameSummary]:
-    """The frames of an exception up to the last one in the brain's own code; all frames if none is."""
-    frames = list(traceback.extract_tb(error.__traceback__))
-    last = max((number for number, frame in enumerate(frames) if is_users(frame.filename)), default=len(frames) - 1)
-    return [frame for frame in frames[: last + 1] if is_users(frame.filename)] or frames
-
-
 def place_of(error: BaseException) -> str:
     """Where the brain's own code raised, or called what raised: ` (my_team.py, line 17)`."""
-    frames = users_frames(error)
-    return f" ({_shown(frames[-1].filename)}, line {frames[-1].lineno})" if frames else ""
+    frames = list(traceback.extract_tb(error.__traceback__))
+    own = [frame for frame in frames if is_users(frame.filename)] or frames
+    return f" ({_shown(own[-1].filename)}, line {own[-1].lineno})" if own else ""
 
 
 def definition_of(what: Callable[..., Any]) -> str:

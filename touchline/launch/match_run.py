@@ -6,7 +6,7 @@ from types import FrameType, TracebackType
 from typing import Self
 
 from coach_gateway.match.follower import MatchFollower
-from coach_gateway.match.lines import event_line
+from coach_gateway.match.lines import clock_text, event_line, score_text
 from schemas.bus.contract import Bus, BusError, ReceivedMessage
 from schemas.bus.zenoh.bus import open_client
 from schemas.errors import MatchFailedError, TouchlineError
@@ -18,7 +18,7 @@ from touchline.launch.child_process import ProcessHandle
 from touchline.launch.fork_server import ForkServer
 from touchline.launch.processes import MatchPlan, Process, processes_of
 from touchline.launch.result import NOTABLE, MatchResult
-from touchline.launch.supervisor import AFTER_THE_MATCH, AT_ONCE, Supervisor
+from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
 from touchline.watch.screen import Screen
 from touchline.watch.status_line import status_line
 
@@ -87,21 +87,25 @@ class MatchRun:
 
         Raises:
             InterruptedMatchError: SIGINT or SIGTERM; all processes have ended and the recording is finished.
-            MatchFailedError: the host ended before full time, or the recording was lost.
+            MatchFailedError: the host ended before full time, a team has no robot left, or the recording was lost.
             TouchlineError: the host could not start; the message is the host's.
         """
         with StopSignals() as stop:
             try:
                 self._supervisor.start()
                 follower = self._follow(stop)
+                empty = self._empty_side()
             except BaseException:
                 self._supervisor.end(AT_ONCE)
                 raise
             if follower is not None:  # without a host there is no match to record
-                self._supervisor.end(AFTER_THE_MATCH, hurried=lambda: stop.received is not None)
+                steps = AFTER_THE_MATCH if self._supervisor.host_status is not None else ABANDONED
+                self._supervisor.end(steps, hurried=lambda: stop.received is not None)
             self._supervisor.end(AT_ONCE)  # the remaining processes, after an interrupt
         if stop.received is not None:
             raise InterruptedMatchError(stop.received)
+        if empty is not None:
+            raise MatchFailedError(self._abandonment(empty, follower))
         return self._outcome(follower)
 
     def _launch(self, process: Process) -> ProcessHandle:
@@ -118,7 +122,7 @@ class MatchRun:
                 self._show(follower)
                 self._clock.sleep_until(self._clock.now() + _POLL)
             deadline = self._clock.now() + _LAST_MESSAGES
-            while stop.received is None and bus.connected() and self._clock.now() < deadline:
+            while self._is_ending(stop) and bus.connected() and self._clock.now() < deadline:
                 self._clock.sleep_until(self._clock.now() + _POLL / 10)
             self._show(follower)
         return follower
@@ -133,11 +137,21 @@ class MatchRun:
         return None
 
     def _is_going(self, stop: StopSignals) -> bool:
+        if stop.received is not None:
+            return False  # processes that end with the same signal are no crashes
         for notice in self._supervisor.check():
             self._screen.warn(notice.sentence)
             for line in notice.log:
                 self._screen.warn(f"  {notice.name}: {line}")
-        return self._supervisor.host_status is None and stop.received is None
+        return self._supervisor.host_status is None and self._empty_side() is None
+
+    def _is_ending(self, stop: StopSignals) -> bool:
+        """Whether the host has ended by itself, so that its last messages are on their way."""
+        return stop.received is None and self._supervisor.host_status is not None
+
+    def _empty_side(self) -> Side | None:
+        """A side of which no robot is left; None while both play."""
+        return next((side for side in Side if self._supervisor.has_no_robot(self._plan.config.robots(side))), None)
 
     def _show(self, follower: MatchFollower) -> None:
         self._report(follower, follower.update().messages)
@@ -147,6 +161,17 @@ class MatchRun:
             if isinstance(message, GameEvent):
                 self._screen.event(event_line(message), notable=message.kind in NOTABLE)
         self._screen.status(status_line(follower, self._robots))
+
+    def _abandonment(self, side: Side, follower: MatchFollower | None) -> str:
+        """Why a match ended, of which one side has no robot left."""
+        state = follower.state if follower is not None else None
+        when = f"at {clock_text(state.clock)}, {score_text(state)}" if state is not None else "before it began"
+        first = self._plan.config.robots(side)[0]
+        log = self._supervisor.last_lines(first)
+        return (
+            f"match ended {when}: no robot of {side.value} is left; "
+            f"{first}: {log[-1] if log else 'no reason logged'}; logs are in {self._plan.folder}"
+        )
 
     def _outcome(self, follower: MatchFollower | None) -> MatchResult:
         """The result; raises the reason if there is none."""
