@@ -174,8 +174,9 @@ class Host:
             if silent == was_silent:
                 continue
             self._silent[name] = silent
-            text = f"{name} does not answer, its robot stops" if silent else f"{name} answers"
-            self._publish_agent_event(tick, name, "attendance", text)
+            fault = stats.fault(tick.tick) if stats.alive else ""
+            text = f"{name} does not answer, its robot stops{f': {fault}' if fault else ''}"
+            self._publish_agent_event(tick, name, "attendance", text if silent else f"{name} answers")
 
     def _publish_agent_event(self, tick: TickResult, name: str, rule: str, text: str) -> None:
         if name not in self._roster.names:

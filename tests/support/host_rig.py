@@ -39,6 +39,17 @@ class Forward:
         return Command(answers_tick=sight.tick, drive=Drive(vx=1.0))
 
 
+class _SeatClock(SteppedClock):
+    """The clock of another process on the host's machine: it has the same wall time, and its own simulated time."""
+
+    def __init__(self, wall: SteppedClock) -> None:
+        super().__init__()
+        self._wall = wall
+
+    def unix_ns(self) -> int:
+        return self._wall.unix_ns()
+
+
 @dataclass
 class Agent:
     """One robot's agent on a seat of its own."""
@@ -113,7 +124,7 @@ class HostRig:
             self.host.pace.step_agents = self._wait
 
     def seat(self) -> Bus:
-        return self.medium.open_bus(self.config.name, SteppedClock())
+        return self.medium.open_bus(self.config.name, _SeatClock(self.clock))
 
     def listen(self, topic: Topic) -> Listener:
         return Listener(self.outside.subscribe(topic).receive)

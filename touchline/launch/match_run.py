@@ -19,6 +19,7 @@ from touchline.launch.fork_server import ForkServer
 from touchline.launch.processes import MatchPlan, Process, processes_of
 from touchline.launch.result import NOTABLE, MatchResult
 from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
+from touchline.watch.agent_faults import SlowAgents
 from touchline.watch.screen import Screen
 from touchline.watch.status_line import status_line
 
@@ -79,6 +80,7 @@ class MatchRun:
         self._losses = losses
         self._recorded = recorded
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
+        self._slow_agents = SlowAgents()
         self._fork_server = ForkServer()
         self._supervisor = Supervisor(processes_of(plan), self._launch, clock)
 
@@ -160,6 +162,9 @@ class MatchRun:
         for message in news:
             if isinstance(message, GameEvent):
                 self._screen.event(event_line(message), notable=message.kind in NOTABLE)
+            elif isinstance(message, Health):
+                for sentence in self._slow_agents.update(message):
+                    self._screen.warn(sentence)
         self._screen.status(status_line(follower, self._robots))
 
     def _abandonment(self, side: Side, follower: MatchFollower | None) -> str:

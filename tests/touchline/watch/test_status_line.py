@@ -99,3 +99,14 @@ def test_many_silent_robots_are_counted(silent: int, words: str) -> None:
 def test_a_robot_that_stands_still_in_its_scene_is_not_missed() -> None:
     said = health(9, magenta1=RobotHealth(still=True))
     assert robots_text(said, 1) == "robots 1/1"
+
+
+def test_agents_that_do_not_keep_up_stand_in_the_line_with_their_figures() -> None:
+    playing = view()
+    playing.state = GameState(tick=9, time=61.0, clock=61.0, phase=Phase.PLAY)
+    slow = {f"magenta{number}": RobotHealth(alive=True, answering=True, latency_ms=310.0) for number in (1, 2)}
+    fault = "answers tick 0, the match is at 9; use sight.tick"
+    playing.health = health(9, cyan2=RobotHealth(alive=True, fault=fault), **slow)
+    assert status_line(playing, 4).endswith(
+        f"robots 3/4 (silent: cyan2)  cyan2 {fault}  magenta2 takes 310 ms a tick  1 more"
+    )
