@@ -50,7 +50,7 @@ class PartialFile:
             raise NotWritableError(path, error.strerror or "cannot be written") from None
         if file is None:
             raise NotWritableError(
-                path, "is being written by another recorder", "name another file, or end that recorder"
+                path, "is being written by another recorder", "name another file, or end that one"
             )
         self.file = file
 
