@@ -17,7 +17,7 @@ from schemas.process.scheduling import use_batch_scheduling
 
 
 def run(settings: AgentSettings) -> int:
-    """Run one robot; exit status 0: the match is over or was ended; others as in `serve`.
+    """Run one robot; exit status 0: the match is over or the process was ended; others as in `serve`.
 
     Raises:
         TouchlineError: no host answers, or the brain cannot be made.

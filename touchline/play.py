@@ -38,7 +38,7 @@ class InProcessMatch:
     def __init__(
         self, config: MatchConfig, brains: dict[str, Brain] | None = None, brain_folder: Path | None = None
     ) -> None:
-        """Brains by robot; those left out are loaded as the match file says, from `brain_folder` first.
+        """Brains by robot; the others are those of the match file, looked for in `brain_folder` first.
 
         Raises:
             TouchlineError: a brain cannot be loaded.

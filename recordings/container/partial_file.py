@@ -49,9 +49,7 @@ class PartialFile:
         except OSError as error:
             raise NotWritableError(path, error.strerror or "cannot be written") from None
         if file is None:
-            raise NotWritableError(
-                path, "is being written by another recorder", "name another file, or end that one"
-            )
+            raise NotWritableError(path, "is being written by another recorder", "name another file, or end that one")
         self.file = file
 
     def finish(self) -> None:

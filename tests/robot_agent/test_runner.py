@@ -6,7 +6,7 @@ import pytest
 from robot_agent.brain_error import BrainError
 from robot_agent.runner import Runner, ask_setup, serve
 from robot_agent.settings import FIRST_SIGHT_FAILED
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
 from schemas.process.clock import SteppedClock
@@ -31,7 +31,7 @@ class Raising:
 
 @pytest.fixture
 def seats():
-    medium = Medium()
+    medium = SharedState()
     return medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", SteppedClock())
 
 
@@ -137,7 +137,7 @@ class Impatient(SteppedClock):
 @pytest.fixture
 def stage(setup, monkeypatch):
     """A host that answers every question for the setup at once, and a robot that never sleeps."""
-    medium = Medium()
+    medium = SharedState()
     host, robot = medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", Impatient())
     host.declare_alive("host", "host")
     server = host.serve(SETUP)
@@ -243,8 +243,8 @@ def test_a_sight_of_the_next_match_is_not_shown_to_the_brain_of_the_last(stage, 
     built = []
 
     def host_is_replaced(kind, name):
-        host.medium.count_token("friendly", ("friendly/host", "host"), -1)
-        host.medium.count_token("friendly", ("friendly/host", "host"), +1)
+        host.shared_state.count_token("friendly", ("friendly/host", "host"), -1)
+        host.shared_state.count_token("friendly", ("friendly/host", "host"), +1)
         sights.put(sight_of(0))
 
     def build(setup):
