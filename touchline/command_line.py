@@ -1,8 +1,13 @@
 """The table of all commands, each in a file of its own under `commands/`."""
 
+import signal
+import sys
+from typing import Annotated
+
 import typer
 
 from touchline.cli.errors import CommandGroup
+from touchline.cli.version import version_text
 from touchline.commands import (
     agent,
     coach,
@@ -30,6 +35,14 @@ from touchline.commands import (
     watch,
 )
 
+
+def _print_version(value: bool) -> None:
+    """Print the versions of this library and of its protocol, and exit, if the option is given."""
+    if value:
+        typer.echo(version_text())
+        raise typer.Exit()
+
+
 app = typer.Typer(
     name="touchline",
     cls=CommandGroup,
@@ -38,6 +51,16 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version and exit.", is_eager=True, callback=_print_version)
+    ] = False,
+) -> None:
+    """Options of the command line itself."""
+
 
 PLAY = "Play"
 WATCH = "Watch"
@@ -54,6 +77,7 @@ app.command("replay", rich_help_panel=WATCH)(replay.replay)
 app.command("player", rich_help_panel=WATCH)(player.player)
 
 app.add_typer(coach.app, name="coach", rich_help_panel=OPERATE)
+app.add_typer(coach.referee, name="referee", rich_help_panel=OPERATE)
 app.add_typer(scene.app, name="scene", rich_help_panel=OPERATE)
 app.add_typer(parameters.app, name="parameters", rich_help_panel=OPERATE)
 app.command("drive", rich_help_panel=OPERATE)(drive.drive)
@@ -78,5 +102,8 @@ app.command("schema", rich_help_panel=PROTOCOL)(schema.schema)
 
 
 def main() -> None:
-    """Run the command line; exits with its status."""
-    app(prog_name="touchline")
+    """Run the command line; exits with its status, after Ctrl-C with that of a process that SIGINT ended."""
+    try:
+        app(prog_name="touchline")
+    except KeyboardInterrupt:
+        sys.exit(128 + signal.SIGINT)

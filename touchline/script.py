@@ -1,7 +1,7 @@
 """The command line's entry, for the installed script and for `python -m touchline`.
 
-Every forked robot imports this module again, and it runs before the module path is in order: it imports nothing but
-modules that Python has already loaded.
+Every forked robot imports this module again, and it runs before the module path is in order: at its top it imports
+nothing but modules that Python has already loaded.
 """
 
 import os
@@ -11,8 +11,14 @@ import sys
 def main() -> None:
     """Run the command line; exits with its status."""
     put_current_directory_last(sys.path)
+    import signal
+
+    handler = signal.getsignal(signal.SIGINT)
+    if handler is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends the imports without a traceback
     from touchline.command_line import main as run_command_line
 
+    signal.signal(signal.SIGINT, handler)
     run_command_line()
 
 

@@ -5,6 +5,8 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from sim_host.missing_engine import missing_engine_text
+
 _STDERR = 2
 _GREETING = b"pybullet build time"
 
@@ -26,5 +28,10 @@ def _without_greeting() -> Iterator[None]:
                     os.write(_STDERR, line)
 
 
-with _without_greeting():
-    import pybullet as pybullet
+try:
+    with _without_greeting():
+        import pybullet as pybullet
+except ModuleNotFoundError as error:
+    if error.name != "pybullet":
+        raise
+    raise ModuleNotFoundError(missing_engine_text(), name="pybullet") from None

@@ -10,6 +10,7 @@ from schemas.bus.zenoh.bus import open_host
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
 from schemas.process.scheduling import use_batch_scheduling
+from sim_host.missing_engine import missing_engine_text
 from sim_host.server.settings import HostSettings
 
 log = logging.getLogger("sim_host")
@@ -36,9 +37,7 @@ def _serve(settings: HostSettings) -> None:
     except ModuleNotFoundError as error:
         if error.name != "pybullet":
             raise
-        raise TouchlineError(
-            "PyBullet is not installed; on this machine that takes: pip install 'touchline[sim]'"
-        ) from None
+        raise TouchlineError(missing_engine_text()) from None
     config, listen = settings.config, settings.listen
     if not settings.insecure and not is_loopback(listen):
         raise TouchlineError(f"--listen {listen} can be reached by others; say --insecure if that is what you want")

@@ -10,6 +10,7 @@ import signal
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from pathlib import Path
@@ -74,6 +75,7 @@ class ForkServer:
         group_ready, held = self._context.Pipe(duplex=False)
         robot = self._context.Process(target=run_forked, args=(settings, process.environment, str(log), held))
         try:
+            resource_tracker.ensure_running()  # it would unblock the signal again
             with held, _environment({**process.environment, SAFE_PATH: "1"}), _blocked(signal.SIGINT):
                 robot.start()
         except (OSError, EOFError):

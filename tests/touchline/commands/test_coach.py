@@ -93,6 +93,13 @@ def test_every_word_of_the_referee_box_asks_for_its_own_action(host: Host, word:
     assert (asked.place is not None) == (deed.target is coach.PlaceTarget)
 
 
+def test_the_referees_commands_can_be_given_to_the_referee(host: Host) -> None:
+    result = CliRunner().invoke(app, ["referee", "corner", "magenta"], prog_name="touchline")
+    assert (result.exit_code, result.stdout) == (0, "corner accepted\n")
+    assert [(action.action, action.side) for action in host.asked] == [(ActionName.CORNER, Side.MAGENTA)]
+    assert [command.name for command in coach.referee.registered_commands] == list(coach.REFEREE_COMMANDS)
+
+
 def test_every_action_has_one_word() -> None:
     assert len(coach.REFEREE_COMMANDS) == len(ActionName)
     assert {deed.action for deed in coach.REFEREE_COMMANDS.values()} == set(ActionName)
