@@ -2,6 +2,7 @@
 
 import signal
 from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
 from types import FrameType, TracebackType
 from typing import Self
 
@@ -16,6 +17,7 @@ from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle
 from touchline.launch.fork_server import ForkServer
+from touchline.launch.log_limit import LogLimit
 from touchline.launch.processes import MatchPlan, Process, processes_of
 from touchline.launch.result import NOTABLE, MatchResult
 from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
@@ -81,6 +83,8 @@ class MatchRun:
         self._recorded = recorded
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
         self._slow_agents = SlowAgents()
+        self._logs: dict[str, Path] = {}
+        self._log_limit = LogLimit()
         self._fork_server = ForkServer()
         self._supervisor = Supervisor(processes_of(plan), self._launch, clock)
 
@@ -111,7 +115,9 @@ class MatchRun:
         return self._outcome(follower)
 
     def _launch(self, process: Process) -> ProcessHandle:
-        return self._fork_server.launch(process, self._plan.folder / f"{process.name}.log")
+        log = self._plan.folder / f"{process.name}.log"
+        self._logs[process.name] = log
+        return self._fork_server.launch(process, log)
 
     def _follow(self, stop: StopSignals) -> MatchFollower | None:
         """Watch until the host has ended or a signal is received; None if the host was never reached."""
@@ -141,6 +147,8 @@ class MatchRun:
     def _poll_processes(self, stop: StopSignals) -> bool:
         if stop.received is not None:
             return False  # processes that end with the same signal are no crashes
+        for sentence in filter(None, map(self._log_limit.check, self._logs.values())):
+            self._screen.warn(sentence)
         for notice in self._supervisor.check():
             self._screen.warn(notice.sentence)
             for line in notice.log:
