@@ -143,11 +143,13 @@ def state(connection: ClientSettings, json: options.Json = False) -> None:
     Example: touchline coach state --json | jq .score
     """
     from coach_gateway.match.follower import MatchFollower
+    from coach_gateway.match.host_client import HostClient
     from coach_gateway.match.lines import state_line
 
     with bus_client(connection.connect, connection.match) as bus:
         follower = MatchFollower(bus)
         found = follower.wait_for_state(PATIENCE)
+        names = HostClient(bus).team_names()
     if found is None and follower.health is not None:
         there = sum(robot.alive for robot in follower.health.robots.values())
         raise MatchFailedError(
@@ -157,7 +159,7 @@ def state(connection: ClientSettings, json: options.Json = False) -> None:
         raise TouchlineError(
             f'match "{connection.match}": the host publishes no state of it; name its match with --match'
         )
-    typer.echo(found.model_dump_json(exclude={"version"}) if json else state_line(found))
+    typer.echo(found.model_dump_json(exclude={"version"}) if json else state_line(found, names))
 
 
 app.command("serve")(serve)

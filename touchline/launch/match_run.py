@@ -2,12 +2,14 @@
 
 import signal
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from types import FrameType, TracebackType
 from typing import Self
 
 from coach_gateway.match.follower import MatchFollower
-from coach_gateway.match.lines import clock_text, event_line, score_text
+from coach_gateway.match.lines import clock_text, event_line
+from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.bus.contract import Bus, BusError, ReceivedMessage
 from schemas.bus.zenoh.bus import open_client
 from schemas.errors import MatchFailedError, TouchlineError
@@ -82,6 +84,7 @@ class MatchRun:
         self._losses = losses
         self._recorded = recorded
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
+        self._names = TeamNames.of_match(plan.config)
         self._slow_agents = SlowAgents()
         self._logs: dict[str, Path] = {}
         self._log_limit = LogLimit()
@@ -96,6 +99,8 @@ class MatchRun:
             MatchFailedError: the host ended before full time, a team has no robot left, or the recording was lost.
             TouchlineError: the host could not start; the message is the host's.
         """
+        if self._names != SIDES_ALONE:
+            self._screen.event(str(self._names), notable=True)
         with StopSignals() as stop:
             try:
                 self._supervisor.start()
@@ -169,20 +174,24 @@ class MatchRun:
     def _report(self, follower: MatchFollower, news: Sequence[GameEvent | GameState | Health]) -> None:
         for message in news:
             if isinstance(message, GameEvent):
-                self._screen.event(event_line(message), notable=message.kind in NOTABLE)
+                self._screen.event(event_line(message, self._names), notable=message.kind in NOTABLE)
             elif isinstance(message, Health):
                 for sentence in self._slow_agents.update(message):
                     self._screen.warn(sentence)
-        self._screen.status(status_line(follower, self._robots))
+        self._screen.status(status_line(follower, self._robots, self._names))
 
     def _abandonment(self, side: Side, follower: MatchFollower | None) -> str:
         """Why a match ended, of which one side has no robot left."""
         state = follower.state if follower is not None else None
-        when = f"at {clock_text(state.clock)}, {score_text(state)}" if state is not None else "before it began"
+        when = (
+            f"at {clock_text(state.clock)}, {self._names.score(state.score)}"
+            if state is not None
+            else "before it began"
+        )
         first = self._plan.config.robots(side)[0]
         log = self._supervisor.last_lines(first)
         return (
-            f"match ended {when}: no robot of {side.value} is left; "
+            f"match ended {when}: no robot of {self._names.with_side(side)} is left; "
             f"{first}: {log[-1] if log else 'no reason logged'}; logs are in {self._plan.folder}"
         )
 
@@ -212,4 +221,4 @@ class MatchRun:
                 f"the match was played but its recording was lost: {log[-1] if log else 'no reason logged'}; "
                 f"its log is {self._plan.folder / 'recorder.log'}"
             )
-        return MatchResult.of(follower, recording, self._losses(self._plan))
+        return replace(MatchResult.of(follower, recording, self._losses(self._plan)), names=self._names)

@@ -4,6 +4,7 @@ from collections import Counter
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import state_line
+from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.messages.health import Health
 from touchline.watch.agent_faults import agent_faults
 
@@ -13,11 +14,11 @@ _FAULTS = 2
 """Maximum number of agents whose fault is shown; the rest is counted."""
 
 
-def status_line(follower: MatchFollower, total: int) -> str:
+def status_line(follower: MatchFollower, total: int, names: TeamNames = SIDES_ALONE) -> str:
     """Clock, score, phase, speed, how many of `total` robots answer, and what is wrong with agents and recorders."""
     if follower.state is None and follower.health is None:
         return "waiting for the host"
-    parts = [state_line(follower.state) if follower.state is not None else "waiting for the robots"]
+    parts = [state_line(follower.state, names) if follower.state is not None else "waiting for the robots"]
     if follower.health is not None:
         if follower.health.tick > 0:
             parts.append(f"×{follower.health.real_time_factor:.1f}")

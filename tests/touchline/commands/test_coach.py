@@ -119,7 +119,7 @@ def test_an_action_in_a_match_without_a_host_is_wrong_input(host: Host) -> None:
 
 def test_the_state_is_shown_once_in_words_and_as_json(host: Host) -> None:
     host.says = [GameState(tick=5, time=61.0, clock=61.0, phase=Phase.PLAY, score=Score(cyan=2))]
-    assert touchline("state").stdout == " 1:01.0  half 1  cyan 2 : 0 magenta  play\n"
+    assert touchline("state").stdout == " 1:01.0  half 1  Simple 2 : 0 NuBot  play\n"
     shown = json.loads(touchline("state", "--json").stdout)
     assert (shown["phase"], shown["score"]) == ("play", {"cyan": 2, "magenta": 0})
 

@@ -31,7 +31,9 @@ def test_a_log_within_the_limit_and_one_that_is_not_there_are_left_alone(log: Pa
 def test_a_log_beyond_the_limit_keeps_its_beginning_and_has_a_line_that_says_so(log: Path) -> None:
     write(log, 0, 300)
     sentence = LogLimit(1005, 500).check(log)
-    assert sentence == (f"cyan1 has written more than 0.001005 MB into {log}, which keeps these and the newest lines; print less")
+    assert sentence == (
+        f"cyan1 has written more than 0.001005 MB into {log}, which keeps these and the newest lines; print less"
+    )
     lines = log.read_text().splitlines()
     assert lines[:-1] == [f"line {number:04d}" for number in range(100)]
     assert lines[-1].startswith("touchline: this log is limited to 0.001005 MB")

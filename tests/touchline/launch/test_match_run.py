@@ -139,8 +139,8 @@ def test_a_crashing_agent_is_shown_with_its_log_and_does_not_end_the_match(
 def test_a_match_ends_when_a_side_has_no_robot_left_with_the_reason(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    match = stage(tmp_path, monkeypatch, CUT_SHORT, agent=CRASHES, **{"teams.cyan.size": 1})
-    reason = r"^match ended .*: no robot of cyan is left; cyan1: brain raised; logs are in "
+    match = stage(tmp_path, monkeypatch, CUT_SHORT, agent=CRASHES, **{"teams.cyan.size": 1, "teams.cyan.name": "Lions"})
+    reason = r"^match ended .*: no robot of Lions \(cyan\) is left; cyan1: brain raised; logs are in "
     with pytest.raises(MatchFailedError, match=reason):
         match.play(awaited="what is never shown")
     assert "cyan1 ended with status 1; not started again" in match.words.getvalue()
