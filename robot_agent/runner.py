@@ -5,9 +5,10 @@ import sys
 from collections.abc import Callable
 
 from robot_agent.brain_error import BrainError
+from robot_agent.claim import Membership
 from robot_agent.contract import Brain
 from robot_agent.settings import FIRST_SIGHT_FAILED
-from schemas.bus.contract import Bus, NoReplyError, PresenceKind
+from schemas.bus.contract import Bus, NoReplyError
 from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
@@ -118,19 +119,25 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
             return setup
 
 
-def serve(bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float) -> int:
+def serve(
+    bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float, launch_token: str | None = None
+) -> int:
     """Run a robot until its host has been gone for `patience` s; the exit status of the process.
+
+    `launch_token` is the secret of the launch that the agent belongs to; None without one.
 
     The status is 0 if the host has gone, 1 if the brain failed, and `FIRST_SIGHT_FAILED` if it did so at once.
 
     A host that has left and is back plays another match: the brain is built again before its first sight of it.
 
     Raises:
-        TouchlineError: `build` cannot make the brain, or there is no host.
+        TouchlineError: `build` cannot make the brain, there is no host, or it refuses the agent.
     """
-    runner = Runner(bus, build(ask_setup(bus, patience)), robot)
+    membership = Membership(bus, robot, launch_token)
+    setup = ask_setup(bus, patience)
+    runner = Runner(bus, build(setup), robot)
     host = HostWatch(bus)
-    bus.declare_alive(PresenceKind.AGENT, robot)
+    membership.join(setup, patience)
     gc.collect()
     gc.freeze()
     is_new_match = False
@@ -145,7 +152,9 @@ def serve(bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float
                 return 1 if runner.answered else FIRST_SIGHT_FAILED
         elif host.is_reachable():
             if is_new_match:
-                runner.restart(build(ask_setup(bus, patience)))
+                setup = ask_setup(bus, patience)
+                runner.restart(build(setup))
+                membership.join(setup, patience)
                 is_new_match = False
         elif host.unreachable_s() >= patience:
             sys.stderr.write(f"{robot}: the host has been gone for {patience:g} s; leaving\n")

@@ -38,7 +38,7 @@ def record(
         return None
     with client as bus:
         loss_counts = LossCounts()
-        sink = open_sink(settings.out, clock, settings.match, loss_counts, FileLimits.of(wanted), viz=wanted.viz)
+        sink = open_sink(settings.out, clock, bus.match, loss_counts, FileLimits.of(wanted), viz=wanted.viz)
         try:
             recorder = Recorder(
                 bus,

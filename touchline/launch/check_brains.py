@@ -17,7 +17,7 @@ from robot_agent.build_check import BuildCheckSettings
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.side import Side
-from touchline.launch.processes import BRAIN_ENVIRONMENT, COMMON_ENVIRONMENT
+from touchline.launch.processes import ROBOT_ENVIRONMENT
 from touchline.launch.python_process import PYTHON, module_path_environment
 
 _NOTICE_S = 3.0
@@ -74,7 +74,7 @@ class _BuildCheck:
             file.seek(0)
             self._popen = subprocess.Popen(
                 [*PYTHON, "-m", "robot_agent.build_check", "--settings", "-"],
-                env={**os.environ, **COMMON_ENVIRONMENT, **BRAIN_ENVIRONMENT, **module_path_environment(), **named},
+                env={**os.environ, **ROBOT_ENVIRONMENT, **module_path_environment(), **named},
                 stdin=file,
                 stdout=self._log,
                 stderr=subprocess.STDOUT,
