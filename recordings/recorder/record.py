@@ -5,23 +5,38 @@ from pathlib import Path
 
 from recordings.container.key_selection import KeySelection
 from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.no_match_notice import NoMatchNotice
 from recordings.recorder.recorder import Recorder, RecordingSummary
 from recordings.recorder.settings import RecorderSettings
 from recordings.recorder.sink import ONE_FILE, FileLimits, FileSink, Sink
 from recordings.recorder.snapshot_sink import SnapshotSink
-from schemas.bus.zenoh.bus import open_client
+from schemas.bus.zenoh.bus import ZenohBus, open_client
+from schemas.bus.zenoh.waiting_client import open_when_there
 from schemas.process.clock import Clock, WallClock
 
 
-def record(settings: RecorderSettings, should_stop: Callable[[], bool] = lambda: False) -> RecordingSummary:
-    """Record until the host leaves or `should_stop` returns true.
+def record(
+    settings: RecorderSettings,
+    should_stop: Callable[[], bool] = lambda: False,
+    report: Callable[[str], None] = lambda _: None,
+) -> RecordingSummary | None:
+    """Record until the host leaves or `should_stop` returns true; None if there was no host before that.
+
+    `report` receives a line if there is no host at once, or if it plays another match.
 
     Raises:
         TouchlineError: no host, or a file that cannot be written; what was written so far stays as `*.part`.
     """
     clock, wanted = WallClock(), settings.record
     selection = KeySelection(tuple(wanted.include), tuple(wanted.exclude))
-    with open_client(settings.match, clock, settings.connect, settings.patience) as bus:
+
+    def connect(patience: float) -> ZenohBus:
+        return open_client(settings.match, clock, settings.connect, patience)
+
+    client = open_when_there(connect, clock, settings.patience, report, should_stop)
+    if client is None:
+        return None
+    with client as bus:
         loss_counts = LossCounts()
         sink = open_sink(settings.out, clock, bus.match, loss_counts, FileLimits.of(wanted), viz=wanted.viz)
         try:
@@ -34,7 +49,7 @@ def record(settings: RecorderSettings, should_stop: Callable[[], bool] = lambda:
                 selection=selection,
                 config=settings.config,
             )
-            return recorder.run(should_stop)
+            return recorder.run(NoMatchNotice(bus, report).around(should_stop))
         finally:
             sink.abandon()
 

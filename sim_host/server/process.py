@@ -1,11 +1,11 @@
 """The host process: one match on an endpoint, with its signals and its log."""
 
+import importlib.util
 import logging
 import signal
 import sys
 from contextlib import ExitStack
 from types import FrameType
-from typing import TYPE_CHECKING
 
 from schemas.bus.announcement import Announcement, announced, announced_to_user
 from schemas.bus.endpoint import is_loopback
@@ -13,10 +13,8 @@ from schemas.bus.zenoh.bus import open_host
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
 from schemas.process.scheduling import use_batch_scheduling
+from sim_host.missing_engine import missing_engine_text
 from sim_host.server.settings import HostSettings
-
-if TYPE_CHECKING:
-    from sim_host.server.host import Host
 
 log = logging.getLogger("sim_host")
 
@@ -37,6 +35,8 @@ def run(settings: HostSettings) -> int:
 
 
 def _serve(settings: HostSettings) -> None:
+    if importlib.util.find_spec("pybullet") is None:
+        raise TouchlineError(missing_engine_text())
     config, listen = settings.config, settings.listen
     if listen is not None and not settings.insecure and not is_loopback(listen):
         raise TouchlineError(f"--listen {listen} can be reached by others; say --insecure if that is what you want")
@@ -44,25 +44,14 @@ def _serve(settings: HostSettings) -> None:
     with open_host(config.name, WallClock(), listen) as bus, ExitStack() as announcements:
         _announce(settings, bus.endpoint, announcements)
         log.info('match "%s" on %s, pace %s, seed %d', config.name, bus.endpoint, config.pace, config.seed)
-        host = _host_class()(config, bus, settings.launch_token)
+        from sim_host.server.host import Host  # takes a second, in which clients connect
+
+        host = Host(config, bus, settings.launch_token)
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, lambda *_: host.stop())
         host.run()
         how = "stopped before the match was over," if host.stopping else "match over"
         log.info("%s at tick %d", how, host.simulation.now.tick)
-
-
-def _host_class() -> "type[Host]":
-    """The class of the host. Its import takes a second, in which clients connect to the bus."""
-    try:
-        from sim_host.server.host import Host
-    except ModuleNotFoundError as error:
-        if error.name != "pybullet":
-            raise
-        raise TouchlineError(
-            "PyBullet is not installed; on this machine that takes: pip install 'touchline[sim]'"
-        ) from None
-    return Host
 
 
 def _announce(settings: HostSettings, endpoint: str, announcements: ExitStack) -> None:

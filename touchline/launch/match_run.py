@@ -5,11 +5,13 @@ import signal
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from pathlib import Path
 from types import FrameType, TracebackType
 from typing import Self
 
 from coach_gateway.match.follower import MatchFollower
-from coach_gateway.match.lines import event_line
+from coach_gateway.match.lines import clock_text, event_line
+from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.bus.announcement import announcement_in
 from schemas.bus.contract import Bus, BusError, ReceivedMessage
 from schemas.bus.endpoint import DEFAULT_ENDPOINT, local_endpoint
@@ -21,9 +23,11 @@ from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle
 from touchline.launch.fork_server import ForkServer
+from touchline.launch.log_limit import LogLimit
 from touchline.launch.processes import ROBOT_ENVIRONMENT, MatchPlan, Process, client_processes, host_process
 from touchline.launch.result import NOTABLE, MatchResult
-from touchline.launch.supervisor import AFTER_THE_MATCH, AT_ONCE, Supervisor
+from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
+from touchline.watch.agent_faults import SlowAgents
 from touchline.watch.screen import Screen
 from touchline.watch.status_line import status_line
 
@@ -87,6 +91,10 @@ class MatchRun:
         self._recorded = recorded
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
         self._has_clients = False
+        self._names = TeamNames.of_match(plan.config)
+        self._slow_agents = SlowAgents()
+        self._logs: dict[str, Path] = {}
+        self._log_limit = LogLimit()
         self._fork_server = ForkServer()
         self._supervisor = Supervisor([host_process(plan)], self._launch, clock)
 
@@ -95,26 +103,34 @@ class MatchRun:
 
         Raises:
             InterruptedMatchError: SIGINT or SIGTERM; all processes have ended and the recording is finished.
-            MatchFailedError: the host ended before full time, or the recording was lost.
+            MatchFailedError: the host ended before full time, a team has no robot left, or the recording was lost.
             TouchlineError: the host could not start; the message is the host's.
         """
+        if self._names != SIDES_ALONE:
+            self._screen.event(str(self._names), notable=True)
         with StopSignals() as stop:
             try:
                 self._supervisor.start()
                 self._fork_server.prepare(ROBOT_ENVIRONMENT)
                 follower = self._follow(stop) if self._launch_clients(stop) else None
+                empty = self._empty_side()
             except BaseException:
                 self._supervisor.end(AT_ONCE)
                 raise
             if follower is not None:  # without a host there is no match to record
-                self._supervisor.end(AFTER_THE_MATCH, should_abort=lambda: stop.received is not None)
+                steps = AFTER_THE_MATCH if self._supervisor.host_status is not None else ABANDONED
+                self._supervisor.end(steps, should_abort=lambda: stop.received is not None)
             self._supervisor.end(AT_ONCE)  # the remaining processes, after an interrupt
         if stop.received is not None:
             raise InterruptedMatchError(stop.received)
+        if empty is not None:
+            raise MatchFailedError(self._abandonment(empty, follower))
         return self._outcome(follower)
 
     def _launch(self, process: Process) -> ProcessHandle:
-        return self._fork_server.launch(process, self._plan.folder / f"{process.name}.log")
+        log = self._plan.folder / f"{process.name}.log"
+        self._logs[process.name] = log
+        return self._fork_server.launch(process, log)
 
     def _launch_clients(self, stop: StopSignals) -> bool:
         """Launch all other processes as soon as the host listens; False if it never does."""
@@ -141,7 +157,7 @@ class MatchRun:
                 self._show(follower)
                 self._clock.sleep_until(self._clock.now() + _POLL)
             deadline = self._clock.now() + _LAST_MESSAGES
-            while stop.received is None and bus.connected() and self._clock.now() < deadline:
+            while self._is_ending(stop) and bus.connected() and self._clock.now() < deadline:
                 self._clock.sleep_until(self._clock.now() + _POLL / 10)
             self._show(follower)
         return follower
@@ -156,11 +172,23 @@ class MatchRun:
         return None
 
     def _poll_processes(self, stop: StopSignals) -> bool:
+        if stop.received is not None:
+            return False  # processes that end with the same signal are no crashes
+        for sentence in filter(None, map(self._log_limit.check, self._logs.values())):
+            self._screen.warn(sentence)
         for notice in self._supervisor.check():
             self._screen.warn(notice.sentence)
             for line in notice.log:
                 self._screen.warn(f"  {notice.name}: {line}")
-        return self._supervisor.host_status is None and stop.received is None
+        return self._supervisor.host_status is None and self._empty_side() is None
+
+    def _is_ending(self, stop: StopSignals) -> bool:
+        """Whether the host has ended by itself, so that its last messages are on their way."""
+        return stop.received is None and self._supervisor.host_status is not None
+
+    def _empty_side(self) -> Side | None:
+        """A side of which no robot is left; None while both play."""
+        return next((side for side in Side if self._supervisor.has_no_robot(self._plan.config.robots(side))), None)
 
     def _show(self, follower: MatchFollower) -> None:
         self._report(follower, follower.update().messages)
@@ -168,8 +196,26 @@ class MatchRun:
     def _report(self, follower: MatchFollower, news: Sequence[GameEvent | GameState | Health]) -> None:
         for message in news:
             if isinstance(message, GameEvent):
-                self._screen.event(event_line(message), notable=message.kind in NOTABLE)
-        self._screen.status(status_line(follower, self._robots))
+                self._screen.event(event_line(message, self._names), notable=message.kind in NOTABLE)
+            elif isinstance(message, Health):
+                for sentence in self._slow_agents.update(message):
+                    self._screen.warn(sentence)
+        self._screen.status(status_line(follower, self._robots, self._names))
+
+    def _abandonment(self, side: Side, follower: MatchFollower | None) -> str:
+        """Why a match ended, of which one side has no robot left."""
+        state = follower.state if follower is not None else None
+        when = (
+            f"at {clock_text(state.clock)}, {self._names.score(state.score)}"
+            if state is not None
+            else "before it began"
+        )
+        first = self._plan.config.robots(side)[0]
+        log = self._supervisor.last_lines(first)
+        return (
+            f"match ended {when}: no robot of {self._names.with_side(side)} is left; "
+            f"{first}: {log[-1] if log else 'no reason logged'}; logs are in {self._plan.folder}"
+        )
 
     def _outcome(self, follower: MatchFollower | None) -> MatchResult:
         """The result; raises the reason if there is none."""
@@ -205,4 +251,4 @@ class MatchRun:
                 f"the match was played but its recording was lost: {log[-1] if log else 'no reason logged'}; "
                 f"its log is {self._plan.folder / 'recorder.log'}"
             )
-        return MatchResult.of(follower, recording, self._losses(self._plan))
+        return replace(MatchResult.of(follower, recording, self._losses(self._plan)), names=self._names)

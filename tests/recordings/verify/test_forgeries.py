@@ -15,7 +15,7 @@ from schemas.game import ActionName
 from schemas.messages.game import RefereeAction
 from schemas.side import Side
 from sim_host.match.simulation import Simulation
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.verify.resimulate import verify
 
 ACTIONS = {
