@@ -14,18 +14,15 @@ from mcap.opcode import Opcode
 from mcap.records import Channel, MessageIndex, Schema
 from mcap.writer import MCAP0_MAGIC
 
-from recordings.container.chunks import BROKEN, MESSAGE, RECORD_HEADER, records_in
+from recordings.container.chunks import BROKEN, MESSAGE, PRIVATE, RECORD_HEADER, is_known, records_in
 from recordings.container.mcap_file import bytes_of, stream_of
 
-PRIVATE = 0x80
-"""Readers ignore records with this opcode or a higher one."""
 DAMAGED = 0x100
 """Stands for the opcode of a record whose header is damaged; no record has it."""
 _CHUNK = struct.Struct("<QQQII")
 """First and last log time, size and checksum of the uncompressed content, length of the compression's name."""
 _INDEX = struct.Struct("<HI")
 """Channel, and size of its entries in bytes."""
-_LAST_OPCODE = max(Opcode)
 _IN_DATA = frozenset({Opcode.CHUNK, Opcode.MESSAGE_INDEX, Opcode.ATTACHMENT, Opcode.METADATA})
 """Records between header and end of the data section; all others are in chunks, or after the data section."""
 _DATA_END_BYTES = 4
@@ -87,7 +84,7 @@ def raw_records_of(content: mmap.mmap, known: list[int]) -> Iterator[RawRecord]:
             place = next(places, None)
         opcode, length = RECORD_HEADER.unpack_from(content, at)
         end = at + RECORD_HEADER.size + length
-        sound = 0 < opcode <= _LAST_OPCODE or opcode >= PRIVATE
+        sound = is_known(opcode)
         if place is not None and (not sound or end > place):
             opcode, end = DAMAGED, place
         elif not sound or end > size:

@@ -14,14 +14,14 @@ from mcap.opcode import Opcode
 from mcap.records import Attachment, Metadata
 from mcap.writer import MCAP0_MAGIC
 
-from recordings.container.chunks import BROKEN, RECORD_HEADER
-from recordings.container.manifest import MANIFEST, RESULT
+from recordings.container.chunks import BROKEN, PRIVATE, RECORD_HEADER
+from recordings.container.environment import library
+from recordings.container.manifest import MANIFEST, RESULT, Result
 from recordings.container.mcap_file import stream_of, summary_is_whole, summary_of
 from recordings.container.mcap_writer import CHUNK_BYTES
 from recordings.container.partial_file import locked
 from recordings.container.raw_records import (
     DAMAGED,
-    PRIVATE,
     RawChunk,
     RawRecord,
     chunk_header,
@@ -33,9 +33,13 @@ from recordings.container.raw_records import (
     raw_records_of,
     unpacked,
 )
-from recordings.container.sealed_metadata import is_sealed
+from recordings.container.record_search import record_places
+from recordings.container.sealed_metadata import from_metadata, is_sealed, sealed, to_metadata
 from recordings.container.summary_builder import SummaryBuilder, message_count
 from schemas.errors import TouchlineError
+
+RECOVERED = "recovered"
+"""Name of the metadata record that a repair adds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +106,10 @@ class _Findings:
     cut_chunks: bool = False
     """Whether intact chunks are cut off, because their channels or schemas are lost."""
     damaged: int = 0
+    lost_messages: bool = False
+    """Whether one of the damaged records may have held messages."""
+    result: Result | None = None
+    """The result without its counts, if messages that it counts were left out."""
     indexes: bytes = b""
     """Rewritten indexes of the last chunk."""
     patches: list[tuple[int, bytes]] = field(default_factory=list)
@@ -147,8 +155,9 @@ class _Repair:
     def examine(self) -> _Findings:
         """Find the intact and the damaged records."""
         summary = summary_of(self._content, self._size) if summary_is_whole(self._content, self._size) else None
-        known: list[int] = []
-        if summary is not None:
+        if summary is None:
+            known = record_places(self._content)
+        else:
             self._summary.add_channels(summary.schemas, summary.channels)
             known = sorted(
                 [chunk.chunk_start_offset for chunk in summary.chunk_indexes]
@@ -174,9 +183,11 @@ class _Repair:
         rest = None
         if found.cut > CHUNK_BYTES or found.cut_chunks:
             rest = self._path.with_name(self._path.name + ".rest"), self._content[self._size - found.cut :]
-        note = {"cut_bytes": str(found.cut), "damaged_records": str(found.damaged)}
-        checksum = self._checksum(found)
-        tail = found.indexes + self._summary.tail(found.end + len(found.indexes), checksum, note)
+        note = {"cut_bytes": str(found.cut), "damaged_records": str(found.damaged), "library": library()}
+        metadata = {RECOVERED: sealed(note)}
+        if found.result is not None:
+            metadata[RESULT] = to_metadata(found.result)
+        tail = found.indexes + self._summary.tail(found.end + len(found.indexes), self._checksum(found), metadata)
         return _Plan(found.patches, found.end, tail, rest)
 
     def _is_intact(self, raw_records: list[RawRecord]) -> bool:
@@ -209,20 +220,21 @@ class _Repair:
                 except BROKEN:  # a damaged chunk without a checksum
                     damaged.add(raw.at)
                 if raw.at in damaged:
-                    self._leave_out(found, raw, *chunk.indexes)
+                    self._leave_out(found, raw, *chunk.indexes, messages=True)
                 elif not is_known:
                     found.cut, found.end, found.cut_chunks = self._size - raw.at, raw.at, True
                     return
             elif raw.opcode in (Opcode.ATTACHMENT, Opcode.METADATA):
                 self._keep_attachment_or_metadata(raw, found)
             elif raw.opcode == DAMAGED and raw.at not in in_chunks:
-                self._leave_out(found, raw)
+                self._leave_out(found, raw, messages=True)
         if last is not None and last not in damaged:
             found.end = chunks[last].raw.end  # its indexes are rewritten, as one of them may be missing
 
-    def _leave_out(self, found: _Findings, *raw_records: RawRecord) -> None:
-        """Make readers ignore records."""
+    def _leave_out(self, found: _Findings, *raw_records: RawRecord, messages: bool = False) -> None:
+        """Make readers ignore records; with `messages`, they may have held some."""
         found.damaged += 1
+        found.lost_messages |= messages
         found.patches += [(raw.at, RECORD_HEADER.pack(PRIVATE, raw.end - raw.content)) for raw in raw_records]
 
     def _keep_chunk(self, chunk: RawChunk, found: _Findings, *, trusted: bool, is_last: bool) -> bool:
@@ -256,7 +268,7 @@ class _Repair:
         self._summary.add_chunk(chunk_header(self._content, raw), raw, counted, index_length)
 
     def _keep_attachment_or_metadata(self, raw: RawRecord, found: _Findings) -> None:
-        """Keep an attachment or metadata, but not a result if messages that it counts were left out."""
+        """Keep an attachment or metadata; a result loses its counts if messages that it counts were left out."""
         record: Attachment | Metadata
         try:
             body = self._content[raw.content : raw.end]
@@ -272,8 +284,9 @@ class _Repair:
         except BROKEN:
             self._leave_out(found, raw)
             return
-        if isinstance(record, Metadata) and record.name == RESULT and found.damaged:
+        if isinstance(record, Metadata) and record.name == RESULT and found.lost_messages:
             found.patches.append((raw.at, RECORD_HEADER.pack(PRIVATE, raw.end - raw.content)))
+            found.result = from_metadata(Result, record.metadata).counted({})
         else:
             self._summary.add_attachment_or_metadata(record, raw)
 

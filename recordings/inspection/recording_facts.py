@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from recordings.container.manifest import KeyCount
+from recordings.container.manifest import EndReason, KeyCount
 from recordings.reading.recording import Recording
 from recordings.recorder.match_progress import MatchProgress
 from recordings.recorder.sequence_tracker import SequenceTracker
@@ -133,7 +133,7 @@ class _Ending:
 
 def _ending(recording: Recording) -> _Ending:
     result = recording.result
-    if result is not None:
+    if result is not None and result.keys:
         return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, result.keys)
     progress = MatchProgress()
     trackers: dict[str, SequenceTracker] = {}
@@ -143,14 +143,17 @@ def _ending(recording: Recording) -> _Ending:
         if number >= recording.manifest.standing:
             trackers.setdefault(recorded.key, SequenceTracker()).add(recorded.stamp, len(recorded.payload))
     progress.catch_up()
+    keys = {key: tracker.count() for key, tracker in trackers.items()}
+    if result is not None:  # of a repaired file, whose recorder counted messages that are lost
+        return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, keys)
     state, applied = progress.state, progress.applied
     return _Ending(
-        ended=CUT_OFF,
+        ended=EndReason.FULL_TIME.value if progress.finished else CUT_OFF,
         phase=state.phase if state is not None else None,
         score=state.score if state is not None else None,
         tick=applied.tick if applied is not None else -1,
         time=applied.time if applied is not None else 0.0,
-        keys={key: tracker.count() for key, tracker in trackers.items()},
+        keys=keys,
     )
 
 

@@ -165,6 +165,7 @@ class RecordingWriter:
         for name, data in attachments.items():
             media = MEDIA_TYPES[Path(name).suffix]
             self._mcap.add_attachment(now, 0, name, media, data)
+        self._mcap.add_metadata(MANIFEST, manifest)  # again: without a manifest nothing of the file can be read
         self._mcap.flush()  # type: ignore[no-untyped-call]
 
     def _write_batch(self, batch: Batch) -> None:

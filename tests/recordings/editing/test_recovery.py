@@ -167,6 +167,21 @@ def test_a_flipped_bit_is_reported_or_does_no_harm(several_chunks, tmp_path, rng
     assert harmless > TIMES / 10
 
 
+def test_a_complete_match_that_lost_a_chunk_is_still_complete(recorded):
+    with recorded.path.open("rb") as file:
+        chunk = make_reader(file).get_summary().chunk_indexes[0]
+    data = bytearray(recorded.path.read_bytes())
+    data[chunk.chunk_start_offset + chunk.chunk_length // 2] ^= 4
+    recorded.path.write_bytes(data)
+    recover(recorded.path)
+
+    facts, before = facts_of(open_recording(recorded.path, whole=True)), recorded.result
+    assert (facts.ended, facts.phase, facts.score) == ("full_time", "full_time", {"cyan": 1, "magenta": 0})
+    assert facts.messages < before.messages
+    assert facts.messages == len(told(recorded.path))
+    check_with_the_stock_readers(recorded.path)
+
+
 def test_a_damaged_chunk_is_left_out_and_the_rest_stays(several_chunks):
     whole = told(several_chunks)
     with several_chunks.open("rb") as file:
