@@ -67,8 +67,8 @@ class McapFile:
     channels: dict[int, ChannelRecord] = field(default_factory=dict)
 
     def add_metadata(self, record: Metadata) -> None:
-        """Add a metadata record; of several with one name, the first intact one counts."""
-        if not is_sealed(self.metadata.get(record.name, {})):
+        """Add a metadata record; of several with one name, the last intact one counts."""
+        if record.name not in self.metadata or is_sealed(record.metadata):
             self.metadata[record.name] = record.metadata
 
     def messages(

@@ -23,9 +23,10 @@ GIVE_UP_S = 20.0
 class BatchReader:
     """Listens from the moment it is made. All times but those of sending leave out what the process was suspended."""
 
-    def __init__(self, bus: Bus) -> None:
+    def __init__(self, bus: Bus, since_ns: int | None = None) -> None:
+        """Batches published before `since_ns`, the host's wall time, are not read; by default before now."""
         self._bus = bus
-        self._sequence = BatchSequence(bus.clock.unix_ns())
+        self._sequence = BatchSequence(bus.clock.unix_ns() if since_ns is None else since_ns)
         self._subscription = bus.subscribe(RECORD_BATCH)
         self._active = ActiveClock(bus.clock.now())
         self._pending: PendingReply | None = None

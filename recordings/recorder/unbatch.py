@@ -25,10 +25,10 @@ class Unbatcher:
     backward.
     """
 
-    def __init__(self, *, sights: bool = False) -> None:
-        """Without `sights`, those are passed over."""
+    def __init__(self, *, sights: bool = False, log_ns: int = 0) -> None:
+        """Without `sights`, those are passed over. No log time is before `log_ns`."""
         self._sights = sights
-        self._log_ns = 0
+        self._log_ns = log_ns
 
     def messages_of(self, batch: Batch) -> list[LoggedMessage]:
         """The messages that a batch holds, in their order; keys of no recorded topic are passed over.

@@ -8,7 +8,7 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.recorder.recorder import Recorder, RecordingSummary
 from recordings.recorder.sink import Sink
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus, Publisher, Server
+from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Server
 from schemas.bus.in_process_bus import InProcessBus, Medium
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
@@ -79,6 +79,7 @@ class FakeHost:
     writers: dict[str, Publisher] = field(default_factory=dict)
     is_prompt: bool = True
     """It publishes a batch for each tick at once."""
+    _arrivals: int = 0
 
     def __post_init__(self) -> None:
         self.server = self.bus.serve(SETUP)
@@ -97,6 +98,11 @@ class FakeHost:
         """Send messages of a key that reach no recorder."""
         for _ in range(count):
             self.direct[key].put_payload(b"{}")
+
+    def add_unstamped(self, key: str, payload: bytes) -> None:
+        """A message of a program that does not use this library has come."""
+        self._arrivals += 1
+        self.batches.add_received(ReceivedMessage(COMMAND, key, payload, None, arrived_ns=self._arrivals))
 
     def answer(self) -> None:
         while (query := self.server.receive()) is not None:
@@ -147,6 +153,8 @@ class RecorderRig:
     recorder_bus: Bus
     sink: Sink
     path: Path
+    played: int = 0
+    """The next tick, where a test counts them."""
 
     def begin(self) -> None:
         self.recorder.pump()

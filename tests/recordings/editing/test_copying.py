@@ -8,7 +8,7 @@ from recordings.editing.merging import merge_recordings
 from recordings.inspection.difference import compare
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.recording import open_recording
-from recordings.recorder.sink import FileLimits
+from recordings.recorder.file_limits import FileLimits
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score
 from schemas.messages.command import Command, Drive
