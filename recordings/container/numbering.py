@@ -16,6 +16,12 @@ def files_at(path: Path) -> list[Path]:
     return [path] if path.exists() else numbered_files(path)
 
 
+def unfinished_at(path: Path) -> list[Path]:
+    """The unfinished files of the recording at this path."""
+    part = path.with_name(path.name + ".part")
+    return [part] if part.exists() else unfinished_files(path)
+
+
 def numbered_files(path: Path) -> list[Path]:
     """The numbered files beside a path, in order."""
     return _numbered_files(path, path.suffix)

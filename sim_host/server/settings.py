@@ -1,5 +1,7 @@
 """What a host process is started with."""
 
+from pathlib import Path
+
 from pydantic import Field
 
 from schemas.bus.settings import ListenSettings
@@ -11,3 +13,5 @@ class HostSettings(ListenSettings):
 
     config: MatchConfig = Field(default_factory=MatchConfig)
     """The match."""
+    outcome: Path | None = None
+    """File for the result at the end, for the program that launched the host."""

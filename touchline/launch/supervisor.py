@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
 from touchline.launch.processes import Process, ProcessKind
 
@@ -137,18 +138,24 @@ class Supervisor:
 
     def _crashed(self, process: Process, status: int) -> Notice:
         log = tuple(self._running[process.name].last_lines())
-        left = process.restarts - self._restarts[process.name]
-        if left > 0:
+        return Notice(process.name, f"{process.name} {ending(status)}; {self._restart(process, status)}", log)
+
+    def _restart(self, process: Process, status: int) -> str:
+        """Launch a crashed process again if that is allowed and possible; returns what was done."""
+        if self._restarts[process.name] < process.restarts:
             self._restarts[process.name] += 1
-            self._running[process.name] = self._launch(process)
-            outcome = f"started again ({self._restarts[process.name]} of {process.restarts})"
-        else:
-            self.ended[process.name] = status
-            outcome = "not started again"
-        return Notice(process.name, f"{process.name} {_ending(status)}; {outcome}", log)
+            try:
+                self._running[process.name] = self._launch(process.restarted())
+            except (TouchlineError, OSError) as error:  # a full disk
+                self.ended[process.name] = status
+                return f"cannot be started again: {error}"
+            return f"started again ({self._restarts[process.name]} of {process.restarts})"
+        self.ended[process.name] = status
+        return "not started again"
 
 
-def _ending(status: int) -> str:
+def ending(status: int) -> str:
+    """How a process with this exit status ended."""
     if status < 0:
         return f"was ended by {signal.Signals(-status).name}"
     return f"ended with status {status}"
