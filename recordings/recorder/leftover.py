@@ -194,6 +194,8 @@ def find_leftover(path: Path, limits: FileLimits) -> Leftover:
             partial_file.file.seek(0, os.SEEK_END)
             leftover.content = leftover.read(partial_file.path)
             leftover.partial_file = partial_file
+    except OSError as error:
+        raise TouchlineError(f"{parts[-1]}: {error.strerror}; what was written before is readable") from None
     finally:
         if leftover.partial_file is None and partial_file is not None:
             partial_file.close()
