@@ -95,6 +95,10 @@ class KeyCount(Part):
     left_out: int = 0
     """Messages received while the recorder was paused."""
 
+    def plus(self, other: "KeyCount") -> "KeyCount":
+        """The counts of both."""
+        return KeyCount(**{name: getattr(self, name) + getattr(other, name) for name in KeyCount.model_fields})
+
     def since(self, before: "KeyCount") -> Self:
         """The counts since `before`. None of them is negative, although a late message reduces the losses."""
         return type(self)(

@@ -66,6 +66,11 @@ class McapFile:
     attachments: dict[str, bytes] = field(default_factory=dict)
     channels: dict[int, ChannelRecord] = field(default_factory=dict)
 
+    @property
+    def size(self) -> int:
+        """Bytes of the file."""
+        return self.path.stat().st_size
+
     def add_metadata(self, record: Metadata) -> None:
         """Add a metadata record; of several with one name, the last intact one counts."""
         if record.name not in self.metadata or is_sealed(record.metadata):

@@ -3,6 +3,7 @@
 import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 from recordings.container.manifest import EndReason, KeyCount
@@ -48,9 +49,15 @@ class RecordingFacts:
     started: str
     """Wall time, ISO 8601, UTC."""
     duration: float
-    """Simulated time in s."""
+    """Simulated time from the first to the last message, in s."""
+    start: float
+    """Simulated time of the first message, in s, without latched messages repeated at the beginning."""
+    end: float
+    """Simulated time of the last message, in s."""
     tick: int
-    """The last tick whose inputs were recorded."""
+    """The last tick whose inputs were recorded, before the recording was filtered; −1 if there is none."""
+    time: float
+    """Simulated time of that tick, in s."""
     phase: str | None
     score: dict[str, int] | None
     ended: str
@@ -87,6 +94,7 @@ def facts_of(recording: Recording) -> RecordingFacts:
     """The facts of a recording; those of a truncated file are collected from its messages."""
     manifest, setup, config = recording.manifest, recording.manifest.setup, recording.manifest.config
     ending = _ending(recording)
+    start, end = _extent(recording)
     described = setup or config
     teams = {side.value: team.name for side, team in setup.teams.items()} if setup is not None else {}
     return RecordingFacts(
@@ -99,8 +107,11 @@ def facts_of(recording: Recording) -> RecordingFacts:
         seed=config.seed if config is not None else None,
         teams=teams,
         started=manifest.started,
-        duration=ending.time,
+        duration=end - start,
+        start=start,
+        end=end,
         tick=ending.tick,
+        time=ending.time,
         phase=ending.phase.value if ending.phase is not None else None,
         score=ending.score.model_dump() if ending.score is not None else None,
         ended=ending.ended,
@@ -116,9 +127,19 @@ def facts_of(recording: Recording) -> RecordingFacts:
         exclude=manifest.exclude,
         damaged=recording.damaged,
         drawn=recording.drawn,
-        size=recording.path.stat().st_size,
+        size=recording.mcap_file.size,
         keys=list(_key_facts(recording, ending.keys)),
     )
+
+
+def _extent(recording: Recording) -> tuple[float, float]:
+    """Simulated times of the first and the last message, in s."""
+    channels = [channel for channel in recording.channels if channel.messages]
+    start = min((channel.start for channel in channels), default=0.0)
+    standing = recording.manifest.standing
+    if standing:
+        start = next((recorded.time for recorded in islice(recording.messages(), standing, None)), start)
+    return start, max(start, max((channel.end for channel in channels), default=0.0))
 
 
 @dataclass(frozen=True, slots=True)

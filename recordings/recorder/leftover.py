@@ -9,6 +9,7 @@ from pathlib import Path
 
 from mcap.opcode import Opcode
 from mcap.records import Channel, Metadata, Schema
+from mcap.writer import MCAP0_MAGIC
 
 from recordings.container.chunks import BROKEN, MESSAGE, records_in
 from recordings.container.manifest import MANIFEST, Manifest
@@ -194,12 +195,24 @@ def find_leftover(path: Path, limits: FileLimits) -> Leftover:
             partial_file.file.seek(0, os.SEEK_END)
             leftover.content = leftover.read(partial_file.path)
             leftover.partial_file = partial_file
+        elif partial_file is not None:
+            _discard_if_empty(partial_file)
     except OSError as error:
         raise TouchlineError(f"{parts[-1]}: {error.strerror}; what was written before is readable") from None
     finally:
-        if leftover.partial_file is None and partial_file is not None:
+        if leftover.partial_file is None and partial_file is not None and not partial_file.file.closed:
             partial_file.close()
     return leftover
+
+
+def _discard_if_empty(partial_file: PartialFile) -> None:
+    """Remove a recording that ends before its first message, as `cut_to_intact` has found."""
+    if partial_file.file.closed:
+        return
+    with partial_file.path.open("rb") as file:
+        head = file.read(len(MCAP0_MAGIC))
+    if MCAP0_MAGIC.startswith(head):
+        partial_file.discard()
 
 
 def _is_finished(path: Path) -> bool:

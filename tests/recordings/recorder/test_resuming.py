@@ -9,6 +9,7 @@ import pytest
 from mcap.reader import make_reader
 from mcap.stream_reader import StreamReader
 
+from recordings.container import repair
 from recordings.container.manifest import EndReason
 from recordings.container.numbering import numbered_files
 from recordings.inspection.recording_facts import facts_of
@@ -127,7 +128,7 @@ def test_a_recorder_killed_at_any_instant_leaves_its_successor_a_whole_recording
         assert (result.ended, result.lost, result.messages) == (EndReason.FULL_TIME, 0, len(whole))
         assert result.keys == undisturbed.read().result.keys
         check_with_the_stock_readers(rig.path)
-        assert [file.name for file in folder.iterdir() if file.suffix != ".old"] == ["match.mcap"]
+        assert [file.name for file in folder.iterdir()] == ["match.mcap"]
 
 
 def test_a_recorder_that_is_killed_again_and_again_is_continued_each_time(
@@ -241,3 +242,32 @@ def test_a_file_that_another_recorder_writes_is_not_continued(begun: Callable[..
     play(rig, 5)
     with pytest.raises(TouchlineError, match="is being written by another recorder"):
         find_leftover(rig.path, ONE_FILE)
+
+
+def test_a_file_that_cannot_be_cut_is_kept(
+    begun: Callable[..., RecorderRig], wait_until_written: Wait, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rig = begun()
+    for _ in range(4):
+        play(rig, 10)
+        rig.sink.sync()
+    kill(rig, wait_until_written, 0.95)
+    part = next(rig.path.parent.glob("*.part"))
+    before = part.read_bytes()
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(repair, "execute", full)
+    with pytest.raises(TouchlineError, match=r"match\.mcap\.part: No space left on device"):
+        find_leftover(rig.path, ONE_FILE)
+    assert part.read_bytes() == before
+
+
+def test_what_is_no_recording_is_set_aside(begun: Callable[..., RecorderRig], tmp_path: Path) -> None:
+    part = tmp_path / "match.mcap.part"
+    part.write_bytes(b"not a recording")
+    leftover = find_leftover(tmp_path / "match.mcap", ONE_FILE)
+    assert leftover.partial_file is None
+    begun(tmp_path / "match.mcap")
+    assert part.with_name("match.mcap.part.old").read_bytes() == b"not a recording"
