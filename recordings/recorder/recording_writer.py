@@ -233,7 +233,7 @@ class RecordingWriter:
         assert model is not None
         name = model.__name__
         if name not in self._schemas:
-            data = to_json(flat_schema(model))
+            data = to_json(flat_schema(model, self._roster.robots))
             self._schemas[name] = self._mcap.register_schema(f"touchline.{name}", "jsonschema", data)
         return self._schemas[name]
 

@@ -12,6 +12,11 @@ class RosterMetadata:
         self._lineup = Lineup.of(setup)
         self._teams = {side.value: team.name for side, team in setup.teams.items()} if setup is not None else {}
 
+    @property
+    def robots(self) -> list[str]:
+        """The names of all robots that take part or did, in the order of the roster."""
+        return list(self._lineup.robots)
+
     def update(self, roster: list[RosterEntry]) -> None:
         """The roster has changed. Robots that have left are remembered: their messages are in the file."""
         self._lineup = self._lineup.changed(roster)

@@ -137,10 +137,12 @@ class FakeHost:
         self.batches.send()
 
     def goal(self, tick: int) -> None:
+        self.event(tick, "goal by cyan2")
+
+    def event(self, tick: int, text: str) -> None:
+        """A goal, in these words."""
         self.writers["game/event"].put(
-            GameEvent(
-                tick=tick, time=tick * TICK, clock=tick * TICK, kind=EventKind.GOAL, rule="goal", text="goal by cyan2"
-            )
+            GameEvent(tick=tick, time=tick * TICK, clock=tick * TICK, kind=EventKind.GOAL, rule="goal", text=text)
         )
 
 
