@@ -34,7 +34,7 @@ def make_setup(match: str = "friendly") -> Setup:
     return Setup.of(load_match(None, {"name": match, **teams}), load_profile("msl"), load_rule_book("friendly"))
 
 
-def make_world(tick: int) -> World:
+def make_world(tick: int, names: tuple[str, ...] = ROBOTS) -> World:
     time = tick * TICK
     robots = {
         name: RobotTruth(
@@ -47,7 +47,7 @@ def make_world(tick: int) -> World:
             omega=0.0,
             holding=False,
         )
-        for number, name in enumerate(ROBOTS)
+        for number, name in enumerate(names)
     }
     ball = BallTruth(x=6 * math.sin(time), y=3 * math.cos(time), z=0.11, vx=0.0, vy=0.0, vz=0.0)
     return World(tick=tick, time=time, robots=robots, ball=ball, clock=time)
@@ -109,10 +109,10 @@ class FakeHost:
             query.reply(self.setup)
         self.batches.process()
 
-    def play(self, tick: int) -> None:
-        """One tick: truth, the inputs that led to it, the robots' answers to it."""
+    def play(self, tick: int, guests: tuple[str, ...] = ()) -> None:
+        """One tick: truth, the inputs that led to it, the robots' answers to it; `guests` are robots that joined."""
         self.bus.clock.sim_ns = self.robots.clock.sim_ns = round(tick * TICK * 1e9)
-        self.writers["world"].put(make_world(tick))
+        self.writers["world"].put(make_world(tick, (*ROBOTS, *guests)))
         inputs = {name: AppliedInput(drive=Drive(vx=1.0), dribble=False, answers_tick=tick) for name in ROBOTS}
         self.writers["host/applied"].put(Applied(tick=tick, time=tick * TICK, inputs=inputs, chain=f"{tick:016x}"))
         for name in ROBOTS:
