@@ -20,6 +20,7 @@ from recordings.container.mcap_file import stream_of, summary_is_whole, summary_
 from recordings.container.mcap_writer import CHUNK_BYTES
 from recordings.container.raw_records import (
     DAMAGED,
+    EXTENT,
     RawChunk,
     RawRecord,
     chunk_header,
@@ -27,6 +28,7 @@ from recordings.container.raw_records import (
     damaged_chunks,
     index_bytes,
     index_counts,
+    index_extent,
     raw_chunks_of,
     raw_records_of,
     unpacked,
@@ -218,9 +220,11 @@ class _Repair:
 
         If its indexes are not `trusted`, they are compared with its content.
         """
+        header = chunk_header(self._content, chunk.raw)
         counted = index_counts(self._content, chunk)
-        if trusted and not is_last and not chunk.broken and self._summary.knows(counted):
-            self._add(chunk.raw, counted, chunk.end - chunk.raw.end)
+        trusted = trusted and not is_last and not chunk.broken and self._summary.knows(counted)
+        if trusted and index_extent(self._content, chunk) == (header.first_ns, header.last_ns):
+            self._summary.add_chunk(header, chunk.raw, counted, chunk.end - chunk.raw.end)
             return True
         content = content_of(unpacked(self._content, chunk.raw))
         self._summary.add_channels(content.schemas, content.channels)
@@ -237,11 +241,11 @@ class _Repair:
         elif self._content[chunk.raw.end : chunk.end] != written:
             found.patches.append((chunk.raw.end, written))
         counted = {channel: (len(index.records), places.get(channel, 0)) for channel, index in content.indexes.items()}
-        self._add(chunk.raw, counted, len(written))
+        if content.extent is not None and content.extent != (header.first_ns, header.last_ns):
+            header = header._replace(first_ns=content.extent[0], last_ns=content.extent[1])
+            found.patches.append((chunk.raw.content, EXTENT.pack(*content.extent)))  # it has no checksum
+        self._summary.add_chunk(header, chunk.raw, counted, len(written))
         return True
-
-    def _add(self, raw: RawRecord, counted: dict[int, tuple[int, int]], index_length: int) -> None:
-        self._summary.add_chunk(chunk_header(self._content, raw), raw, counted, index_length)
 
     def _keep_attachment_or_metadata(self, raw: RawRecord, found: Findings) -> None:
         """Keep an attachment or metadata; a result loses its counts if messages that it counts were left out."""

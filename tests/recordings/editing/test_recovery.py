@@ -13,6 +13,7 @@ from mcap.writer import CompressionType, Writer
 
 from recordings.editing.recovery import recover
 from recordings.inspection.recording_facts import facts_of
+from recordings.reading.cursor import Cursor
 from recordings.reading.recording import open_recording
 from schemas.errors import TouchlineError
 
@@ -197,6 +198,28 @@ def test_a_damaged_chunk_is_left_out_and_the_rest_stays(several_chunks):
     gone = [entry for entry in whole if chunk.message_start_time <= entry[2] <= chunk.message_end_time]
     assert told(several_chunks) == [entry for entry in whole if entry not in gone]
     assert facts_of(open_recording(several_chunks)).lost == len(gone)
+    check_with_the_stock_readers(several_chunks)
+
+
+@pytest.mark.parametrize("finished", [True, False])
+@pytest.mark.parametrize("field", [0, 8])
+def test_times_of_a_chunk_that_have_changed_are_put_right(several_chunks, finished, field):
+    """No checksum covers them, and readers skip chunks by them."""
+    whole, data = told(several_chunks), bytearray(several_chunks.read_bytes())
+    with several_chunks.open("rb") as file:
+        summary = make_reader(file).get_summary()
+    chunk = summary.chunk_indexes[5]
+    data[chunk.chunk_start_offset + 9 + field + 3] ^= 0x40
+    if not finished:
+        last = summary.chunk_indexes[-1]
+        del data[last.chunk_start_offset + last.chunk_length + last.message_index_length :]
+    several_chunks.write_bytes(data)
+
+    recover(several_chunks)
+    assert told(several_chunks) == whole
+    cursor = Cursor(several_chunks)
+    cursor.seek(chunk.message_start_time)
+    assert cursor.peek().log_ns == chunk.message_start_time
     check_with_the_stock_readers(several_chunks)
 
 
