@@ -81,9 +81,9 @@ def _repeats(file: McapFile) -> Counter[_Id]:
     metadata = file.metadata.get(MANIFEST, {})
     if not is_sealed(metadata):
         raise TouchlineError(f"{file.path}: its manifest is damaged or missing; use another copy of it")
-    standing = from_metadata(Manifest, metadata).standing
+    latched_count = from_metadata(Manifest, metadata).latched_count
     keys = {channel.key for channel in file.channels.values() if channel.encoding == "json"}
-    return Counter((key, one.sequence, one.publish_time) for key, one in islice(file.messages(keys), standing))
+    return Counter((key, one.sequence, one.publish_time) for key, one in islice(file.messages(keys), latched_count))
 
 
 def _add_channel(channels: dict[str, ChannelRecord], channel: ChannelRecord, repeated: int) -> None:

@@ -103,9 +103,9 @@ def _messages(
     """Yield the messages on these keys, without the latched ones at the beginning and repeated commands."""
     last: dict[str, bytes] = {}
     start, end = span
-    standing = recording.manifest.standing
-    for number, recorded in enumerate(recording.messages(start=start if not standing else None, end=end)):
-        if recorded.key not in keys or number < standing or (start is not None and recorded.time < start):
+    latched_count = recording.manifest.latched_count
+    for number, recorded in enumerate(recording.messages(start=start if not latched_count else None, end=end)):
+        if recorded.key not in keys or number < latched_count or (start is not None and recorded.time < start):
             continue
         if recorded.topic.key == COMMAND.key and not everything:
             if last.get(recorded.key) == recorded.payload:

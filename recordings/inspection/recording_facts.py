@@ -69,7 +69,7 @@ class RecordingFacts:
     """Messages received while the recorder was paused."""
     part: int
     """Number of this file in a split recording, from 1."""
-    standing: int
+    latched_count: int
     """Number of latched messages repeated at the beginning of the file."""
     made: str
     """`recorded`, or how it was made from other recordings."""
@@ -121,7 +121,7 @@ def facts_of(recording: Recording) -> RecordingFacts:
         missed_before_start=sum(count.missed_before_start for count in ending.keys.values()),
         left_out=sum(count.left_out for count in ending.keys.values()),
         part=manifest.part,
-        standing=manifest.standing,
+        latched_count=manifest.latched_count,
         made=manifest.made,
         include=manifest.include,
         exclude=manifest.exclude,
@@ -136,9 +136,9 @@ def _extent(recording: Recording) -> tuple[float, float]:
     """Simulated times of the first and the last message, in s."""
     channels = [channel for channel in recording.channels if channel.messages]
     start = min((channel.start for channel in channels), default=0.0)
-    standing = recording.manifest.standing
-    if standing:
-        start = next((recorded.time for recorded in islice(recording.messages(), standing, None)), start)
+    latched_count = recording.manifest.latched_count
+    if latched_count:
+        start = next((recorded.time for recorded in islice(recording.messages(), latched_count, None)), start)
     return start, max(start, max((channel.end for channel in channels), default=0.0))
 
 
@@ -161,7 +161,7 @@ def _ending(recording: Recording) -> _Ending:
     for number, recorded in enumerate(recording.messages()):
         received = recorded.received()
         progress.update([received])
-        if number >= recording.manifest.standing:
+        if number >= recording.manifest.latched_count:
             trackers.setdefault(recorded.key, SequenceTracker()).add(recorded.stamp, len(recorded.payload))
     progress.catch_up()
     keys = {key: tracker.count() for key, tracker in trackers.items()}

@@ -149,7 +149,7 @@ class Leftover:
             manifest = content.manifest
             if manifest is None:
                 raise TouchlineError(f"{path}: cannot be continued, it has no manifest; give another --out")
-            if number > manifest.standing:
+            if number > manifest.latched_count:
                 self._add(logged)
             elif not self.part:
                 self.latched.update([logged])

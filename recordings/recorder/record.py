@@ -1,4 +1,4 @@
-"""Records a match from its endpoint into files, as the settings of a recorder ask for."""
+"""Records a match from its endpoint into files, by the settings of a recorder."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -67,10 +67,10 @@ def open_sink(
     viz: bool = True,
     leftover: Leftover | None = None,
 ) -> Sink:
-    """Where a recording goes; with `viz`, what viewers draw is in it. With a `leftover` it is continued.
+    """The sink of a recording; with `viz`, the channels for viewers are written, too. A `leftover` is continued.
 
     Raises:
-        TouchlineError: a file that cannot be written.
+        TouchlineError: the file cannot be written.
     """
     kind = FileSink if limits.snapshot is None else SnapshotSink
     return kind(path, clock, match, loss_counts, limits, viz=viz, leftover=leftover)
