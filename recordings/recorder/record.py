@@ -10,7 +10,8 @@ from recordings.container.sealed_metadata import from_metadata
 from recordings.recorder.file_limits import ONE_FILE, FileLimits
 from recordings.recorder.leftover import Leftover, find_leftover
 from recordings.recorder.loss_counts import LossCounts
-from recordings.recorder.recorder import Recorder, RecordingSummary
+from recordings.recorder.recorder import Recorder
+from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
 from recordings.recorder.sink import FileSink, Sink
 from recordings.recorder.snapshot_sink import SnapshotSink

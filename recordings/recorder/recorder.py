@@ -4,8 +4,6 @@ It needs a bus and a sink, no process: `recordings.recorder.record` opens both.
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from pathlib import Path
 
 from recordings.container.attachments import make_attachments
 from recordings.container.key_selection import EVERYTHING, KeySelection
@@ -16,6 +14,7 @@ from recordings.recorder.latched_messages import LoggedMessage
 from recordings.recorder.leftover import Leftover, message_id
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.poll_interval import PollInterval
+from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.setup_query import SetupQuery
 from recordings.recorder.sink import Sink
@@ -41,18 +40,6 @@ _QUIET_S = 0.25
 """Wall time without a message after which none is expected any more."""
 _DRAIN_S = 10.0
 """Most wall time for reading the last messages after the host has left: a host that continues would never end it."""
-
-
-@dataclass(frozen=True, slots=True)
-class RecordingSummary:
-    """What was recorded."""
-
-    files: list[Path]
-    """The files that were kept, the oldest first."""
-    size: int
-    """Bytes of all files."""
-    result: Result
-    """The result of the last file, or, with snapshots, of the whole recording."""
 
 
 class Recorder:

@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from recordings.reading.recording import Recording, open_recording
-from recordings.recorder.recorder import Recorder, RecordingSummary
+from recordings.recorder.recorder import Recorder
+from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.sink import Sink
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Server

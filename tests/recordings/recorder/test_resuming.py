@@ -46,7 +46,7 @@ def kill(rig: RecorderRig, wait: Wait, flushed: float = 1.0) -> None:
 
 def resume(rig: RecorderRig, limits: FileLimits = ONE_FILE) -> None:
     """The successor takes the killed recorder's place in the rig."""
-    bus = rig.host.bus.medium.open_bus("friendly", rig.recorder_bus.clock)
+    bus = rig.host.bus.shared_state.open_bus("friendly", rig.recorder_bus.clock)
     leftover = find_leftover(rig.path, limits)
     known = leftover.for_recorder(limits)
     sink = open_sink(rig.path, bus.clock, "friendly", known.loss_counts, limits, leftover=leftover)
