@@ -15,7 +15,7 @@ from mcap.writer import MCAP0_MAGIC
 
 from recordings.container.chunks import BROKEN, PRIVATE, RECORD_HEADER
 from recordings.container.environment import library
-from recordings.container.manifest import MANIFEST, RESULT, Result
+from recordings.container.manifest import DAMAGED_RECORDS, MANIFEST, RECOVERED, RESULT, Result
 from recordings.container.mcap_file import stream_of, summary_is_whole, summary_of
 from recordings.container.mcap_writer import CHUNK_BYTES
 from recordings.container.raw_records import (
@@ -37,9 +37,6 @@ from recordings.container.record_search import record_places
 from recordings.container.sealed_metadata import from_metadata, is_sealed, sealed, to_metadata
 from recordings.container.summary_builder import SummaryBuilder, message_count
 from schemas.errors import TouchlineError
-
-RECOVERED = "recovered"
-"""Name of the metadata record that a repair adds."""
 
 
 @dataclass(slots=True)
@@ -81,7 +78,7 @@ def examine(path: Path) -> tuple[Findings, RepairPlan | None]:
         with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
             repair = _Repair(path, content)
             found = repair.examine()
-            note = {"cut_bytes": str(found.cut), "damaged_records": str(found.damaged), "library": library()}
+            note = {"cut_bytes": str(found.cut), DAMAGED_RECORDS: str(found.damaged), "library": library()}
             return found, None if found.was_intact else repair.plan(found, {RECOVERED: sealed(note)})
 
 

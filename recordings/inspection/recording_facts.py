@@ -7,6 +7,7 @@ from itertools import islice
 from typing import Any
 
 from recordings.container.manifest import EndReason, KeyCount
+from recordings.inspection.contradictions import contradictions
 from recordings.reading.recording import Recording
 from recordings.recorder.match_progress import MatchProgress
 from recordings.recorder.sequence_tracker import SequenceTracker
@@ -84,6 +85,8 @@ class RecordingFacts:
     size: int
     """Bytes of the file."""
     keys: list[KeyFacts]
+    contradictions: list[str]
+    """Sentences on where result, manifest and attachments do not fit the messages and each other."""
 
     def to_json(self) -> dict[str, Any]:
         """The facts as plain lists, numbers and strings."""
@@ -129,6 +132,7 @@ def facts_of(recording: Recording) -> RecordingFacts:
         drawn=recording.drawn,
         size=recording.mcap_file.size,
         keys=list(_key_facts(recording, ending.keys)),
+        contradictions=contradictions(recording),
     )
 
 

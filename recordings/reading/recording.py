@@ -6,7 +6,7 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from recordings.container.manifest import MANIFEST, RESULT, Manifest, Result
+from recordings.container.manifest import DAMAGED_RECORDS, MANIFEST, RECOVERED, RESULT, Manifest, Result
 from recordings.container.mcap_file import ChannelRecord, McapFile, is_derived, open_mcap_file
 from recordings.container.numbering import unfinished_at
 from recordings.container.sealed_metadata import digest, from_metadata, is_sealed
@@ -104,6 +104,12 @@ class Recording:
         """Key → payloads that `decoded` skipped because they are not valid messages."""
         self._topics = {channel.key: _topic(channel) for channel in mcap_file.channels.values()}
         self._versions = {channel.key: channel.version for channel in mcap_file.channels.values()}
+
+    @property
+    def damaged_records(self) -> int:
+        """Damaged records that a repair has left out."""
+        note = self.mcap_file.metadata.get(RECOVERED, {})
+        return int(note.get(DAMAGED_RECORDS, "0")) if is_sealed(note) else 0
 
     @property
     def channels(self) -> list[ChannelFacts]:

@@ -41,7 +41,7 @@ def record(settings: RecorderSettings, should_stop: Callable[[], bool] = lambda:
             return _summary_of(leftover.files)
         known = leftover.for_recorder(limits) if leftover is not None else None
         loss_counts = known.loss_counts if known is not None else LossCounts()
-        sink = open_sink(settings.out, clock, settings.match, loss_counts, limits, viz=wanted.viz, leftover=leftover)
+        sink = open_sink(settings.out, clock, bus.match, loss_counts, limits, viz=wanted.viz, leftover=leftover)
         try:
             recorder = Recorder(
                 bus,

@@ -37,7 +37,7 @@ def test_info_describes_all_files(split: Path) -> None:
 
 
 def test_stats_measure_all_files(split: Path) -> None:
-    assert json.loads(run("stats", split, "--json"))["coverage"]["world"] == 101
+    assert json.loads(run("stats", split, "--json"))["coverage"]["worlds"] == 101
 
 
 @pytest.mark.parametrize("jobs", ["1", "2"])
