@@ -6,7 +6,7 @@ import sys
 import threading
 
 from recordings.recorder.record import record
-from recordings.recorder.recorder import RecordingSummary
+from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
 from schemas.process.scheduling import use_batch_scheduling
 

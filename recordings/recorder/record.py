@@ -4,15 +4,28 @@ from collections.abc import Callable
 from pathlib import Path
 
 from recordings.container.key_selection import KeySelection
+from recordings.container.manifest import RESULT, Result
+from recordings.container.mcap_file import open_mcap_file
+from recordings.container.sealed_metadata import from_metadata
+from recordings.recorder.file_limits import ONE_FILE, FileLimits
+from recordings.recorder.leftover import Leftover, find_leftover
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.no_match_notice import NoMatchNotice
-from recordings.recorder.recorder import Recorder, RecordingSummary
+from recordings.recorder.recorder import Recorder
+from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
-from recordings.recorder.sink import ONE_FILE, FileLimits, FileSink, Sink
+from recordings.recorder.sink import FileSink, Sink
 from recordings.recorder.snapshot_sink import SnapshotSink
+from schemas.bus.contract import Bus, NoReplyError
 from schemas.bus.zenoh.bus import ZenohBus, open_client
 from schemas.bus.zenoh.waiting_client import open_when_there
+from schemas.messages.record_batch import RecordBatchesRequest, read_reply
 from schemas.process.clock import Clock, WallClock
+from schemas.topics import RECORD_BATCHES
+from schemas.wire.message import BadMessageError
+
+_ASK_S = 2.0
+"""Wall time in which a host answers when it began."""
 
 
 def record(
@@ -29,6 +42,7 @@ def record(
     """
     clock, wanted = WallClock(), settings.record
     selection = KeySelection(tuple(wanted.include), tuple(wanted.exclude))
+    limits = FileLimits.of(wanted)
 
     def connect(patience: float) -> ZenohBus:
         return open_client(settings.match, clock, settings.connect, patience)
@@ -37,8 +51,12 @@ def record(
     if client is None:
         return None
     with client as bus:
-        loss_counts = LossCounts()
-        sink = open_sink(settings.out, clock, bus.match, loss_counts, FileLimits.of(wanted), viz=wanted.viz)
+        leftover = _leftover(bus, settings.out, limits) if settings.resume else None
+        if leftover is not None and leftover.is_finished and not limits.is_split:
+            return _summary_of(leftover.files)
+        known = leftover.for_recorder(limits) if leftover is not None else None
+        loss_counts = known.loss_counts if known is not None else LossCounts()
+        sink = open_sink(settings.out, clock, bus.match, loss_counts, limits, viz=wanted.viz, leftover=leftover)
         try:
             recorder = Recorder(
                 bus,
@@ -48,6 +66,7 @@ def record(
                 sights=wanted.sights,
                 selection=selection,
                 config=settings.config,
+                leftover=known,
             )
             return recorder.run(NoMatchNotice(bus, report).around(should_stop))
         finally:
@@ -55,11 +74,43 @@ def record(
 
 
 def open_sink(
-    path: Path, clock: Clock, match: str, loss_counts: LossCounts, limits: FileLimits = ONE_FILE, *, viz: bool = True
+    path: Path,
+    clock: Clock,
+    match: str,
+    loss_counts: LossCounts,
+    limits: FileLimits = ONE_FILE,
+    *,
+    viz: bool = True,
+    leftover: Leftover | None = None,
 ) -> Sink:
-    """The sink of a recording; with `viz`, the channels for viewers are written, too.
+    """The sink of a recording; with `viz`, the channels for viewers are written, too. A `leftover` is continued.
 
     Raises:
         TouchlineError: the file cannot be written.
     """
-    return (FileSink if limits.snapshot is None else SnapshotSink)(path, clock, match, loss_counts, limits, viz=viz)
+    kind = FileSink if limits.snapshot is None else SnapshotSink
+    return kind(path, clock, match, loss_counts, limits, viz=viz, leftover=leftover)
+
+
+def _leftover(bus: Bus, path: Path, limits: FileLimits) -> Leftover:
+    """What a killed recorder of this host has left; nothing, if what is there is of an earlier host."""
+    leftover = find_leftover(path, limits)
+    if leftover.host_ns >= _host_began_ns(bus):
+        return leftover
+    leftover.release()
+    return Leftover()
+
+
+def _host_began_ns(bus: Bus) -> int:
+    """The host's wall time at which it began, ns since 1970; 0 if it does not answer."""
+    try:
+        payload = bus.query(RECORD_BATCHES, RecordBatchesRequest(first=0, last=0), _ASK_S).payload(_ASK_S)
+        return read_reply(payload).stream
+    except (NoReplyError, BadMessageError):
+        return 0
+
+
+def _summary_of(files: list[Path]) -> RecordingSummary:
+    """The recording that a recorder had finished before it was killed."""
+    result = from_metadata(Result, open_mcap_file(files[-1]).metadata[RESULT])
+    return RecordingSummary(files, sum(file.stat().st_size for file in files), result)

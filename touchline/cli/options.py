@@ -37,6 +37,8 @@ Include = Annotated[
     typer.Option(help="Include these keys only, such as robot/*/command or team/**; repeatable."),
 ]
 Exclude = Annotated[list[str] | None, typer.Option(help="Leave these keys out; repeatable.")]
+From = Annotated[float | None, typer.Option("--from", help="Start, simulated s.")]
+To = Annotated[float | None, typer.Option("--to", help="End, simulated s, exclusive.")]
 Web = Annotated[bool, typer.Option("--web", help="Serve a page to watch and command from, and print its address.")]
 PageOptions = Annotated[dict[str, Any], FieldsOf(WebSettings, "listen_web", port="web_port")]
 ForSide = Annotated[Side, typer.Argument(help="cyan or magenta")]
@@ -113,6 +115,16 @@ def selection(include: list[str] | None, exclude: list[str] | None) -> "KeySelec
     from recordings.container.key_selection import KeySelection
 
     return KeySelection(tuple(include or ()), tuple(exclude or ()))
+
+
+def check_span(start: float | None, end: float | None) -> None:
+    """Check that a span of simulated time has a length.
+
+    Raises:
+        TouchlineError: it ends before it begins.
+    """
+    if start is not None and end is not None and start >= end:
+        raise TouchlineError(f"--from is {start:g} and --to is {end:g}; give a --to that is greater than --from")
 
 
 def endpoint_of(settings: ListenSettings) -> str | None:

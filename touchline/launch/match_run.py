@@ -25,8 +25,14 @@ from touchline.launch.child_process import ProcessHandle
 from touchline.launch.fork_server import ForkServer
 from touchline.launch.log_limit import LogLimit
 from touchline.launch.processes import ROBOT_ENVIRONMENT, MatchPlan, Process, client_processes, host_process
+from touchline.launch.recording_outcome import (
+    NO_RECORDING,
+    RecordingOutcome,
+    finished_recording,
+    unfinished_recording,
+)
 from touchline.launch.result import NOTABLE, MatchResult
-from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor
+from touchline.launch.supervisor import ABANDONED, AFTER_THE_MATCH, AT_ONCE, Supervisor, ending
 from touchline.watch.agent_faults import SlowAgents
 from touchline.watch.screen import Screen
 from touchline.watch.status_line import status_line
@@ -81,14 +87,14 @@ class MatchRun:
         screen: Screen,
         clock: Clock,
         losses: Callable[[MatchPlan], dict[str, int]],
-        recorded: Callable[[MatchPlan], Iterable[ReceivedMessage]],
+        published: Callable[[MatchPlan], Iterable[ReceivedMessage]],
     ) -> None:
-        """`losses` returns the losses of a finished recording, `recorded` its events and states of the game."""
+        """`losses` returns the losses of a finished recording, `published` the host's events and last state."""
         self._plan = plan
         self._screen = screen
         self._clock = clock
         self._losses = losses
-        self._recorded = recorded
+        self._published = published
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
         self._has_clients = False
         self._names = TeamNames.of_match(plan.config)
@@ -103,7 +109,7 @@ class MatchRun:
 
         Raises:
             InterruptedMatchError: SIGINT or SIGTERM; all processes have ended and the recording is finished.
-            MatchFailedError: the host ended before full time, a team has no robot left, or the recording was lost.
+            MatchFailedError: the host ended before full time, or a team has no robot left.
             TouchlineError: the host could not start; the message is the host's.
         """
         if self._names != SIDES_ALONE:
@@ -221,8 +227,8 @@ class MatchRun:
         """The result; raises the reason if there is none."""
         status = self._supervisor.host_status
         if status == 0 and follower is not None and not follower.finished:
-            # this process may have missed the last messages if it was stalled; the host waits for the recorder
-            self._report(follower, follower.merge_recorded(self._recorded(self._plan)))
+            # this process may have missed the last messages if it was stalled
+            self._report(follower, follower.merge_recorded(self._published(self._plan)))
         if status == 0 and follower is not None and follower.finished:
             return self._result(follower)
         log = self._supervisor.last_lines("host")
@@ -242,13 +248,24 @@ class MatchRun:
             self._plan.folder.parent.rmdir()
 
     def _result(self, follower: MatchFollower) -> MatchResult:
-        recording = self._plan.recording
-        snapshots = self._plan.config.record.snapshot is not None  # a match without a goal has none
-        missing = not snapshots and not self._plan.recording_files
-        if recording is not None and (self._supervisor.ended.get("recorder") != 0 or missing):
-            log = self._supervisor.last_lines("recorder")
-            raise MatchFailedError(
-                f"the match was played but its recording was lost: {log[-1] if log else 'no reason logged'}; "
-                f"its log is {self._plan.folder / 'recorder.log'}"
-            )
-        return replace(MatchResult.of(follower, recording, self._losses(self._plan)), names=self._names)
+        """The result, which does not depend on what became of the recording."""
+        return replace(MatchResult.of(follower, self._recording()), names=self._names)
+
+    def _recording(self) -> RecordingOutcome:
+        path = self._plan.recording
+        if path is None:
+            return NO_RECORDING
+        status = self._supervisor.ended.get("recorder")
+        finished = self._plan.recording_files
+        is_there = bool(finished) or self._plan.config.record.snapshot is not None  # a match without a goal has none
+        log = self._supervisor.last_lines("recorder")
+        reason = log[-1].removeprefix("touchline: ") if log and status else "it is missing"
+        if status is not None and status < 0:
+            reason = f"the recorder {ending(status)}"
+        if status == 0 and is_there:
+            try:
+                return finished_recording(path, self._losses(self._plan))
+            except TouchlineError as error:
+                reason = str(error)
+        left = [*finished, *self._plan.unfinished_recordings]
+        return unfinished_recording(path, left, reason, self._plan.folder / "recorder.log")

@@ -2,10 +2,11 @@
 
 import socket
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 from coach_gateway.settings import NO_BRIDGES, BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
@@ -40,17 +41,21 @@ class ProcessRow:
     """Started as `python -P -m MODULE --settings FILE`."""
     restarts: int = 0
     """Maximum number of restarts after crashes."""
+    on_restart: Mapping[str, Any] = field(default_factory=dict)
+    """Settings of a restarted process that differ from those of the first."""
 
 
 PROCESSES: dict[ProcessKind, ProcessRow] = {
     ProcessKind.HOST: ProcessRow("sim_host"),
-    ProcessKind.RECORDER: ProcessRow("recordings"),
+    ProcessKind.RECORDER: ProcessRow("recordings", restarts=3, on_restart={"resume": True}),
     ProcessKind.AGENT: ProcessRow("robot_agent", restarts=3),
     ProcessKind.PAGE: ProcessRow("coach_gateway", restarts=3),
     ProcessKind.BRIDGES: ProcessRow("coach_gateway", restarts=3),
 }
 """ProcessKind → its row, in the order they are launched."""
 
+OUTCOME = "outcome.json"
+"""The file of a match's result, in the folder of its run."""
 ANNOUNCEMENT = "endpoint.json"
 """The file in which the host of a run announces its endpoint, in the run's folder."""
 TOKENS = "tokens.json"
@@ -85,6 +90,11 @@ class Process:
     settings_file: Path | None = None
     sockets: tuple[socket.socket, ...] = ()
     """Bound sockets that it inherits, also when it is started again."""
+
+    def restarted(self) -> "Process":
+        """The process as it is launched after a crash."""
+        changes = PROCESSES[self.kind].on_restart
+        return replace(self, settings=self.settings.model_copy(update=dict(changes))) if self.settings else self
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +150,18 @@ class MatchPlan:
         return files_at(self.recording) if self.recording is not None else []
 
     @property
+    def unfinished_recordings(self) -> list[Path]:
+        """The files of the recording that its recorder has not finished."""
+        from recordings.container.numbering import unfinished_at
+
+        return unfinished_at(self.recording) if self.recording is not None else []
+
+    @property
+    def outcome(self) -> Path:
+        """The file in which the host leaves the result."""
+        return self.folder / OUTCOME
+
+    @property
     def tokens(self) -> Path:
         """The file of the tokens for both page and coach programs."""
         return self.folder / TOKENS
@@ -166,6 +188,7 @@ def host_process(plan: MatchPlan) -> Process:
         insecure=plan.listen is not None and not is_loopback(plan.listen),
         launch_token=plan.launch_token,
         announcement=plan.announcement,
+        outcome=plan.outcome,
     )
     return _process("host", ProcessKind.HOST, host, plan.folder)
 

@@ -3,7 +3,6 @@
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from rich.console import Group, RenderableType
 from rich.table import Table
@@ -15,6 +14,7 @@ from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.game import EventKind, Score
 from schemas.messages.game import DisciplinaryRecord, GameEvent
 from schemas.side import Side
+from touchline.launch.recording_outcome import NO_RECORDING, RecordingOutcome
 
 NOTABLE = frozenset(
     {
@@ -51,9 +51,7 @@ class MatchResult:
     """Simulated seconds per wall second of play."""
     wall_s: float
     """Wall time of play in s."""
-    recording: Path | None
-    losses: dict[str, int]
-    """Key → number of messages that the recorder missed; empty if it missed none."""
+    recording: RecordingOutcome = NO_RECORDING
     effective_s: float = 0.0
     """Simulated time with the ball in play, s."""
     robots: Mapping[str, DisciplinaryRecord] = field(default_factory=dict)
@@ -64,7 +62,7 @@ class MatchResult:
     """The teams' names."""
 
     @classmethod
-    def of(cls, follower: MatchFollower, recording: Path | None, losses: dict[str, int]) -> "MatchResult":
+    def of(cls, follower: MatchFollower, recording: RecordingOutcome) -> "MatchResult":
         """The result from the received messages."""
         return cls(
             score=follower.state.score if follower.state is not None else Score(),
@@ -74,7 +72,6 @@ class MatchResult:
             real_time_factor=follower.real_time_factor,
             wall_s=follower.wall_s,
             recording=recording,
-            losses=losses,
             effective_s=follower.state.effective if follower.state is not None else 0.0,
             robots=follower.state.robots if follower.state is not None else {},
             shoot_out=follower.state.shoot_out if follower.state is not None else None,
@@ -100,8 +97,9 @@ class MatchResult:
             "events": [event.model_dump(mode="json", exclude={"version"}) for event in self.events],
             "real_time_factor": round(self.real_time_factor, 3),
             "wall_s": round(self.wall_s, 3),
-            "recording": str(self.recording) if self.recording is not None else None,
-            "losses": self.losses,
+            "recording": str(self.recording.path) if self.recording.path is not None else None,
+            "recording_fault": self.recording.fault or None,
+            "losses": dict(self.recording.losses),
         }
         return json.dumps(content, ensure_ascii=False)
 
@@ -112,10 +110,12 @@ class MatchResult:
             f"   {self.duration_s:.1f} s played in {self.wall_s:.1f} s (×{self.real_time_factor:.1f})", style="not bold"
         )
         parts: list[RenderableType] = [headline, Text(self._summary()), self._table()]
-        if self.recording is not None:
-            parts.append(Text(f"recording  {self.recording}", no_wrap=True, overflow="ignore"))
-        if self.losses:
-            parts.append(Text(f"recording misses {sum(self.losses.values())} messages: {self.losses}", style="yellow"))
+        recording = self.recording
+        if recording.path is not None:
+            parts.append(Text(f"recording  {recording.path}", no_wrap=True, overflow="ignore"))
+        if recording.losses and recording.is_whole:
+            losses = dict(recording.losses)
+            parts.append(Text(f"messages that did not reach the host: {losses}", style="yellow"))
         return Group(*parts)
 
     def _summary(self) -> str:

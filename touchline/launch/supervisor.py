@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from robot_agent.settings import FIRST_SIGHT_FAILED
+from schemas.errors import TouchlineError
 from schemas.process.clock import Clock
 from touchline.launch.processes import Process, ProcessKind
 
@@ -162,16 +163,21 @@ class Supervisor:
 
     def _crashed(self, process: Process, status: int) -> Notice:
         log = tuple(self._running[process.name].last_lines())
-        left = process.restarts - self._restarts[process.name]
+        return Notice(process.name, f"{process.name} {_ending(process, status)}; {self._restart(process, status)}", log)
+
+    def _restart(self, process: Process, status: int) -> str:
+        """Launch a crashed process again if that is allowed and possible; returns what was done."""
         fails_always = _failed_at_first_sight(process, status) and not self._restarts[process.name]
-        if left > 0 and not fails_always:
+        if self._restarts[process.name] < process.restarts and not fails_always:
             self._restarts[process.name] += 1
-            self._running[process.name] = self._launch(process)
-            outcome = f"started again ({self._restarts[process.name]} of {process.restarts})"
-        else:
-            self.ended[process.name] = status
-            outcome = "not started again"
-        return Notice(process.name, f"{process.name} {_ending(process, status)}; {outcome}", log)
+            try:
+                self._running[process.name] = self._launch(process.restarted())
+            except (TouchlineError, OSError) as error:  # a full disk
+                self.ended[process.name] = status
+                return f"cannot be started again: {error}"
+            return f"started again ({self._restarts[process.name]} of {process.restarts})"
+        self.ended[process.name] = status
+        return "not started again"
 
 
 def _failed_at_first_sight(process: Process, status: int | None) -> bool:
@@ -180,8 +186,11 @@ def _failed_at_first_sight(process: Process, status: int | None) -> bool:
 
 
 def _ending(process: Process, status: int) -> str:
-    if _failed_at_first_sight(process, status):
-        return "failed at its first sight"
+    return "failed at its first sight" if _failed_at_first_sight(process, status) else ending(status)
+
+
+def ending(status: int) -> str:
+    """How a process with this exit status ended."""
     if status < 0:
         return f"was ended by {signal.Signals(-status).name}"
     return f"ended with status {status}"

@@ -4,7 +4,9 @@ from pathlib import Path
 
 import pytest
 
+from recordings.recorder.settings import RecorderSettings
 from robot_agent.settings import FIRST_SIGHT_FAILED, AgentSettings
+from schemas.errors import TouchlineError
 from schemas.process.clock import SteppedClock, WallClock
 from touchline.launch.child_process import ChildProcess
 from touchline.launch.processes import Process, ProcessKind
@@ -41,6 +43,8 @@ class Stage:
         self.clock = SteppedClock()
         self.deaf_to = deaf_to
         self.cast: dict[str, list[Actor]] = {}
+        self.launched: list[Process] = []
+        self.disk_is_full = False
         kinds = {
             "host": ProcessKind.HOST,
             "recorder": ProcessKind.RECORDER,
@@ -55,6 +59,9 @@ class Stage:
         self.supervisor.start()
 
     def launch(self, process: Process) -> Actor:
+        self.launched.append(process)
+        if self.disk_is_full:
+            raise TouchlineError("match.json: No space left on device; recorder reads its settings there")
         actor = Actor(process.name, self.clock, self.deaf_to)
         self.cast.setdefault(process.name, []).append(actor)
         return actor
@@ -174,6 +181,34 @@ def test_a_crashed_recorder_is_reported_and_not_launched_again() -> None:
         "recorder ended with status 1; not started again"
     ]
     assert len(stage.cast["recorder"]) == 1
+
+
+def test_a_restarted_recorder_continues_the_recording(tmp_path: Path) -> None:
+    settings = RecorderSettings(out=tmp_path / "match.mcap")
+    process = Process("recorder", ProcessKind.RECORDER, ("program",), {}, 3, settings, tmp_path / "recorder.json")
+    clock = SteppedClock()
+    actors: list[tuple[Process, Actor]] = []
+
+    def launch(process: Process) -> Actor:
+        actors.append((process, Actor(process.name, clock)))
+        return actors[-1][1]
+
+    supervisor = Supervisor([process], launch, clock)
+    supervisor.start()
+    actors[0][1].ended = -signal.SIGKILL
+    (notice,) = supervisor.check()
+    assert notice.sentence == "recorder was ended by SIGKILL; started again (1 of 3)"
+    assert [launched.settings.resume for launched, _ in actors] == [False, True]
+
+
+def test_a_process_that_cannot_be_launched_again_is_reported_and_the_match_goes_on() -> None:
+    stage = Stage()
+    stage.end("cyan1", 1)
+    stage.disk_is_full = True
+    (notice,) = stage.supervisor.check()
+    assert "cyan1 ended with status 1; cannot be started again: match.json: No space left" in notice.sentence
+    assert stage.supervisor.ended == {"cyan1": 1}
+    assert stage.supervisor.check() == []
 
 
 def test_no_process_is_restarted_for_a_host_that_is_gone() -> None:
