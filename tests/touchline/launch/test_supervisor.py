@@ -104,7 +104,7 @@ def test_an_agent_that_leaves_with_status_0_is_not_launched_again() -> None:
     assert stage.supervisor.ended == {"cyan1": 0}
 
 
-def test_a_crashed_recorder_is_reported_and_not_launched_again() -> None:
+def test_a_process_without_restarts_is_reported_and_not_launched_again() -> None:
     stage = Stage()
     stage.end("recorder", 1)
     assert [notice.sentence for notice in stage.supervisor.check()] == [
