@@ -70,7 +70,7 @@ def test_a_recorder_killed_again_and_again_leaves_a_whole_recording(start, tmp_p
     program = play(start, tmp_path, endpoint)
     for count in (1, 2, 3):
         os.kill(program.process("recorder"), signal.SIGKILL)
-        program.says(f"recorder was ended by SIGKILL; started again ({count} of 3)")
+        program.wait_for_error(f"recorder was ended by SIGKILL; started again ({count} of 3)")
     assert program.status() == 0, program.err
     recording = open_recording(tmp_path / "m.mcap", whole=True)
     assert worlds(recording) == list(range(json.loads(program.out)["ticks"] + 1))

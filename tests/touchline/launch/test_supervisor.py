@@ -174,7 +174,7 @@ def test_an_abandoned_match_ends_its_host_first_and_gives_the_recorder_time() ->
     assert stage.cast["recorder"][-1].heard == []
 
 
-def test_a_crashed_recorder_is_reported_and_not_launched_again() -> None:
+def test_a_process_without_restarts_is_reported_and_not_launched_again() -> None:
     stage = Stage()
     stage.end("recorder", 1)
     assert [notice.sentence for notice in stage.supervisor.check()] == [
