@@ -24,6 +24,7 @@ class NotWritableError(TouchlineError):
     def __init__(self, path: Path, reason: str, remedy: str = "give a path that can be written") -> None:
         super().__init__(f"{path}: {reason}; {remedy}")
         self.reason = reason
+        self.remedy = remedy
 
 
 class PartialFile:
@@ -42,13 +43,15 @@ class PartialFile:
         """Name of the file until it is finished."""
         if path.is_dir():
             raise NotWritableError(path, "is a folder")
+        if not path.parent.exists():
+            folder = path.parent
+            raise NotWritableError(path, f"the folder {folder} does not exist", f"make it with: mkdir -p {folder}")
         try:
-            path.parent.mkdir(parents=True, exist_ok=True)
             file = _acquire(self.path, resume=resume)
         except OSError as error:
             raise NotWritableError(path, error.strerror or "cannot be written") from None
         if file is None:
-            raise NotWritableError(path, "is being written by another recorder", "give another --out, or end that one")
+            raise NotWritableError(path, "is being written by another recorder", "name another file, or end that one")
         self.file = file
 
     def finish(self) -> None:

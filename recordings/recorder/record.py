@@ -10,13 +10,15 @@ from recordings.container.sealed_metadata import from_metadata
 from recordings.recorder.file_limits import ONE_FILE, FileLimits
 from recordings.recorder.leftover import Leftover, find_leftover
 from recordings.recorder.loss_counts import LossCounts
+from recordings.recorder.no_match_notice import NoMatchNotice
 from recordings.recorder.recorder import Recorder
 from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
 from recordings.recorder.sink import FileSink, Sink
 from recordings.recorder.snapshot_sink import SnapshotSink
 from schemas.bus.contract import Bus, NoReplyError
-from schemas.bus.zenoh.bus import open_client
+from schemas.bus.zenoh.bus import ZenohBus, open_client
+from schemas.bus.zenoh.waiting_client import open_when_there
 from schemas.messages.record_batch import RecordBatchesRequest, read_reply
 from schemas.process.clock import Clock, WallClock
 from schemas.topics import RECORD_BATCHES
@@ -26,8 +28,14 @@ _ASK_S = 2.0
 """Wall time in which a host answers when it began."""
 
 
-def record(settings: RecorderSettings, should_stop: Callable[[], bool] = lambda: False) -> RecordingSummary:
-    """Record until the host leaves or `should_stop` returns true.
+def record(
+    settings: RecorderSettings,
+    should_stop: Callable[[], bool] = lambda: False,
+    report: Callable[[str], None] = lambda _: None,
+) -> RecordingSummary | None:
+    """Record until the host leaves or `should_stop` returns true; None if there was no host before that.
+
+    `report` receives a line if there is no host at once, or if it plays another match.
 
     Raises:
         TouchlineError: no host, or a file that cannot be written; what was written so far stays as `*.part`.
@@ -35,7 +43,14 @@ def record(settings: RecorderSettings, should_stop: Callable[[], bool] = lambda:
     clock, wanted = WallClock(), settings.record
     selection = KeySelection(tuple(wanted.include), tuple(wanted.exclude))
     limits = FileLimits.of(wanted)
-    with open_client(settings.match, clock, settings.connect, settings.patience) as bus:
+
+    def connect(patience: float) -> ZenohBus:
+        return open_client(settings.match, clock, settings.connect, patience)
+
+    client = open_when_there(connect, clock, settings.patience, report, should_stop)
+    if client is None:
+        return None
+    with client as bus:
         leftover = _leftover(bus, settings.out, limits) if settings.resume else None
         if leftover is not None and leftover.is_finished and not limits.is_split:
             return _summary_of(leftover.files)
@@ -53,7 +68,7 @@ def record(settings: RecorderSettings, should_stop: Callable[[], bool] = lambda:
                 config=settings.config,
                 leftover=known,
             )
-            return recorder.run(should_stop)
+            return recorder.run(NoMatchNotice(bus, report).around(should_stop))
         finally:
             sink.abandon()
 

@@ -187,8 +187,9 @@ class Host:
             if silent == was_silent:
                 continue
             self._silent[name] = silent
-            text = f"{name} does not answer, its robot stops" if silent else f"{name} answers"
-            self._publish_agent_event(tick, name, "agent_silent", text)
+            fault = stats.fault(tick.tick) if stats.alive else ""
+            text = f"{name} does not answer, its robot stops{f': {fault}' if fault else ''}"
+            self._publish_agent_event(tick, name, "agent_silent", text if silent else f"{name} answers")
 
     def _report_refusals(self, tick: TickResult) -> None:
         """Publish an event for each agent that was refused."""

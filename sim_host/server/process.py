@@ -16,6 +16,7 @@ from schemas.bus.zenoh.bus import open_host
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
 from schemas.process.scheduling import use_batch_scheduling
+from sim_host.missing_engine import missing_engine_text
 from sim_host.server.settings import HostSettings
 
 log = logging.getLogger("sim_host")
@@ -38,7 +39,7 @@ def run(settings: HostSettings) -> int:
 
 def _serve(settings: HostSettings) -> None:
     if importlib.util.find_spec("pybullet") is None:
-        raise TouchlineError("PyBullet is not installed; on this machine that takes: pip install 'touchline[sim]'")
+        raise TouchlineError(missing_engine_text())
     config, listen = settings.config, settings.listen
     if listen is not None and not settings.insecure and not is_loopback(listen):
         raise TouchlineError(f"--listen {listen} can be reached by others; say --insecure if that is what you want")

@@ -18,6 +18,7 @@ from schemas.config.rule_book import SHIPPED as RULE_BOOKS
 from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.side import Side
+from sim_host.missing_engine import missing_engine_text
 from touchline.cli.option_groups import FieldsOf
 
 if TYPE_CHECKING:
@@ -42,8 +43,6 @@ Web = Annotated[bool, typer.Option("--web", help="Serve a page to watch and comm
 PageOptions = Annotated[dict[str, Any], FieldsOf(WebSettings, "listen_web", port="web_port")]
 ForSide = Annotated[Side, typer.Argument(help="cyan or magenta")]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")]
-
-NO_PYBULLET = "the simulation needs PyBullet, which is not installed; pip install 'touchline[sim]'"
 
 
 @dataclass(frozen=True)
@@ -104,7 +103,7 @@ def need_pybullet() -> None:
         TouchlineError: a package is missing; the message has the command that installs it.
     """
     if importlib.util.find_spec("pybullet") is None:
-        raise TouchlineError(NO_PYBULLET)
+        raise TouchlineError(missing_engine_text())
 
 
 def selection(include: list[str] | None, exclude: list[str] | None) -> "KeySelection":

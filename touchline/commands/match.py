@@ -69,12 +69,15 @@ def match(
     if ghost:
         _check_ghosts(config, ghost)
     check_robot_names(config)
-    check_teams(config)
+    brain_folder = played.file.parent if played.file is not None else None
+    check_teams(config, brain_folder, lambda line: typer.echo(line, err=True))
     endpoint = played.endpoint()
     clock = WallClock()
     served = _open_page(page) if web else None
     plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
     plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets)
+    if brain_folder is not None:
+        plan = replace(plan, brain_folder=brain_folder.resolve())
     if served is not None:
         _invite(plan, served.settings, err=json)
     if bridges.wanted:

@@ -1,7 +1,6 @@
 """The processes of a match: the table of kinds, and the programs to launch for a match file."""
 
 import socket
-import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -19,6 +18,7 @@ from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
+from touchline.launch.python_process import PYTHON, module_path_environment
 
 
 class ProcessKind(StrEnum):
@@ -38,7 +38,7 @@ class ProcessRow:
     """One kind of process."""
 
     module: str
-    """Started as `python -m MODULE --settings FILE`."""
+    """Started as `python -P -m MODULE --settings FILE`."""
     restarts: int = 0
     """Maximum number of restarts after crashes."""
     on_restart: Mapping[str, Any] = field(default_factory=dict)
@@ -124,6 +124,8 @@ class MatchPlan:
     """The match's page; None for no page."""
     bridges: BridgeOptions = NO_BRIDGES
     """The bridges beside the page."""
+    brain_folder: Path | None = None
+    """Folder in which brains are looked for before the current directory: that of the match file."""
     bridge_sockets: tuple[socket.socket, ...] = ()
     """The bound sockets of the bridges, in the order in which they are inherited."""
     launch_token: str | None = None
@@ -238,6 +240,7 @@ def _robot_process(robot: str, side: Side, plan: MatchPlan) -> Process:
         match=plan.config.name,
         robot=robot,
         brain=team.brain or "",
+        brain_folder=plan.brain_folder,
         launch_token=plan.launch_token,
     )
     return _process(robot, ProcessKind.AGENT, settings, plan.folder, environment)
@@ -252,5 +255,6 @@ def _process(
     sockets: tuple[socket.socket, ...] = (),
 ) -> Process:
     row, file = PROCESSES[kind], folder / f"{name}.json"
-    command = (sys.executable, "-m", row.module, "--settings", str(file))
-    return Process(name, kind, command, {**COMMON_ENVIRONMENT, **environment}, row.restarts, settings, file, sockets)
+    command = (*PYTHON, "-m", row.module, "--settings", str(file))
+    whole = {**COMMON_ENVIRONMENT, **module_path_environment(), **environment}
+    return Process(name, kind, command, whole, row.restarts, settings, file, sockets)

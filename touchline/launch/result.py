@@ -10,8 +10,10 @@ from rich.text import Text
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text
+from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.game import EventKind, Score
 from schemas.messages.game import DisciplinaryRecord, GameEvent
+from schemas.side import Side
 from touchline.launch.recording_outcome import NO_RECORDING, RecordingOutcome
 
 NOTABLE = frozenset(
@@ -56,6 +58,8 @@ class MatchResult:
     """Robots that ended with a card or off the field."""
     shoot_out: Score | None = None
     """Goals of the penalty shoot-out, if there was one."""
+    names: TeamNames = SIDES_ALONE
+    """The teams' names."""
 
     @classmethod
     def of(cls, follower: MatchFollower, recording: RecordingOutcome) -> "MatchResult":
@@ -82,6 +86,7 @@ class MatchResult:
     def json(self) -> str:
         """One JSON object."""
         content = {
+            "teams": {side.value: self.names[side] for side in Side},
             "score": self.score.model_dump(),
             "halves": [score.model_dump() for score in self.halves],
             "shoot_out": self.shoot_out.model_dump() if self.shoot_out is not None else None,
@@ -100,7 +105,7 @@ class MatchResult:
 
     def render(self) -> RenderableType:
         """Score, events and recording, for a console."""
-        headline = Text(f"\ncyan {self.score.cyan} : {self.score.magenta} magenta", style="bold")
+        headline = Text(f"\n{self.names.score(self.score)}", style="bold")
         headline.append(
             f"   {self.duration_s:.1f} s played in {self.wall_s:.1f} s (×{self.real_time_factor:.1f})", style="not bold"
         )
@@ -115,7 +120,8 @@ class MatchResult:
 
     def _summary(self) -> str:
         """Score by halves, penalties, ball in play, and each robot's cards at the end."""
-        parts = ["halves " + ", ".join(f"{score.cyan}:{score.magenta}" for score in self.halves)]
+        parts = [str(self.names)] if self.names != SIDES_ALONE else []
+        parts += ["halves " + ", ".join(f"{score.cyan}:{score.magenta}" for score in self.halves)]
         if self.shoot_out is not None:
             parts.append(f"penalties {self.shoot_out.cyan}:{self.shoot_out.magenta}")
         parts.append(f"ball in play {self.effective_s:.1f} s")
@@ -128,5 +134,5 @@ class MatchResult:
         for event in self.events:
             if event.kind in NOTABLE:
                 kind = event.kind.value.replace("_", " ")
-                table.add_row(clock_text(event.clock), kind, event.robot or "", Text(event.text))
+                table.add_row(clock_text(event.clock), kind, event.robot or "", Text(self.names.in_text(event.text)))
         return table

@@ -14,7 +14,7 @@ from recordings.reading.recording import open_recording
 from recordings.recorder.file_limits import FileLimits
 from schemas.errors import TouchlineError
 
-REFUSED = r"match\.mcap: is being written by another recorder; give another --out"
+REFUSED = r"match\.mcap: is being written by another recorder; name another file"
 
 HOLDER = """
 import sys

@@ -15,7 +15,7 @@ from schemas.game import Phase
 from schemas.messages.game import GameState
 from schemas.process.clock import SteppedClock
 from schemas.topics import STATE
-from touchline.__main__ import app
+from touchline.command_line import app
 
 
 def touchline(*words: str | Path) -> Result:

@@ -82,9 +82,11 @@ class WatchedScreen(PlainScreen):
 class Stage:
     """One match on a screen that can be read afterwards."""
 
-    def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch, host: str, agent: str, recorder: str) -> None:
+    def __init__(
+        self, folder: Path, monkeypatch: pytest.MonkeyPatch, host: str, agent: str, recorder: str, **overrides: object
+    ) -> None:
         recording = folder / "match.mcap" if recorder else None
-        self.plan = MatchPlan(load_match(None), None, folder, recording)
+        self.plan = MatchPlan(load_match(None, overrides), None, folder, recording)
         self.words = io.StringIO()
         programs = {
             "host": (ProcessKind.HOST, host, (str(self.plan.announcement), str(folder / "seen"))),
@@ -108,9 +110,14 @@ class Stage:
 
 
 def stage(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, host: str, agent: str = RESTS, recorder: str = RECORDS
+    folder: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    host: str,
+    agent: str = RESTS,
+    recorder: str = RECORDS,
+    **overrides: object,
 ) -> Stage:
-    return Stage(folder, monkeypatch, host, agent, recorder)
+    return Stage(folder, monkeypatch, host, agent, recorder, **overrides)
 
 
 def test_a_match_that_reaches_full_time_has_score_events_and_recording(
@@ -137,6 +144,16 @@ def test_a_crashing_agent_is_shown_with_its_log_and_does_not_end_the_match(
     assert words == [
         line for how in outcomes for line in (f"cyan1 ended with status 1; {how}", "  cyan1: brain raised")
     ]
+
+
+def test_a_match_ends_when_a_side_has_no_robot_left_with_the_reason(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    match = stage(tmp_path, monkeypatch, CUT_SHORT, agent=CRASHES, **{"teams.cyan.size": 1, "teams.cyan.name": "Lions"})
+    reason = r"^match ended .*: no robot of Lions \(cyan\) is left; cyan1: brain raised; logs are in "
+    with pytest.raises(MatchFailedError, match=reason):
+        match.play(awaited="what is never shown")
+    assert "cyan1 ended with status 1; not started again" in match.words.getvalue()
 
 
 def test_the_error_of_a_host_with_wrong_input_is_shown_unchanged(

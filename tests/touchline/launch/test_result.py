@@ -5,6 +5,7 @@ from pathlib import Path
 
 from rich.console import Console
 
+from coach_gateway.match.team_names import TeamNames
 from schemas.game import EventKind, Score
 from schemas.messages.game import DisciplinaryRecord, GameEvent
 from schemas.side import Side
@@ -50,6 +51,7 @@ def test_the_json_holds_everything_a_program_asks_for() -> None:
         **{"measured": None, "limit": None, "unit": "", "card": None},
     }
     assert content == {
+        "teams": {"cyan": "cyan", "magenta": "magenta"},
         "score": {"cyan": 2, "magenta": 1},
         "halves": [{"cyan": 2, "magenta": 1}],
         "shoot_out": None,
@@ -77,6 +79,18 @@ def test_the_picture_shows_score_goals_and_recording_and_leaves_stops_out() -> N
     assert "kick-off follows" not in shown
     assert "recording  runs/a/match.mcap" in shown
     assert "did not reach" not in shown
+
+
+def test_the_teams_names_are_those_of_the_match_file() -> None:
+    goal = event(EventKind.GOAL, "goal, counts for cyan: last touched by cyan3")
+    named = replace(result(), names=TeamNames("Lions", "NuBot"), events=(goal,))
+    shown = render(named)
+    assert "Lions 2 : 1 NuBot" in shown
+    assert "Lions (cyan) – NuBot (magenta); halves" in shown
+    assert "goal, counts for Lions: last touched by cyan3" in shown
+    content = json.loads(named.json())
+    assert content["teams"] == {"cyan": "Lions", "magenta": "NuBot"}
+    assert content["events"][0]["text"] == goal.text  # for programs, which know sides
 
 
 def test_losses_are_shown_when_there_are_any() -> None:
