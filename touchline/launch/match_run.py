@@ -112,8 +112,6 @@ class MatchRun:
             MatchFailedError: the host ended before full time, or a team has no robot left.
             TouchlineError: the host could not start; the message is the host's.
         """
-        if self._names != SIDES_ALONE:
-            self._screen.event(str(self._names), notable=True)
         with StopSignals() as stop:
             try:
                 self._supervisor.start()
@@ -145,6 +143,8 @@ class MatchRun:
             if announcement is not None:
                 is_unexpected = announcement.endpoint != local_endpoint(self._plan.listen or DEFAULT_ENDPOINT)
                 self._screen.event(f'match "{announcement.match}" on {announcement.endpoint}', notable=is_unexpected)
+                if self._names != SIDES_ALONE:
+                    self._screen.event(str(self._names), notable=True)
                 self._plan = replace(self._plan, listen=announcement.endpoint)
                 self._supervisor.add(client_processes(self._plan))
                 self._has_clients = True
