@@ -29,7 +29,7 @@ _LOOK_S = 0.01
 """s of wall time between two looks at the bus."""
 _STATUS_S = 0.2
 """s of wall time between two queries of a replay's status."""
-_SWEEP_S = 1.0
+_SWEEP_S = 0.5
 """s of wall time between two checks for pages that do not read, and between two signs of life to each page."""
 _BEGINNING_S = 1.0
 """s of simulated time from a recording's start in which its first tick is looked for."""

@@ -11,7 +11,7 @@ from coach_gateway.web.protocol import Alive, HostUpdate, Welcome
 from coach_gateway.web.site import site
 from coach_gateway.web.uvicorn_server import web_server
 
-_ALIVE_S = 1.0
+_ALIVE_S = 0.5
 """s of wall time between two signs of life."""
 
 

@@ -64,7 +64,7 @@ export class PitchCanvas {
     if (!changed && ends === this.#ends) return;
     this.#ends = ends;
     projection.resize(this.#moving);
-    this.#moving.parentElement.style.height = `${projection.height}px`;
+    document.documentElement.style.setProperty("--ratio", String(projection.ratio));
     const context = projection.resize(this.#ground);
     drawGrass(context, projection, pitch);
     fillGoals(context, projection, pitch, defends);
