@@ -10,6 +10,7 @@ def test_two_browsers_see_the_same_match_and_what_either_does(match, visit) -> N
         tick = one.ask("window.touchline.match.frames.newest.tick")
         other.until(f"window.touchline.match.frames.newest.tick >= {tick}")
     spectator.page.close()
+    referee.page.wait_for_timeout(450)  # not a double click
     referee.button("goal", "cyan").click()
     referee.until("document.getElementById('score').textContent === '2 : 0'")
 

@@ -140,6 +140,19 @@ def test_a_proposal_is_answered_in_its_place_on_every_screen(
         assert inside
 
 
+def test_a_press_meant_for_one_proposal_does_not_answer_the_next(staged: StagedMatch, visit: Callable[..., Any]) -> None:
+    tab = visit(staged.origin, "referee")
+    staged.propose()
+    tab.until("!document.getElementById('confirm').disabled")
+    replaced = """() => {
+        const { match } = window.touchline;
+        match.receive({ kind: "state", state: { ...match.state, proposal: "penalty for magenta" } });
+        return document.getElementById("confirm").disabled;
+    }"""
+    assert tab.page.evaluate(replaced) is True
+    tab.until("!document.getElementById('confirm').disabled")
+
+
 @pytest.mark.parametrize(("width", "height"), [*SIZES, (683, 384), (640, 360)])
 def test_the_whole_field_and_stop_are_in_view_on_every_screen(
     staged: StagedMatch, visit: Callable[..., Any], width: int, height: int
