@@ -60,7 +60,10 @@ class HostUpdate(Part):
 
 
 class Frame(Part):
-    """The newest tick, at most 50 times per second of wall time; ticks in between are left out."""
+    """The newest tick, at most 25 times per second of wall time; ticks in between are left out.
+
+    Numbers are rounded to three decimals: mm, mm/s, mrad, ms.
+    """
 
     kind: Literal["frame"] = "frame"
     tick: int
