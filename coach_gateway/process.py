@@ -69,7 +69,7 @@ def _page(settings: GatewaySettings, web: WebSettings, tokens: Tokens) -> tuple[
     binding = bind_page(web, tokens, settings.tokens)
     for line in binding.lines():
         say(line)
-    return (lambda bus: WebServer(bus, binding, say)), WaitingPage(binding, settings.match)
+    return (lambda bus: WebServer(bus, binding, say, settings.result)), WaitingPage(binding, settings.match)
 
 
 def say(line: str) -> None:

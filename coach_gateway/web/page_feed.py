@@ -7,8 +7,8 @@ and it is put together once for all pages that see the same.
 from collections.abc import Iterable
 
 from coach_gateway.match.follower import MatchFollower, MatchNews
-from coach_gateway.web.rounding import rounded_json
 from coach_gateway.web.protocol import EventUpdate, OrdersUpdate, RefBoxUpdate, SideOrders
+from coach_gateway.web.rounding import rounded_json
 from schemas.bus.contract import Bus
 from schemas.messages.game import GameEvent
 from schemas.messages.setup import Setup
@@ -89,7 +89,7 @@ class PageFeed:
             return None
         tick, time = self._world.tick, round(self._world.time, 3)
         shown = ",".join(text for side in beliefs for text in self._belief_texts(side))
-        return f'{{"kind":"frame","tick":{tick},"time":{time!r},"world":{self._text_of_world()},"beliefs":{{{shown}}}}}'
+        return f'{{"kind":"frame","tick":{tick},"time":{time!r},"world":{self._text_of(self._world)},"beliefs":{{{shown}}}}}'
 
     def orders(self, sides: Iterable[Side]) -> str:
         """The orders of these sides."""
@@ -131,10 +131,10 @@ class PageFeed:
                 robot = chunks["robot"]
                 self._beliefs[Side(chunks["side"])][robot] = payload
 
-    def _text_of_world(self) -> str:
+    def _text_of(self, world: World) -> str:
         """The newest tick as JSON, rounded once for all roles."""
-        if self._world_text is None or self._world_text[0] is not self._world:
-            self._world_text = self._world, rounded_json(self._match.payloads[WORLD.key])
+        if self._world_text is None or self._world_text[0] is not world:
+            self._world_text = world, rounded_json(self._match.payloads[WORLD.key])
         return self._world_text[1]
 
     def _belief_texts(self, side: Side) -> list[str]:

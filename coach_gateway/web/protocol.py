@@ -126,8 +126,20 @@ class RefBoxUpdate(Part):
     """Side whose base station is connected; None where both are, or where it is not known."""
 
 
+class ResultUpdate(Part):
+    """What is left of a match that is over; sent again when more of it is known."""
+
+    kind: Literal["result"] = "result"
+    figures: list[tuple[str, str, str]] = []
+    """Name of a figure, its value for cyan and for magenta; empty until they are known, and without a recording."""
+    statistics: str | None = None
+    """Address of replay and statistics, relative to the page; None until they are known, and without a recording."""
+    replay: str | None = None
+    """The command that plays the recording again; None without one."""
+
+
 class Alive(Part):
-    """Sent every second. A page that receives nothing for several seconds has lost the connection."""
+    """Sent twice a second. A page that receives nothing for several seconds has lost the connection."""
 
     kind: Literal["alive"] = "alive"
 
@@ -162,6 +174,7 @@ ServerMessage = (
     | OrdersUpdate
     | ReplayUpdate
     | RefBoxUpdate
+    | ResultUpdate
     | Alive
     | Reply
     | Refusal

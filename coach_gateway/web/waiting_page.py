@@ -86,9 +86,7 @@ class WaitingPage:
             await asyncio.gather(reading, return_exceptions=True)
 
     def _welcome(self, page: Page) -> None:
-        welcome = Welcome(
-            role=page.role, match=self._match, setup=None, live=True, deeds=[], beliefs=[], orders=[]
-        )
+        welcome = Welcome(role=page.role, match=self._match, setup=None, live=True, deeds=[], beliefs=[], orders=[])
         page.queue.restart(welcome.model_dump_json())
         page.queue.put(HostUpdate(there=False).model_dump_json())
 

@@ -73,19 +73,11 @@ def match(
     clock = WallClock()
     served = _page_settings(page) if web else None
     plan = replace(prepare_run(config, endpoint, record, clock, recorded=not no_record), page=served, bridges=bridges)
-    if served is not None:
-        _invite(plan, served, err=json)
     if bridges.wanted:
         typer.echo(f"bridges: {plan.folder / 'bridges.log'}; the coaches' tokens: {plan.tokens}", err=json)
     if plan.warning:
         typer.echo(f"touchline: {plan.warning}", err=True)
-    result = _play(plan, clock, quiet=json)
-    if json:
-        typer.echo(result.json())
-    else:
-        from touchline.cli.console import console
-
-        console().print(result.render())
+    _play(plan, clock, quiet=json)
 
 
 # Modules that a plain match does not need are imported on use: no process is launched before the imports are done.
@@ -109,32 +101,42 @@ def _page_settings(options: dict[str, Any]) -> "WebSettings":
     return page_settings(options)
 
 
-def _invite(plan: "MatchPlan", page: "WebSettings", *, err: bool) -> None:
-    """Print where the page is."""
-    from touchline.launch.page import address_lines
-
-    for line in address_lines(page, plan.tokens):
-        typer.echo(line, err=err)
-
-
 def _try_ports(bridges: BridgeOptions) -> None:
     from coach_gateway.bridges import bridges_of
 
     bridges_of(bridges).try_ports()
 
 
-def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> "MatchResult":
-    """Play the match on a screen for the output; with `quiet` stdout is reserved for the JSON result."""
+def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> None:
+    """Play the match on a screen for the output, and print its result; with `quiet` stdout has the JSON result alone.
+
+    With a page it returns when the page with the result is closed.
+    """
     from touchline.launch.match_run import InterruptedMatchError, MatchRun
     from touchline.watch.screen import screen_for
 
     try:
         with screen_for(sys.stderr if quiet else sys.stdout, clock) as screen:
-            return MatchRun(plan, screen, clock, _losses, _recorded).play()
+            run = MatchRun(plan, screen, clock, _losses, _recorded)
+            result = run.play()
     except InterruptedMatchError as stopped:
         left = plan.recording is not None and plan.recording.exists()
         typer.echo(f"touchline: match interrupted; see {plan.recording if left else plan.folder}", err=True)
         raise typer.Exit(128 + stopped.number) from None
+    _print_result(result, json=quiet)
+    if plan.page is not None:
+        from touchline.launch.match_page import result_parts
+
+        run.stay(result_parts(plan))
+
+
+def _print_result(result: "MatchResult", *, json: bool) -> None:
+    if json:
+        typer.echo(result.json())
+        return
+    from touchline.cli.console import console
+
+    console().print(result.render())
 
 
 def _recorded(plan: "MatchPlan") -> "Iterator[ReceivedMessage]":

@@ -2,8 +2,9 @@
 
 import signal
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from types import FrameType, TracebackType
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import event_line
@@ -16,11 +17,16 @@ from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle
 from touchline.launch.fork_server import ForkServer
-from touchline.launch.processes import MatchPlan, Process, processes_of
+from touchline.launch.page import address_lines
+from touchline.launch.page_probe import AddressLines
+from touchline.launch.processes import MatchPlan, Process, ProcessKind, processes_of
 from touchline.launch.result import NOTABLE, MatchResult
 from touchline.launch.supervisor import AFTER_THE_MATCH, AT_ONCE, Supervisor
 from touchline.watch.screen import Screen
 from touchline.watch.status_line import status_line
+
+if TYPE_CHECKING:
+    from coach_gateway.web.protocol import ResultUpdate
 
 _POLL = 0.05
 """Wall time between polls of processes and bus, s."""
@@ -28,6 +34,10 @@ _LAST_MESSAGES = 5.0
 """Wall time for the host's last messages to arrive after its process has ended, s. They have all arrived when the link
 closes, and it closes with the process: only an overloaded machine takes long."""
 _WRONG_INPUT = 2
+_AFTER_THE_RESULT = frozenset({ProcessKind.PAGE})
+"""Processes that go on after the match, until the page with its result is closed."""
+_FIRST_LOOK = 1.0
+"""Wall time in which a page's server that has the result ends if no page is open, s."""
 
 
 class InterruptedMatchError(Exception):
@@ -81,6 +91,10 @@ class MatchRun:
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
         self._fork_server = ForkServer()
         self._supervisor = Supervisor(processes_of(plan), self._launch, clock)
+        self._address: AddressLines | None = None
+        if plan.page is not None:
+            lines = partial(address_lines, plan.page, plan.tokens)
+            self._address = AddressLines(plan.page, lines, partial(screen.event, notable=False))
 
     def play(self) -> MatchResult:
         """Play the match.
@@ -98,11 +112,38 @@ class MatchRun:
                 self._supervisor.end(AT_ONCE)
                 raise
             if follower is not None:  # without a host there is no match to record
-                self._supervisor.end(AFTER_THE_MATCH, should_abort=lambda: stop.received is not None)
-            self._supervisor.end(AT_ONCE)  # the remaining processes, after an interrupt
+                self._supervisor.end(AFTER_THE_MATCH, lambda: stop.received is not None, keep=_AFTER_THE_RESULT)
+            if follower is None or stop.received is not None:
+                self._supervisor.end(AT_ONCE)  # the remaining processes
         if stop.received is not None:
             raise InterruptedMatchError(stop.received)
-        return self._outcome(follower)
+        try:
+            return self._outcome(follower)
+        except BaseException:
+            self._supervisor.end(AT_ONCE)
+            raise
+
+    def stay(self, result: "Iterable[ResultUpdate]") -> None:
+        """Keep the page with the result of the match until it is closed everywhere, or until SIGINT or SIGTERM.
+
+        `result` is what the page is given, one piece after another while the page is open.
+        """
+        from coach_gateway.web.match_result import write_result
+
+        with StopSignals() as stop:
+            for part in result:
+                write_result(self._plan.result_folder, part)
+                if not self._page_is_open(stop, _FIRST_LOOK):
+                    break
+            while self._page_is_open(stop, _POLL):
+                pass
+            self._supervisor.end(AT_ONCE)
+
+    def _page_is_open(self, stop: StopSignals, seconds: float) -> bool:
+        """Wait; whether the page's server runs on: it ends when no page is open."""
+        self._clock.sleep_until(self._clock.now() + seconds)
+        self._supervisor.check()
+        return stop.received is None and "page" not in self._supervisor.ended
 
     def _launch(self, process: Process) -> ProcessHandle:
         return self._fork_server.launch(process, self._plan.folder / f"{process.name}.log")
@@ -137,6 +178,8 @@ class MatchRun:
             self._screen.warn(notice.sentence)
             for line in notice.log:
                 self._screen.warn(f"  {notice.name}: {line}")
+        if self._address is not None:
+            self._address.update()
         return self._supervisor.host_status is None and stop.received is None
 
     def _show(self, follower: MatchFollower) -> None:

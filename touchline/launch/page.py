@@ -3,6 +3,7 @@
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from coach_gateway.web.settings import WebSettings, need_web
 from schemas.process.clock import Clock
 from touchline.cli.option_groups import from_options
 from touchline.launch.child_process import ChildProcess
+from touchline.launch.page_probe import AddressLines
 from touchline.launch.processes import TOKENS, page_process
 from touchline.launch.supervisor import AT_ONCE, Notice, Supervisor
 
@@ -54,10 +56,14 @@ def serve_page_beside(
         tokens = folder / TOKENS
         process = page_process(GatewaySettings(connect=connect, match=match, tokens=tokens, web=web), folder)
         supervisor = Supervisor([process], lambda process: ChildProcess(process, folder / "page.log"), clock)
-        for line in address_lines(web, tokens):
-            log(line)
+        address = AddressLines(web, partial(address_lines, web, tokens), log)
         supervisor.start()
+
+        def check() -> list[Notice]:
+            address.update()
+            return supervisor.check()
+
         try:
-            yield supervisor.check
+            yield check
         finally:
             supervisor.end(AT_ONCE)

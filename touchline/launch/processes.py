@@ -112,6 +112,11 @@ class MatchPlan:
         """The file of the tokens for both page and coach programs."""
         return self.folder / TOKENS
 
+    @property
+    def result_folder(self) -> Path:
+        """The folder with what the match's page shows after the match."""
+        return self.folder / "result"
+
 
 def check_robot_names(config: MatchConfig) -> None:
     """Check that no robot has the name of another process of the match: log files have these names.
@@ -141,7 +146,9 @@ def processes_of(plan: MatchPlan) -> list[Process]:
         processes += [_robot_process(robot, side, plan) for robot in config.robots(side)]
     gateway = GatewaySettings(connect=connect, match=match, tokens=plan.tokens)
     if plan.page is not None:
-        processes.append(page_process(gateway.model_copy(update={"web": plan.page}), folder))
+        processes.append(
+            page_process(gateway.model_copy(update={"web": plan.page, "result": plan.result_folder}), folder)
+        )
     if plan.bridges.wanted:
         bridges = gateway.model_copy(update={"bridges": plan.bridges})
         processes.append(_process("bridges", ProcessKind.BRIDGES, bridges, folder))

@@ -85,7 +85,9 @@ def test_a_page_waits_for_its_match_with_the_role_of_its_token(match, gateway_of
     page.locator("#enter-token").click()
     page.locator("#token").fill("nonsense")
     page.keyboard.press("Enter")
-    page.wait_for_function("() => document.getElementById('token-says').textContent.startsWith('refused: unknown token')")
+    page.wait_for_function(
+        "() => document.getElementById('token-says').textContent.startsWith('refused: unknown token')"
+    )
     page.locator("#token").fill("the-referee")
     page.keyboard.press("Enter")
     page.wait_for_function("() => document.getElementById('role').textContent === 'referee'")

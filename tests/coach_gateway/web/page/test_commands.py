@@ -5,7 +5,6 @@ import math
 import pytest
 
 from schemas.game import Phase
-from schemas.messages.coach import CoachMode
 from schemas.messages.command import Kick, KickMode
 from schemas.messages.game import DisciplinaryRecord
 from schemas.process.clock import WallClock

@@ -1,10 +1,11 @@
-"""What the match brings moves nothing under a hand: decisions, cards and goals have places that are reserved for them."""
+"""What the match brings moves nothing under a hand: decisions, cards and goals have places reserved for them."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
 
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import load_match
 from schemas.game import Card, EventKind, OffField, Phase
 from schemas.messages.game import DisciplinaryRecord, Score
@@ -44,7 +45,8 @@ class StagedMatch:
         match = load_match(None, {f"teams.{side}.size": 5 for side in Side} | {"teams.cyan.name": "Lions"})
         self.medium = medium
         self.host = FakeHost(medium, match, in_threads=True)
-        self.origin = gateway_of(medium).origin
+        self.gateway = gateway_of(medium)
+        self.origin = self.gateway.origin
         visitor = Visitor(self.origin)
         visitor.hear_what_is_played()
         for robot in self.host.config.robots(Side.CYAN):
@@ -84,9 +86,7 @@ class StagedMatch:
 
 @pytest.fixture
 def staged(gateway_of: Callable[..., Any]) -> Iterator[StagedMatch]:
-    from schemas.bus.in_process_bus import Medium
-
-    match = StagedMatch(Medium(), gateway_of)
+    match = StagedMatch(SharedState(), gateway_of)
     yield match
     match.close()
 
@@ -140,7 +140,43 @@ def test_a_proposal_is_answered_in_its_place_on_every_screen(
         assert inside
 
 
-def test_a_press_meant_for_one_proposal_does_not_answer_the_next(staged: StagedMatch, visit: Callable[..., Any]) -> None:
+def test_a_page_keeps_the_result_of_its_match_when_host_and_server_have_ended(
+    staged: StagedMatch, visit: Callable[..., Any]
+) -> None:
+    tab = visit(staged.origin)
+    tab.loses_its_server = True
+    staged.score()
+    staged.host.say(phase=Phase.FULL_TIME, running=False, side=None, left=None)
+    tab.until("window.touchline.match.over")
+    staged.host.close()
+    over = "The match is over. This page keeps its result until it is closed."
+    tab.until(f"document.getElementById('notice').textContent === {over!r}")
+    staged.gateway.close()
+    tab.until("!window.touchline.connection.up")
+    tab.page.wait_for_timeout(500)
+    assert tab.page.locator("#notice").inner_text() == over
+    assert tab.page.locator("#result-score").inner_text() == "10 : 0"
+    assert tab.page.locator("#cyan-scorers").inner_text() == "cyan3 0:00.0"
+    assert tab.page.locator("#result-title").inner_text() == "Final result"
+    assert tab.page.locator("#score").inner_text() == "10 : 0"
+
+
+def test_goals_and_the_score_are_announced_and_the_score_at_the_beginning_is_not(
+    staged: StagedMatch, visit: Callable[..., Any]
+) -> None:
+    tab = visit(staged.origin)
+    announcer = tab.page.locator("#announcer")
+    assert announcer.get_attribute("aria-live") == "polite"
+    assert announcer.inner_text() == ""
+    staged.score()
+    tab.until("document.getElementById('announcer').textContent === 'Goal for Lions. Lions 10, NuBot 0.'")
+    staged.host.say(score=Score(cyan=9, magenta=0))
+    tab.until("document.getElementById('announcer').textContent === 'The score is corrected. Lions 9, NuBot 0.'")
+
+
+def test_a_press_meant_for_one_proposal_does_not_answer_the_next(
+    staged: StagedMatch, visit: Callable[..., Any]
+) -> None:
     tab = visit(staged.origin, "referee")
     staged.propose()
     tab.until("!document.getElementById('confirm').disabled")

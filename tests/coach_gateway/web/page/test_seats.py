@@ -10,7 +10,10 @@ from schemas.side import Side
 
 DEAD = """[...document.querySelectorAll("button, select, input, textarea")]
     .filter((one) => one.checkVisibility() && one.disabled).map((one) => one.id || one.dataset.action)"""
-OPENED = """[...document.querySelectorAll("[role=tab]")].filter((tab) => tab.checkVisibility()).map((tab) => tab.dataset.tab)"""
+OPENED = """[...document.querySelectorAll("[role=tab]")]
+    .filter((tab) => tab.checkVisibility()).map((tab) => tab.dataset.tab)"""
+BUTTONS = """[...document.querySelectorAll("#buttons [data-action]")]
+    .filter((one) => one.checkVisibility()).map((one) => one.dataset.action + one.dataset.side)"""
 
 
 @pytest.mark.parametrize("width", [1360, 390])
@@ -33,9 +36,8 @@ def test_a_spectator_sees_no_command_and_no_dead_button(resting, visit, width: i
 def test_a_coach_sees_the_commands_of_its_own_side_alone(match, visit) -> None:
     tab = visit(match, "cyan")
     assert tab.ask(OPENED) == ["result", "match", "coach", "drive", "settings", "host", "log"]
-    shown = "[...document.querySelectorAll('#buttons [data-action]')].filter((one) => one.checkVisibility()).map((one) => one.dataset.action + one.dataset.side)"
     orders = [f"{order}_ordercyan" for order in ("play", "hold", "park")]
-    assert tab.ask(shown) == [*orders, "repair", "substitute", "enter"]
+    assert tab.ask(BUTTONS) == [*orders, "repair", "substitute", "enter"]
     options = tab.page.locator("#robot option")
     assert [options.nth(place).get_attribute("value") for place in range(options.count())] == ["", "cyan1", "cyan2"]
     tab.page.locator("[data-robot=magenta1] .who").click()
