@@ -30,7 +30,9 @@ def tokens_in(folder: Path) -> Path:
 class Gateway:
     """The page's server in a thread of its own; without `medium` it waits for a host in vain."""
 
-    def __init__(self, medium: SharedState | None, settings: WebSettings, tokens: Path | None, result: Path | None = None) -> None:
+    def __init__(
+        self, medium: SharedState | None, settings: WebSettings, tokens: Path | None, result: Path | None = None
+    ) -> None:
         self.logged: list[str] = []
         self.binding = bind_page(settings, tokens_of(tokens), tokens)
         self.origin = self.binding.origin

@@ -8,7 +8,7 @@ import { signOf } from "./seen_from.js";
 import { drawBall } from "./shared/bodies.js";
 import { drawGrass, drawLines } from "./shared/pitch.js";
 import { Projection } from "./shared/projection.js";
-import { SIDES } from "./shared/shapes.js";
+import { SIDES } from "./shared/palette.js";
 import { Trails } from "./trails.js";
 
 const BALL_VELOCITY = "#ffd978";

@@ -13,7 +13,7 @@ from recordings.stats.page import page, page_of, write_page
 from schemas.errors import TouchlineError
 from schemas.messages.world import World
 
-FILLS = {"cyan": (0x28, 0xB9, 0xDC), "magenta": (0xC9, 0x23, 0x7B)}
+FILLS = {"cyan": (0x28, 0xB9, 0xDC), "magenta": (0xEF, 0x4F, 0xA0)}
 
 PIXEL = """([x, y]) => {
     const canvas = document.getElementById("pitch"), context = canvas.getContext("2d");

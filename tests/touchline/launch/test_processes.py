@@ -89,7 +89,9 @@ def test_a_page_is_launched_where_one_is_wanted_with_its_tokens_in_a_file() -> N
     assert "page" not in by_name(plan())
     web = WebSettings(port=8081)
     page = by_name(replace(plan(), page=web))["page"]
-    assert page.settings == GatewaySettings(tokens=Path("runs/one/tokens.json"), web=web)
+    assert page.settings == GatewaySettings(
+        tokens=Path("runs/one/tokens.json"), web=web, result=Path("runs/one/result")
+    )
     assert page.restarts == 3
 
 
