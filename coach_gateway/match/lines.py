@@ -63,5 +63,6 @@ def state_line(state: GameState) -> str:
 
 
 def event_line(event: GameEvent) -> str:
-    """Clock, kind and sentence of an event."""
-    return f"{clock_text(event.clock):>7}  {event.kind.value.replace('_', ' ')}: {event.text}"
+    """Clock, kind and sentence of an event; a sentence that begins with the kind does not repeat it."""
+    kind = event.kind.value.replace("_", " ")
+    return f"{clock_text(event.clock):>7}  {kind}: {event.text.removeprefix(f'{kind}, ')}"

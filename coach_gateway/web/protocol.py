@@ -10,7 +10,7 @@ Messages of the host are passed on whole, below a field that names them: an even
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, StringConstraints, TypeAdapter
+from pydantic import Field, StringConstraints, TypeAdapter, ValidationError
 
 from coach_gateway.access.roles import Role
 from coach_gateway.match.orders import OrderContent
@@ -25,6 +25,7 @@ from schemas.messages.scene import SceneRequest
 from schemas.messages.setup import Setup
 from schemas.messages.world import World
 from schemas.side import Side
+from schemas.wire.faults import fault_of
 from schemas.wire.message import Name, Part
 
 MAX_BYTES = 65_536
@@ -251,5 +252,19 @@ PageRequest = Annotated[
 
 PAGE_REQUEST: TypeAdapter[PageRequest] = TypeAdapter(PageRequest)
 """Reads a message of the page."""
+_ENVELOPE = {"action": "action", "order": "order", "scene": "request", "parameters": "request", "replay": "request"}
+_ENVELOPE |= {"drive": "manual", "token": ""}
+"""Deed → the field of its message that holds what people have entered."""
+
+
+def fault_sentence(error: ValidationError) -> str:
+    """What is wrong with a message of the page, without the names of what is around the value that was entered."""
+    fault = fault_of(error)
+    steps = fault.path[1:] if fault.path and fault.path[0] in _ENVELOPE else fault.path
+    if len(fault.path) > 1 and steps[:1] == (_ENVELOPE.get(str(fault.path[0])),):
+        steps = steps[1:]
+    return fault._replace(path=steps).sentence()
+
+
 SERVER_MESSAGE: TypeAdapter[ServerMessage] = TypeAdapter(Annotated[ServerMessage, Field(discriminator="kind")])
 """Reads a message of the server."""

@@ -22,10 +22,10 @@ from coach_gateway.web.protocol import (
     PageTokenCheck,
     Refusal,
     Reply,
+    fault_sentence,
 )
 from coach_gateway.web.requests import RequestHandler, is_stop, refusal
 from schemas.process.clock import Clock
-from schemas.wire.faults import fault_of
 
 _MOST_PENDING = 8
 """Requests of one page that may wait for their replies."""
@@ -126,7 +126,7 @@ class SocketEndpoint:
             try:
                 return PAGE_REQUEST.validate_json(text)
             except ValidationError as error:
-                number, why = _number(text), fault_of(error).sentence()
+                number, why = _number(text), fault_sentence(error)
         self._pages.counts["bad"] += 1
         page.note_bad()
         _reply(page, Reply(id=number, accepted=False, reason=why))

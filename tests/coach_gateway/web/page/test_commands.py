@@ -246,7 +246,7 @@ def test_an_order_that_lacks_something_is_refused_with_the_reason(match, visit) 
     tab.page.locator("#order-mode").select_option("test")
     tab.page.locator("#order-test").select_option("circle")
     tab.page.locator("#order-give").click()
-    tab.wait_for_log("the test circle needs robot_a and point_a and radius")
+    tab.wait_for_log("Circle needs Robot A, Point A, and Radius (m)")
 
 
 def test_a_robot_is_driven_by_keys_in_place_of_its_brain_and_given_back(match, visit) -> None:
