@@ -89,7 +89,8 @@ class PageFeed:
             return None
         tick, time = self._world.tick, round(self._world.time, 3)
         shown = ",".join(text for side in beliefs for text in self._belief_texts(side))
-        return f'{{"kind":"frame","tick":{tick},"time":{time!r},"world":{self._text_of(self._world)},"beliefs":{{{shown}}}}}'
+        world = self._text_of(self._world)
+        return f'{{"kind":"frame","tick":{tick},"time":{time!r},"world":{world},"beliefs":{{{shown}}}}}'
 
     def orders(self, sides: Iterable[Side]) -> str:
         """The orders of these sides."""

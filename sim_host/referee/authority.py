@@ -4,8 +4,8 @@ In `automatic` officiating every decision is carried out in its tick. In `mixed`
 event of its own, a proposal. It is carried out when it is confirmed, or when the time that the match file sets is up.
 Meanwhile the game goes on, nothing else is judged, and no robot is shown a card for a wrong position. In `manual`
 officiating the referee keeps the clocks and places the ball; people decide, and give START. `undo` restores the state
-before the last decision, with its score and cards, while the clocks go on; again, before the one before. A restart that was signalled is signalled
-again; if play was on, the ball is dropped.
+before the last decision, with its score and cards, while the clocks go on; a second `undo` restores the one before
+that. A restart that was signalled is signalled again; if play was on, the ball is dropped.
 
 Section: ours.
 Measures: nothing of its own.

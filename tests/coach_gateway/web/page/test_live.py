@@ -110,7 +110,8 @@ def test_a_robot_on_the_bench_is_drawn_beside_the_field_within_the_picture(match
     tab.until(f"Math.abs(window.touchline.pitchCanvas.world.robots.magenta2.x - {x}) < 0.05")
     drawn = tab.ask(
         """(async () => {
-            const { inPicture } = await import("/shared/bodies.js"), { projection, world } = window.touchline.pitchCanvas;
+            const { inPicture } = await import("/shared/bodies.js");
+            const { projection, world } = window.touchline.pitchCanvas;
             const { x, y } = inPicture(projection, world.robots.magenta2, 0.25);
             return [projection.x(x), projection.y(y), projection.width, projection.height, Math.abs(y)];
         })()"""
