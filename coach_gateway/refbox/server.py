@@ -6,12 +6,13 @@ A base station that does not read is dropped before much waits for it; none wait
 
 import asyncio
 import contextlib
+import socket
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.ports import LOOPBACK, cannot_listen
+from coach_gateway.ports import LOOPBACK, bound_socket
 from coach_gateway.refbox import DEFAULT_PORT, commands
 from coach_gateway.refbox.call_generator import CallGenerator
 from coach_gateway.refbox.commands import BoxCommand
@@ -62,10 +63,14 @@ class RefBoxServer:
         server_addresses: Sequence[ServerAddress],
         log: Callable[[str], None],
         of_token: Callable[[str], Side | None] = lambda _token: None,
+        bound: Sequence[socket.socket] = (),
     ) -> None:
-        """`log` is called with lines for people; `of_token` returns the side whose coach has a token."""
+        """`log` is called with lines for people; `of_token` returns the side whose coach has a token.
+
+        `bound` are the sockets of the addresses where they are bound already.
+        """
         self._live = live
-        self._server_addresses = server_addresses
+        self._server_addresses, self._bound = server_addresses, bound
         self._log = log
         self._of_token = of_token
         self._call_generator = CallGenerator()
@@ -84,8 +89,12 @@ class RefBoxServer:
             TouchlineError: a port is taken.
         """
         async with contextlib.AsyncExitStack() as stack:
-            for address in self._server_addresses:
-                server = await stack.enter_async_context(await self._open(address))
+            sockets = self._bound or [
+                bound_socket("--refbox-server", address.host, address.port, socket.SOCK_STREAM)
+                for address in self._server_addresses
+            ]
+            for address, bound in zip(self._server_addresses, sockets, strict=True):
+                server = await stack.enter_async_context(await self._open(address, bound))
                 self.ports.append(server.sockets[0].getsockname()[1])
                 whom = f"{address.side}'s base station" if address.side is not None else "base stations"
                 self._log(f"referee box for {whom} on {address.host}:{self.ports[-1]}")
@@ -93,13 +102,8 @@ class RefBoxServer:
             for peer in self._peers:
                 peer.writer.transport.abort()
 
-    async def _open(self, address: ServerAddress) -> asyncio.Server:
-        try:
-            return await asyncio.start_server(
-                lambda r, w: self._run_connection(r, w, address), address.host, address.port
-            )
-        except OSError as error:
-            raise cannot_listen("--refbox-server", address.host, address.port, error) from None
+    async def _open(self, address: ServerAddress, bound: socket.socket) -> asyncio.Server:
+        return await asyncio.start_server(lambda r, w: self._run_connection(r, w, address), sock=bound)
 
     def send(self, calls: Sequence[Call]) -> None:
         """Send these commands to all base stations."""

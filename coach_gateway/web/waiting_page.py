@@ -32,7 +32,8 @@ _NO_HOST = "no host plays this match yet"
 class WaitingPage:
     """Serves the page before there is a match."""
 
-    def __init__(self, binding: PageBinding, match: str, clock: Clock | None = None) -> None:
+    def __init__(self, binding: PageBinding, match: str | None, clock: Clock | None = None) -> None:
+        """`match` is the name of the match that is waited for; None for any."""
         self._binding, self._match = binding, match
         self._clock = clock or WallClock()
         self._pages = Pages(binding.settings.pages, binding.settings.pages_per_address)

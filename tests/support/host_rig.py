@@ -4,7 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from robot_agent.contract import Brain, Briefing, load_brain
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Brain, Briefing
 from robot_agent.runner import Runner
 from schemas.bus.contract import Bus, ReceivedMessage
 from schemas.config.match_config import MatchConfig
@@ -36,6 +37,17 @@ class Forward:
 
     def act(self, sight: Sight) -> Command:
         return Command(answers_tick=sight.tick, drive=Drive(vx=1.0))
+
+
+class _SeatClock(SteppedClock):
+    """The clock of another process on the host's machine: it has the same wall time, and its own simulated time."""
+
+    def __init__(self, wall: SteppedClock) -> None:
+        super().__init__()
+        self._wall = wall
+
+    def unix_ns(self) -> int:
+        return self._wall.unix_ns()
 
 
 @dataclass
@@ -102,17 +114,18 @@ class HostRig:
     medium: LossyMedium = field(default_factory=LossyMedium)
     agents: dict[str, Agent] = field(default_factory=dict)
     idle: list[Callable[[], None]] = field(default_factory=list)
+    launch_token: str | None = None
 
     def __post_init__(self) -> None:
         self.clock = SteppedClock()
         self.outside = self.seat()
         self._applied, self._events, self._health = self.listen(APPLIED), self.listen(EVENT), self.listen(HEALTH)
-        self.host = Host(self.config, self.medium.open_bus(self.config.name, self.clock))
+        self.host = Host(self.config, self.medium.open_bus(self.config.name, self.clock), self.launch_token)
         if isinstance(self.host.pace, Lockstep):
             self.host.pace.step_agents = self._wait
 
     def seat(self) -> Bus:
-        return self.medium.open_bus(self.config.name, SteppedClock())
+        return self.medium.open_bus(self.config.name, _SeatClock(self.clock))
 
     def listen(self, topic: Topic) -> Listener:
         return Listener(self.outside.subscribe(topic).receive)

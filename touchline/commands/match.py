@@ -3,7 +3,6 @@
 import sys
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,15 +11,17 @@ import typer
 
 from coach_gateway.settings import BridgeOptions
 from schemas.config.settings import RecordOptions
+from schemas.errors import MatchFailedError
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 
 if TYPE_CHECKING:
-    from coach_gateway.web.settings import WebSettings
+    import socket
+
     from schemas.bus.contract import ReceivedMessage
     from schemas.config.match_config import MatchConfig
     from schemas.process.clock import Clock
-    from touchline.launch.processes import MatchPlan
+    from touchline.launch.processes import MatchPlan, Page
     from touchline.launch.result import MatchResult
 
 
@@ -54,8 +55,7 @@ def match(
     from touchline.launch.run_folder import prepare_run
 
     teams = _teams_of(ghost) if ghost else {}
-    if bridges.wanted:
-        _try_ports(bridges)
+    sockets = _open_ports(bridges) if bridges.wanted else ()
     if web or bridges.wanted:
         played.changes.setdefault("pace", "realtime")
     if bridges.refbox is not None:
@@ -68,11 +68,15 @@ def match(
     if ghost:
         _check_ghosts(config, ghost)
     check_robot_names(config)
-    check_teams(config)
+    brain_folder = played.file.parent if played.file is not None else None
+    check_teams(config, brain_folder, lambda line: typer.echo(line, err=True))
     endpoint = played.endpoint()
     clock = WallClock()
-    served = _page_settings(page) if web else None
-    plan = replace(prepare_run(config, endpoint, record, clock, recorded=not no_record), page=served, bridges=bridges)
+    served = _open_page(page) if web else None
+    plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
+    plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets)
+    if brain_folder is not None:
+        plan = replace(plan, brain_folder=brain_folder.resolve())
     if bridges.wanted:
         typer.echo(f"bridges: {plan.folder / 'bridges.log'}; the coaches' tokens: {plan.tokens}", err=json)
     if plan.warning:
@@ -95,16 +99,16 @@ def _check_ghosts(config: "MatchConfig", ghosts: list[str]) -> None:
     check_ghosts(config, ghosts)
 
 
-def _page_settings(options: dict[str, Any]) -> "WebSettings":
-    from touchline.launch.page import page_settings
+def _open_page(options: dict[str, Any]) -> "Page":
+    from touchline.launch.page import open_page
 
-    return page_settings(options)
+    return open_page(options)
 
 
-def _try_ports(bridges: BridgeOptions) -> None:
+def _open_ports(bridges: BridgeOptions) -> "tuple[socket.socket, ...]":
     from coach_gateway.bridges import bridges_of
 
-    bridges_of(bridges).try_ports()
+    return tuple(bridges_of(bridges).open_ports().all)
 
 
 def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> None:
@@ -117,7 +121,7 @@ def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> None:
 
     try:
         with screen_for(sys.stderr if quiet else sys.stdout, clock) as screen:
-            run = MatchRun(plan, screen, clock, _losses, _recorded)
+            run = MatchRun(plan, screen, clock, _losses, _published)
             result = run.play()
     except InterruptedMatchError as stopped:
         left = plan.recording is not None and plan.recording.exists()
@@ -128,6 +132,8 @@ def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> None:
         from touchline.launch.match_page import result_parts
 
         run.stay(result_parts(plan))
+    if result.recording.fault:
+        raise MatchFailedError(result.recording.fault)
 
 
 def _print_result(result: "MatchResult", *, json: bool) -> None:
@@ -139,17 +145,11 @@ def _print_result(result: "MatchResult", *, json: bool) -> None:
     console().print(result.render())
 
 
-def _recorded(plan: "MatchPlan") -> "Iterator[ReceivedMessage]":
-    """Recorded events and states of the game; empty if the recording is lost or consists of snapshots."""
-    if plan.config.record.snapshot is not None:
-        return
-    from recordings.reading.recording import open_recording
-    from schemas.errors import TouchlineError
-    from schemas.topics import EVENT, STATE
+def _published(plan: "MatchPlan") -> "Iterator[ReceivedMessage]":
+    """Events and the last state of the game, as the host has left them."""
+    from schemas.bus.outcome_file import read_outcome
 
-    for file in plan.recording_files:
-        with suppress(TouchlineError):  # an unreadable recording yields no more messages
-            yield from (recorded.received() for recorded in open_recording(file).messages(EVENT.key, STATE.key))
+    return read_outcome(plan.outcome)
 
 
 def _losses(plan: "MatchPlan") -> dict[str, int]:

@@ -9,6 +9,7 @@ from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
+from schemas.bus.settings import ClientSettings
 from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
@@ -16,7 +17,7 @@ from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock
 from schemas.topics import SETUP
 from support.fake_host import FakeHost
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.commands import orders
 
 
@@ -43,8 +44,8 @@ def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[Host]:
     there = Host()
 
     @contextmanager
-    def seat(connect: str, match: str) -> Iterator[Bus]:
-        with there.medium.open_bus(match, SteppedClock()) as bus:
+    def seat(connection: ClientSettings) -> Iterator[Bus]:
+        with there.medium.open_bus(connection.match or "friendly", SteppedClock()) as bus:
             yield bus
 
     monkeypatch.setattr(orders, "bus_client", seat)
