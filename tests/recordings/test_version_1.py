@@ -20,7 +20,7 @@ from schemas.messages.setup import Setup, SetupRequest
 from schemas.process.clock import SteppedClock
 from schemas.topics import BELIEF, COMMAND, EVENT, SETUP, STATE, WORLD
 from schemas.wire.message import VERSION, BadMessageError
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.verify.resimulate import verify
 
 FILE = Path(__file__).parent / "data" / "version_1.mcap"
@@ -42,7 +42,7 @@ def test_info_has_its_facts() -> None:
     facts = {line[:13].strip(): line[13:].strip() for line in lines if line}
     assert facts["match"] == "version_one"
     assert facts["score"] == "1 : 0"
-    assert facts["duration"] == "16.18 s simulated, 810 ticks"
+    assert facts["duration"] == "16.18 s simulated, from 0.00 to 16.18 s"
     assert facts["messages"] == "5553, 0 lost, 0 sent before it began"
 
 

@@ -69,8 +69,8 @@ def body_records(rows: list[RobotRow] | list[BallRow], what: str, limits: Limits
     if wrong.any():
         stated, moved = _mean_speed(table[wrong][:, [_VX, _VY]]), _mean_speed(derived[wrong])
         findings.note(
-            f"velocity of {what} contradicts its positions, {stated:.1f} m/s where it moves {moved:.1f} m/s on average: "
-            "derived from the positions",
+            f"velocity of {what} contradicts its positions, {stated:.1f} m/s where it moves {moved:.1f} m/s on average"
+            ": derived from the positions",
             count=int(wrong.sum()),
         )
     replaced = wrong | missing

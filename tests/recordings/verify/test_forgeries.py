@@ -37,7 +37,7 @@ from support.forgeries import (
     swap_worlds,
     switch_goal,
 )
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.verify.resimulate import verify
 
 ACTIONS = {
