@@ -34,7 +34,7 @@ _SWEEP_S = 0.5
 """s of wall time between two checks for pages that do not read, and between two signs of life to each page."""
 _RESULT_S = 0.2
 """s of wall time between two looks for a result."""
-_RELOAD_S = 3.0
+RELOAD_S = 3.0
 """s of wall time in which a page that was closed may come again, as a page that is loaded anew does."""
 _BEGINNING_S = 1.0
 """s of simulated time from a recording's start in which its first tick is looked for."""
@@ -221,13 +221,13 @@ class PageBroadcaster:
 
     async def _follow_result(self) -> None:
         """Send all pages the result of the match; returns when it is known and its pages have been closed."""
-        clock, seen_at = self._bus.clock, -_RELOAD_S
+        clock, seen_at = self._bus.clock, -RELOAD_S
         while True:
             if len(self._pages):
                 seen_at = clock.now()
             if self._result.update() and self._result.result is not None:
                 self._pages.send(self._result.result.model_dump_json())
-            if self._result.result is not None and clock.now() - seen_at > _RELOAD_S:
+            if self._result.result is not None and clock.now() - seen_at > RELOAD_S:
                 return
             await asyncio.sleep(_RESULT_S)
 

@@ -129,7 +129,7 @@ def test_a_page_that_does_not_read_delays_no_other_and_is_dropped(
     monkeypatch.setattr("coach_gateway.web.pages.STUCK_S", 0.5)
     gateway = gateway_of()
     reader = Visitor(gateway.origin)
-    stuck = Visitor(gateway.origin, max_queue=1)
+    stuck = Visitor(gateway.origin, max_queue=1, compression=None)
     deadline = time.monotonic() + SOON
     tick = 0
     while gateway.server.pages.counts["stuck"] == 0:
@@ -156,7 +156,7 @@ def test_a_page_that_reads_slowly_skips_frames_and_sees_the_newest(
     narrow = socket.socket()
     narrow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
     narrow.connect(("127.0.0.1", gateway.port))
-    quick, slow = Visitor(gateway.origin), Visitor(gateway.origin, sock=narrow, max_queue=1)
+    quick, slow = Visitor(gateway.origin), Visitor(gateway.origin, sock=narrow, max_queue=1, compression=None)
     slow.hear("host", there=True)
     pillar = ObstacleTruth(x=1, y=2, heading=0, radius=0.5, height=1, shape="cylinder", size_x=1, size_y=1)
     full = make_world(0).model_copy(update={"obstacles": {f"pillar{number}": pillar for number in range(400)}})

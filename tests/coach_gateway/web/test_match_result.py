@@ -20,7 +20,7 @@ WHOLE = KNOWN.model_copy(update={"figures": [("shots", "3", "1")], "statistics":
 
 @pytest.fixture(autouse=True)
 def short_grace(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(broadcaster, "_RELOAD_S", 0.3)
+    monkeypatch.setattr(broadcaster, "RELOAD_S", 0.3)
 
 
 def test_a_result_is_read_when_it_is_written_and_again_when_more_is_known(tmp_path: Path) -> None:
