@@ -50,4 +50,5 @@ def change_line(before: GameState | None, message: GameEvent | GameState | Healt
 
 
 def _what(state: GameState) -> tuple[object, ...]:
-    return state.phase, state.side, state.running, state.half, state.score
+    asked = [(question.side, question.action) for question in state.questions]
+    return state.phase, state.side, state.running, state.half, state.score, asked

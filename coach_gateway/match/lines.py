@@ -51,6 +51,14 @@ def discipline_phrases(state: GameState) -> list[str]:
     return phrases
 
 
+def question_phrases(state: GameState) -> list[str]:
+    """One phrase for each action that waits for its robot: `cyan names the robot for: yellow card, else cyan4`."""
+    return [
+        f"{question.side} names the robot for: {question.action.value.replace('_', ' ')}, else {question.default}"
+        for question in state.questions
+    ]
+
+
 def state_line(state: GameState) -> str:
     """Clock, half, score and phase, robots with cards or off the field, and what is proposed."""
     parts = [f"{clock_text(state.clock):>7}", half_text(state), score_text(state), phase_text(state)]
@@ -59,6 +67,7 @@ def state_line(state: GameState) -> str:
         parts.append(f"[{'; '.join(discipline)}]")
     if state.proposal is not None:
         parts.append(f"proposed: {state.proposal}")
+    parts += question_phrases(state)
     return "  ".join(parts)
 
 

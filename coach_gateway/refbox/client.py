@@ -201,7 +201,10 @@ class RefBoxClient:
             signal, side, number = await self._signals.get()
             if not is_ours(signal, side, self._box.team, self._live.refboxes):
                 continue
-            wanted = response_to(signal, side, self._robot(side, number), self._live.state)
+            robot = self._robot(side, number)
+            if number is not None and robot is None and side is not None:
+                self._log(f"referee box: {signal.name} names robot {number}, and no robot of {side} has that number")
+            wanted = response_to(signal, side, robot, self._live.state)
             if wanted.reason:
                 self.counts["not forwarded"] += 1
                 self._log(f"referee box: {wanted.reason}")

@@ -121,11 +121,13 @@ class Simulation:
         actions: Sequence[RefereeAction] = (),
         send: Send = _discard_sight,
         silent: Container[str] = (),
+        refbox: bool = False,
     ) -> TickResult:
         """One tick: apply commands, move the world, let the referee decide, make the sights.
 
         `send` is called with each robot's sight as soon as it is encoded, so that robots think while the tick ends.
-        `silent` are robots whose agent is gone or does not answer; the referee may take them off the field.
+        `silent` are robots whose agent is gone or does not answer; the referee may take them off the field. `refbox` is
+        whether a league's referee box is connected, which then decides alone when a part of the match ends.
         """
         changes = self._apply_pending()
         if changes.new_episode:
@@ -141,6 +143,8 @@ class Simulation:
         if silent:
             gone = tuple([name for name in self.roster.names if name in silent and name not in self.roster.still])
             snapshot = replace(snapshot, silent=gone)
+        if refbox:
+            snapshot = replace(snapshot, refbox=True)
         ruling = self.referee.step(self.state, snapshot, actions, self.profile.time.tick)
         self._apply_ruling(ruling)
         sights = self._subsystems.sights.at(

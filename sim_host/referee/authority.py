@@ -81,7 +81,7 @@ def why_not_undo(draft: RulingDraft) -> str | None:
     before = draft.state.before
     if before is None:
         return "no decision can be undone: there was none in this half, or it was undone already"
-    if before.timing.runs and reached(draft.state.clock, before.timing.limit):
+    if not draft.state.refbox_decides and before.timing.runs and reached(draft.state.clock, before.timing.limit):
         return "the half's time is up"
     return None
 
@@ -97,7 +97,13 @@ def undo(draft: RulingDraft) -> None:
         return
     timing = before.timing._replace(clock=now.clock, effective=now.timing.effective, timer=0.0)
     draft.state = before._replace(
-        timing=timing, still=0.0, ball=now.ball, evidence=NO_EVIDENCE, set_piece=None, before=None
+        timing=timing,
+        still=0.0,
+        ball=now.ball,
+        evidence=NO_EVIDENCE,
+        set_piece=None,
+        before=None,
+        refbox_gone=now.refbox_gone,
     )
     _undo_absences(draft, now)
     signalled = before.restart

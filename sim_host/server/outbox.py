@@ -79,6 +79,8 @@ class Outbox:
             state.participation.change_key,
             state.shoot_out,
             state.proposal is None,
+            state.refbox_gone is None,
+            len(state.questions),
             episode,
         )
         if game_state != self._last_game_state or tick.replies or tick.tick % self._state_every == 0:

@@ -112,7 +112,9 @@ def test_garbage_between_commands_is_counted_and_the_next_command_read(met: Any,
     asyncio.run(play())
 
 
-def test_cards_repairs_and_substitutions_find_their_robot_by_its_number(met: Any, until: Any) -> None:
+def test_cards_repairs_and_substitutions_find_their_robot_by_its_number_or_else_their_side(
+    met: Any, until: Any
+) -> None:
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
@@ -121,10 +123,11 @@ def test_cards_repairs_and_substitutions_find_their_robot_by_its_number(met: Any
             box.say("RED_CARD", MAGENTA_AT, robotID=-1)
             box.say("SUBSTITUTION", CYAN_AT, robotID=9)
             box.say("REPAIR_END", MAGENTA_AT, robotID=3)
-            await until(lambda: len(bench.stage.asked) == 3)
-            assert asked(bench) == ["yellow_card cyan2", "repair magenta3", "enter magenta3"]
-            assert client.counts["not forwarded"] == 2
-            assert any("RED_CARD for magenta names no robot" in line for line in bench.said)
+            await until(lambda: len(bench.stage.asked) == 5)
+            named = ["yellow_card cyan2", "repair magenta3", "enter magenta3"]
+            assert asked(bench) == [*named[:2], "red_card magenta", "substitute cyan", named[2]]
+            assert client.counts["not forwarded"] == 0
+            assert any("SUBSTITUTION names robot 9, and no robot of cyan" in line for line in bench.said)
 
     asyncio.run(play())
 
