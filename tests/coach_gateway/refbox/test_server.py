@@ -125,15 +125,16 @@ def test_a_whole_game_is_told_to_both_teams_in_the_leagues_words(boxed: Any, unt
             )
             say(phase=Phase.CORNER, side=Side.MAGENTA)
             say(running=True)
-            say(phase=Phase.HALF_TIME, side=None, running=False)
+            say(phase=Phase.PARKING, side=None, running=False)
+            say(phase=Phase.HALF_TIME)
             say(phase=Phase.KICK_OFF, side=Side.MAGENTA, half=2)
             say(phase=Phase.FULL_TIME, side=None)
-            await until(lambda: "END_GAME" in cyan.commands() and "END_GAME" in magenta.commands())
+            await until(lambda: "GAMEOVER" in cyan.commands() and "GAMEOVER" in magenta.commands())
             game = [
                 *("FIRST_HALF", "KICKOFF Sapphire", "START"),
                 *("STOP", "GOAL Ruby", "REPAIR Sapphire 3", "YELLOW_CARD Ruby 2"),
-                *("SUBSTITUTION Sapphire 1", "CORNER Ruby", "REPAIR_END Sapphire 3", "START", "HALF_TIME"),
-                *("SECOND_HALF", "KICKOFF Ruby", "END_GAME"),
+                *("SUBSTITUTION Sapphire 1", "CORNER Ruby", "REPAIR_END Sapphire 3", "START"),
+                *("STOP", "HALF_TIME", "PARK", "SECOND_HALF", "KICKOFF Ruby", "END_GAME", "GAMEOVER"),
             ]
             assert cyan.commands() == ["WELCOME Sapphire", "STOP", *game]
             assert magenta.commands() == ["WELCOME Ruby", "STOP", *game]
