@@ -17,6 +17,7 @@ from coach_gateway import run
 from coach_gateway.bridges import Bridges, bridges_of
 from coach_gateway.process import say as log
 from coach_gateway.refbox.client import BoxAddress
+from coach_gateway.refbox.framing import BoxProtocol
 from coach_gateway.refbox.server import ServerAddress
 from coach_gateway.settings import BridgeOptions, GatewaySettings
 from schemas.bus.endpoint import with_free_port
@@ -54,11 +55,18 @@ def test_words_are_addresses_and_doors() -> None:
         udp=0,
         refbox="box.local",
         team=list(Side),
-        refbox_server=["28097", "magenta:28098"],
+        refbox_server=["28097", "magenta:28098", "28099:characters", "cyan:0:characters"],
+        address=["cyan=224.16.32.44"],
         audience=["127.0.0.1:12345", "[::1]:9"],
     )
     assert wanted.boxes == (BoxAddress(Side.CYAN, "box.local", 28097), BoxAddress(Side.MAGENTA, "box.local", 28097))
-    assert wanted.server_addresses == (ServerAddress(28097), ServerAddress(28098, Side.MAGENTA))
+    assert wanted.server_addresses == (
+        ServerAddress(28097),
+        ServerAddress(28098, Side.MAGENTA),
+        ServerAddress(28099, protocol=BoxProtocol.CHARACTERS),
+        ServerAddress(0, Side.CYAN, protocol=BoxProtocol.CHARACTERS),
+    )
+    assert wanted.addresses == {Side.CYAN: "224.16.32.44"}
     assert wanted.audience == (("127.0.0.1", 12345), ("::1", 9))
     assert asked(refbox="10.0.0.2:9000", team=[Side.CYAN]).boxes[0].port == 9000
 
@@ -74,6 +82,10 @@ def test_words_are_addresses_and_doors() -> None:
         ({"refbox_server": ["blue:28097"]}, '--refbox-server is "blue:28097"'),
         ({"refbox_server": ["99999"]}, "--refbox-server"),
         ({"refbox_server": ["-1"]}, "--refbox-server"),
+        ({"refbox_server": ["28097:morse"]}, '--refbox-server is "28097:morse"; it is PORT'),
+        ({"address": ["cyan=224.16.32.44"]}, "--address is for --refbox-server, which is not given"),
+        ({"refbox_server": ["0"], "address": ["224.16.32.44"]}, '--address is "224.16.32.44"; it is cyan=ADDRESS'),
+        ({"refbox_server": ["0"], "address": ["cyan="]}, '--address is "cyan="; it is cyan=ADDRESS'),
         ({"refbox": "box..local", "team": [Side.CYAN]}, '--refbox is "box..local"'),
         ({"refbox": "::1", "team": [Side.CYAN]}, '--refbox is "::1"'),
     ],
