@@ -134,6 +134,19 @@ class SideOrder(Part):
     acknowledged: dict[Name, bool]
 
 
+class BelievedObstacle(Part):
+    """An opponent or another body that is no robot of the team, as the team believes it, in its team frame."""
+
+    x: float
+    """x in the team frame, in m."""
+    y: float
+    """y in the team frame, in m."""
+    age: float
+    """Simulated time since it was sent, in s."""
+    seen_by: list[Name]
+    """The robots that believe it, the nearest first."""
+
+
 class Frame(Part):
     """The state of the match, at the rate of the hello."""
 
@@ -149,6 +162,8 @@ class Frame(Part):
     """Number of events so far."""
     orders: dict[Side, SideOrder] = {}
     """The order of the coach's own side; of both sides for the referee."""
+    obstacles: dict[Side, list[BelievedObstacle]] = {}
+    """Opponents and other bodies as the coach's own side believes them; as both sides do for the referee."""
 
 
 class BeliefUpdate(Part):

@@ -12,7 +12,7 @@ from coach_gateway.service import pause
 from coach_gateway.udp import DEFAULT_PORT
 from coach_gateway.udp.coach_programs import Address, CoachPrograms, PendingRequest
 from coach_gateway.udp.coach_record import MatchMode
-from coach_gateway.udp.protocol import Ack, BeliefUpdate, EventUpdate, Frame, SessionEnd, SideOrder
+from coach_gateway.udp.protocol import Ack, BeliefUpdate, BelievedObstacle, EventUpdate, Frame, SessionEnd, SideOrder
 from coach_gateway.udp.session import SILENCE_S, Session
 from schemas.errors import TouchlineError
 from schemas.game import TeamPhase
@@ -165,6 +165,7 @@ class UdpServer(asyncio.DatagramProtocol):
             active = live.orders.active(side)
             if active is not None:
                 orders[side] = SideOrder(order=active.order.sequence, acknowledged=active.acknowledged)
+        obstacles = {side: [BelievedObstacle(**one._asdict()) for one in live.obstacles(side)] for side in own}
         return Frame(
             number=session.frames,
             host=live.there,
@@ -172,6 +173,7 @@ class UdpServer(asyncio.DatagramProtocol):
             state=state,
             events=len(live.events),
             orders=orders,
+            obstacles=obstacles,
         )
 
     def _send_event(self, number: int, address: Address) -> None:

@@ -17,7 +17,7 @@ from robot_agent.teams.action import Action
 from robot_agent.teams.set_piece import PENALTIES
 from robot_agent.world_model import WorldBelief, WorldModel
 from schemas.config.roster import goalkeeper_of
-from schemas.game import GameStage, TeamPhase
+from schemas.game import GameStage, Point, TeamPhase
 from schemas.messages.coach import CoachMode, CoachOrder
 from schemas.messages.command import Command, Drive
 from schemas.messages.game import GameView
@@ -283,6 +283,7 @@ class Player(ABC):
             role=action.role,
             intention=action.intention,
             pass_to=action.pass_to,
+            obstacles=[Point(x=round(x, 2), y=round(y, 2)) for x, y in belief.opponents],
         )
 
 
