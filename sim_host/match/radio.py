@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from schemas.config.sections import RadioChannel
-from schemas.messages.radio import Radio, RadioContent
+from schemas.messages.radio import Radio
 from schemas.messages.sight import ReceivedRadio
 from schemas.side import Side
 from schemas.wire.struct import encode
@@ -23,8 +23,6 @@ _WINDOW_S = 1.0
 
 Delays = NDArray[np.int64]
 """Ticks from each member of a team to each, shape (members, members)."""
-_DELIVERED = RadioContent.__struct_fields__
-"""Fields that teammates receive; the others are for the coach."""
 _LOST = -1
 """In place of a delay in ticks: the message never arrives."""
 _ROUNDING = 1e-6
@@ -109,8 +107,7 @@ class RadioAir:
             return f"radio: the team's budget of {self._air.budget / 1e6:g} Mbit/s is used up"
         team.sent.append((tick, bits))
         team.bits += bits
-        heard = {name: getattr(content, name) for name in _DELIVERED}
-        self._deliver(index, _RadioMessage(tick, ReceivedRadio(age=0.0, **heard), tick))
+        self._deliver(index, _RadioMessage(tick, ReceivedRadio.of(content), tick))
         return None
 
     def _deliver(self, sender: int, message: _RadioMessage) -> None:
