@@ -125,6 +125,8 @@ class Ack(Part):
     """Of an order: robots that have acknowledged it so far; later ones are in the frames."""
     missing: list[Name] = []
     """Of an order: robots that have not acknowledged it yet."""
+    refused: dict[Name, str] = {}
+    """Of an order: robot that does not carry it out → the reason, as far as is known; later ones are in the frames."""
 
 
 class SideOrder(Part):
@@ -132,6 +134,8 @@ class SideOrder(Part):
 
     order: int
     acknowledged: dict[Name, bool]
+    refused: dict[Name, str] = {}
+    """Robot that does not carry it out → the reason."""
 
 
 class BelievedObstacle(Part):

@@ -123,7 +123,8 @@ class UdpServer(asyncio.DatagramProtocol):
         had = [name for receipt in receipts for name in receipt.acknowledged]
         robots = [name for name, its in self._live.sides.items() if its in request.sides]
         missing = [name for name in robots if name not in had]
-        return Ack(**ack, accepted=True, order=number, acknowledged=had, missing=missing)
+        refused = {name: why for receipt in receipts for name, why in receipt.refused.items()}
+        return Ack(**ack, accepted=True, order=number, acknowledged=had, missing=missing, refused=refused)
 
     def _send_due(self) -> None:
         """Send frames to sessions that are due, and end those that have fallen silent."""
@@ -164,7 +165,9 @@ class UdpServer(asyncio.DatagramProtocol):
         for side in own:
             active = live.orders.active(side)
             if active is not None:
-                orders[side] = SideOrder(order=active.order.sequence, acknowledged=active.acknowledged)
+                orders[side] = SideOrder(
+                    order=active.order.sequence, acknowledged=active.acknowledged, refused=active.refused
+                )
         obstacles = {side: [BelievedObstacle(**one._asdict()) for one in live.obstacles(side)] for side in own}
         return Frame(
             number=session.frames,

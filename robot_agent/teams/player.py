@@ -18,7 +18,7 @@ from robot_agent.teams.set_piece import PENALTIES
 from robot_agent.world_model import WorldBelief, WorldModel
 from schemas.config.roster import goalkeeper_of
 from schemas.game import GameStage, Point, TeamPhase
-from schemas.messages.coach import CoachMode, CoachOrder
+from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import Command, Drive
 from schemas.messages.game import GameView
 from schemas.messages.radio import BallBelief, Motion, Radio
@@ -48,6 +48,8 @@ _PARKING_SPEED = 1.5
 """m/s."""
 _AT_THE_CENTRE = Ball(0.0, 0.0)
 """Stands in for a ball whose place is unknown."""
+_REASON = 80
+"""Characters of a reason, as of `schemas.wire.message.ShortText`."""
 _AIR = 0.1
 """m between two robots that pass each other."""
 
@@ -57,6 +59,10 @@ class Player(ABC):
 
     plays_alone: ClassVar[bool] = False
     """Whether a robot without teammates plays in the field rather than keeps the goal."""
+    tests: ClassVar[frozenset[CoachTest]] = frozenset({CoachTest.STOP, *coach_tests.STEPS})
+    """The coach's tests that its robots carry out."""
+    tactics: ClassVar[frozenset[str]] = frozenset()
+    """The tactics that its robots know."""
 
     def __init__(self, briefing: Briefing) -> None:
         self.briefing = briefing
@@ -146,7 +152,14 @@ class Player(ABC):
             kick=action.kick,
             radio=self._radio(belief, action) if sends or action.pass_to is not None else None,
             acknowledges_order=order.sequence if order else None,
+            refuses_order=self.why_refused(order) if order else "",
         )
+
+    def why_refused(self, order: CoachOrder) -> str:
+        """Why this robot does not carry out an order; empty where it does."""
+        if order.test is not None and order.test not in self.tests:
+            return f"unknown test: {order.test.value}"
+        return f"unknown tactic: {order.tactic}"[:_REASON] if order.tactic and order.tactic not in self.tactics else ""
 
     def _act(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
         """The action in the coach's test or in the game; what all teams have in common comes before the team's play."""
@@ -295,5 +308,9 @@ def _away(game: GameView) -> list[str]:
 def _repeated(last: Command, tick: int) -> Command:
     """The last command as the answer to one more sight, without kick and radio message."""
     return Command(
-        answers_tick=tick, drive=last.drive, dribble=last.dribble, acknowledges_order=last.acknowledges_order
+        answers_tick=tick,
+        drive=last.drive,
+        dribble=last.dribble,
+        acknowledges_order=last.acknowledges_order,
+        refuses_order=last.refuses_order,
     )

@@ -87,6 +87,7 @@ class Inbox:
             return None
         stats.newest = command.answers_tick
         stats.acknowledged = command.acknowledges_order
+        stats.refused_order = command.refuses_order
         stats.answers += 1
         self._note_latency(stats, command.answers_tick, received.arrived_ns)
         return name, command

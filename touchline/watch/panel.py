@@ -112,16 +112,20 @@ def _troubles(
 
 
 def orders(book: OrderBook) -> list[Text]:
-    """One row for each standing order: its content, and the robots that have not acknowledged it."""
+    """One row for each standing order: its content, and the robots that have not acknowledged it or refuse it."""
     rows = []
     for side in Side:
         active = book.active(side)
         if active is None:
             continue
-        missing = book.receipt(side, active.order.sequence).missing
+        receipt = book.receipt(side, active.order.sequence)
+        missing = receipt.missing
         row = Text.assemble((f" {side.value} ", SIDES[side]), f" {_order_text(active.order)}")
         if missing:
             row.append(f"  not acknowledged by {', '.join(missing)}", TROUBLE)
+        for why in dict.fromkeys(receipt.refused.values()):
+            names = [name for name, its in receipt.refused.items() if its == why]
+            row.append(f"  refused by {', '.join(names)}: {why}", TROUBLE)
         rows.append(row)
     return rows
 

@@ -106,7 +106,7 @@ def test_each_order_reaches_every_robot_of_the_side(served: Any, until: Any) -> 
                 assert ack["accepted"], ack
                 assert set(ack["acknowledged"]) | set(ack["missing"]) == {"cyan1", "cyan2"}
                 numbers.append(ack["order"])
-                expected = {"order": ack["order"], "acknowledged": {"cyan1": True, "cyan2": True}}
+                expected = {"order": ack["order"], "acknowledged": {"cyan1": True, "cyan2": True}, "refused": {}}
                 await until(lambda expected=expected: program.frame().get("orders", {}).get("cyan") == expected)
             brains = bench.stage.brains
             for robot in ("cyan1", "cyan2"):
