@@ -28,7 +28,7 @@ class Bridges:
     """The bridges that are served beside the page."""
 
     udp: int | None = None
-    """Port for coach programs; 0 takes a free one."""
+    """Port for coach programs; 0 selects a free one."""
     boxes: tuple[BoxAddress, ...] = ()
     """Referee boxes of the league, one for each team whose base station this is."""
     server_addresses: tuple[ServerAddress, ...] = ()

@@ -14,7 +14,7 @@ from schemas.bus.endpoint import parse_endpoint
 from schemas.bus.zenoh.bus import open_client
 from schemas.process.clock import WallClock
 
-_LOOK_S = 1.0
+_POLL_S = 1.0
 """s of wall time that one attempt to find a host lasts."""
 
 
@@ -83,7 +83,7 @@ async def _wait(connect: str, match: str, stop: asyncio.Event, waiting_page: Ser
 async def _connect(connect: str, match: str, stop: asyncio.Event) -> Bus | None:
     """A connection to the match; None if no host answers within one attempt."""
     try:
-        bus: Bus = await asyncio.to_thread(open_client, match, WallClock(), connect, _LOOK_S)
+        bus: Bus = await asyncio.to_thread(open_client, match, WallClock(), connect, _POLL_S)
     except BusError:
         return None
     if stop.is_set():

@@ -17,7 +17,7 @@ class BridgeOptions(Settings):
     """What coach programs, referee boxes and audiences are joined to."""
 
     udp: Annotated[int | None, Field(ge=0, le=65_535)] = None
-    """Accept coach programs on this UDP port; 0 takes a free one."""
+    """Accept coach programs on this UDP port; 0 selects a free one."""
     refbox: Annotated[str | None, CommandLine(metavar="HOST[:PORT]")] = None
     """Be a base station at a league's referee box."""
     team: list[Side] = Field(default_factory=list)

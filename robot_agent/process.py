@@ -14,7 +14,7 @@ from schemas.process.scheduling import use_batch_scheduling
 
 
 def run(settings: AgentSettings) -> int:
-    """Run one robot; exit status 0: the match is over or somebody ended it, 1: the brain raised.
+    """Run one robot; exit status 0: the match is over or the process was ended, 1: the brain raised.
 
     Raises:
         TouchlineError: no host answers, or the brain cannot be made.

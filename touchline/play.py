@@ -34,7 +34,7 @@ class InProcessMatch:
     """One match laid out in one process: brains around a simulation, stepped by hand."""
 
     def __init__(self, config: MatchConfig, brains: dict[str, Brain] | None = None) -> None:
-        """Brains by robot; those left out are loaded as the match file says.
+        """Brains by robot; the others are those of the match file.
 
         Raises:
             TouchlineError: a brain cannot be loaded.

@@ -10,8 +10,8 @@ from schemas.errors import TouchlineError
 from schemas.messages.game import GameEvent, GameState
 from schemas.messages.health import Health
 
-_POLL = 0.05
-"""s of wall time between looks."""
+_POLL_S = 0.05
+"""Wall time between two polls of the bus, in s."""
 
 
 def log_changes(bus: Bus, log: Callable[[str], None], stop: threading.Event, patience: float = 5.0) -> None:
@@ -35,20 +35,23 @@ def log_changes(bus: Bus, log: Callable[[str], None], stop: threading.Event, pat
                 log(line)
         going = going and not follower.gone
         if going:
-            bus.clock.sleep_until(bus.clock.now() + _POLL)
+            bus.clock.sleep_until(bus.clock.now() + _POLL_S)
 
 
 def change_line(before: GameState | None, message: GameEvent | GameState | Health) -> str | None:
-    """The line for a message; None when it holds nothing new to people."""
+    """The line for a message; None when people see nothing new in it."""
     match message:
         case GameEvent():
             return event_line(message)
         case GameState():
-            return state_line(message) if before is None or _what(before) != _what(message) else None
+            return (
+                state_line(message) if before is None or _comparison_key(before) != _comparison_key(message) else None
+            )
         case Health():
             return None
 
 
-def _what(state: GameState) -> tuple[object, ...]:
+def _comparison_key(state: GameState) -> tuple[object, ...]:
+    """The fields whose change is worth a line."""
     asked = [(question.side, question.action) for question in state.questions]
     return state.phase, state.side, state.running, state.half, state.score, asked

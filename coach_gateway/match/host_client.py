@@ -14,10 +14,11 @@ from schemas.messages.setup import Setup, SetupRequest
 from schemas.side import Side
 from schemas.topic import Topic
 from schemas.topics import ACTION, ORDER, PARAMETERS, REPLAY_CONTROL, SCENE, SETUP
-from schemas.wire.faults import FaultError, validated
+from schemas.wire.faults import FaultError
 from schemas.wire.message import BadMessageError, WireMessage
+from schemas.wire.struct_faults import validated
 
-_LOOK_S = 0.02
+_POLL_S = 0.02
 """s of wall time between two looks for acknowledgements."""
 
 
@@ -119,7 +120,7 @@ class HostClient:
             receipt = self.orders.book.receipt(side, order.sequence)
             if receipt.is_final or clock.now() >= deadline:
                 return receipt
-            clock.sleep_until(clock.now() + _LOOK_S)
+            clock.sleep_until(clock.now() + _POLL_S)
 
     def _next_number(self, side: Side, setup: Setup) -> int:
         """The number of the next order: wall time in ms, or one more than a larger number that is active.

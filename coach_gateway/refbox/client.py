@@ -234,7 +234,7 @@ class RefBoxClient:
         """Repeat START until the game runs, unless the box sends something else meanwhile."""
         until = self._live.time + _START_S
         reason = ""
-        while self._signals.empty() and self._live.there and self._live.time < until and self._waits_for_start():
+        while self._signals.empty() and self._live.host_present and self._live.time < until and self._waits_for_start():
             reply = await self._live.act(action)
             reason = reply.reason
             await asyncio.sleep(_START_AGAIN_S)

@@ -19,7 +19,7 @@ from schemas.game import TeamPhase
 from schemas.side import Side
 from schemas.wire.message import Part
 
-_LOOK_S = 0.01
+_POLL_S = 0.01
 """s of wall time between two looks at which program is due."""
 _EVENTS_AT_ONCE = 50
 """Events sent at most with one frame, or for one request for events: more would be lost in a full buffer."""
@@ -63,13 +63,13 @@ class UdpServer(asyncio.DatagramProtocol):
         self.port = transport.get_extra_info("sockname")[1]
         self._log(f"coach programs over UDP on {self._at[0]}:{self.port}")
         try:
-            while not await pause(stop, _LOOK_S):
+            while not await pause(stop, _POLL_S):
                 self._send_due()
         finally:
             for task in tuple(self._tasks):
                 task.cancel()
             for address in self._coaches.sessions:
-                self._send(SessionEnd(reason="the gateway ends"), address)
+                self._send(SessionEnd(reason="the gateway is shutting down"), address)
             transport.close()
 
     def datagram_received(self, data: bytes, addr: Address) -> None:
@@ -149,8 +149,10 @@ class UdpServer(asyncio.DatagramProtocol):
                 if session.beliefs_sent.get(robot) != belief.time:
                     session.beliefs_sent[robot] = belief.time
                     self._send(BeliefUpdate(number=session.frames, side=side, belief=belief), address)
-        sent = min(session.events_sent, len(self._live.events)) if session.hosts == self._live.hosts else 0
-        session.hosts = self._live.hosts
+        sent = (
+            min(session.events_sent, len(self._live.events)) if session.host_changes == self._live.host_changes else 0
+        )
+        session.host_changes = self._live.host_changes
         session.events_sent = min(len(self._live.events), sent + _EVENTS_AT_ONCE)
         for number in range(sent, session.events_sent):
             self._send_event(number, address)
@@ -171,7 +173,7 @@ class UdpServer(asyncio.DatagramProtocol):
         obstacles = {side: [BelievedObstacle(**one._asdict()) for one in live.obstacles(side)] for side in own}
         return Frame(
             number=session.frames,
-            host=live.there,
+            host=live.host_present,
             match_mode=modes,
             state=state,
             events=len(live.events),

@@ -25,7 +25,7 @@ from schemas.errors import TouchlineError
 from schemas.messages.replay import ReplayOperation, ReplayReply, ReplayRequest
 from schemas.side import Side
 
-_LOOK_S = 0.01
+_POLL_S = 0.01
 """s of wall time between two looks at the bus."""
 _STATUS_S = 0.2
 """s of wall time between two queries of a replay's status."""
@@ -92,7 +92,7 @@ class PageBroadcaster:
         """Why no role can do this now; None when it can be done."""
         if isinstance(request, PageTokenCheck):
             return None
-        if not self.feed.there:
+        if not self.feed.host_present:
             return "the host is gone; wait until it is back"
         if self.feed.setup is None:
             return "the match is not known yet; try again"
@@ -128,7 +128,7 @@ class PageBroadcaster:
         while True:
             now = clock.now()
             if sent_at is not None:
-                self._pace.took(max(0.0, now - sent_at - _LOOK_S))
+                self._pace.took(max(0.0, now - sent_at - _POLL_S))
                 sent_at = None
             for text in feed.update():
                 pages.send(text)
@@ -140,10 +140,10 @@ class PageBroadcaster:
                 feed.frame_changed = False
                 sent_at = now
                 self._show()
-            await asyncio.sleep(_LOOK_S)
+            await asyncio.sleep(_POLL_S)
 
     def _show(self) -> None:
-        """Send everybody the newest frame, put together once for all roles that see the same."""
+        """Send the newest frame to all pages; it is encoded once for all roles with the same view."""
         made: dict[tuple[Side, ...], str | None] = {}
         for role in self._pages.roles():
             sides = tuple(self._beliefs_of(role))
@@ -161,12 +161,12 @@ class PageBroadcaster:
                 try:
                     await self._ask_host()
                 except TouchlineError:
-                    self.feed.host_changed = self.feed.there
+                    self.feed.host_changed = self.feed.host_present
                     await asyncio.sleep(_AGAIN_S)
                     continue
                 for page in self._pages:
                     self.welcome(page)
-            await asyncio.sleep(_LOOK_S)
+            await asyncio.sleep(_POLL_S)
 
     async def _ask_host(self) -> None:
         """Query how the match is set up and whether it is a replay, and the events of a replay's recording.
@@ -186,7 +186,7 @@ class PageBroadcaster:
     async def _follow_replay(self) -> None:
         """Send all pages the status of a replay, several times a second."""
         while True:
-            if self.feed.there and not self.feed.live and len(self._pages):
+            if self.feed.host_present and not self.feed.live and len(self._pages):
                 try:
                     self.send_replay(await asyncio.to_thread(self._ask_replay))
                 except TouchlineError:

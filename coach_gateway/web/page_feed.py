@@ -40,9 +40,9 @@ class PageFeed:
         """There is news of orders since the owner last reset this."""
 
     @property
-    def there(self) -> bool:
-        """The host is there."""
-        return self._match.there
+    def host_present(self) -> bool:
+        """The host is present."""
+        return self._match.host_present
 
     def update(self) -> list[str]:
         """Take in what has come, without waiting; returns the messages for all pages, in order."""
@@ -51,7 +51,7 @@ class PageFeed:
             self._reset()
         messages: list[str] = []
         if news.presence_changed:
-            self.host_changed = self.host_changed or self.there
+            self.host_changed = self.host_changed or self.host_present
             messages.append(self._host())
         if news.refboxes_changed:
             messages.append(self._refbox())
@@ -101,7 +101,7 @@ class PageFeed:
         return OrdersUpdate.model_validate(shown).model_dump_json()
 
     def _host(self) -> str:
-        return f'{{"kind":"host","there":{"true" if self.there else "false"}}}'
+        return f'{{"kind":"host","there":{"true" if self.host_present else "false"}}}'
 
     def _refbox(self) -> str:
         connected = self._match.refboxes

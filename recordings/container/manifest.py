@@ -4,7 +4,7 @@ from datetime import UTC, datetime
 from enum import StrEnum
 from typing import Any, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from recordings.container.environment import libm_fingerprint, versions
 from recordings.container.key_selection import EVERYTHING, KeySelection
@@ -47,7 +47,7 @@ class Manifest(Part):
     """Key expressions of the keys that were left out."""
     part: int = 1
     """Number of this file in a split recording, from 1."""
-    standing: int = 0
+    latched_count: int = Field(default=0, alias="standing")
     """Number of latched messages at the beginning of the file, which are in the files before it, too."""
     attached: dict[str, str] = {}
     """Attachment → blake2b of its content, hex."""

@@ -36,7 +36,7 @@ def filter_recording(
     start_ns, end_ns = _ns(start), _ns(end)
     entries = message_copies(recording, selection, end_ns)
     if start_ns is None:
-        repeated = islice(entries, recording.manifest.standing)
+        repeated = islice(entries, recording.manifest.latched_count)
         latched, rest = [entry for entry in repeated if selection.includes(entry.channel.key)], entries
     else:
         latched, rest = _latched_at(recording, selection, start_ns), _from(entries, start_ns)

@@ -162,7 +162,7 @@ def _messages(recording: Recording, keys: set[str], everything: bool) -> Iterato
     """Yield the messages on these keys, without the latched ones at the beginning and repeated commands."""
     last: dict[str, bytes] = {}
     for number, recorded in enumerate(recording.messages()):
-        if recorded.key not in keys or number < recording.manifest.standing:
+        if recorded.key not in keys or number < recording.manifest.latched_count:
             continue
         if recorded.topic.key == COMMAND.key and not everything:
             if last.get(recorded.key) == recorded.payload:

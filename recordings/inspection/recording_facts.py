@@ -62,7 +62,7 @@ class RecordingFacts:
     """Messages received while the recorder was paused."""
     part: int
     """Number of this file in a split recording, from 1."""
-    standing: int
+    latched_count: int
     """Number of latched messages repeated at the beginning of the file."""
     made: str
     """`recorded`, or how it was made from other recordings."""
@@ -110,7 +110,7 @@ def facts_of(recording: Recording) -> RecordingFacts:
         missed_before_start=sum(count.missed_before_start for count in ending.keys.values()),
         left_out=sum(count.left_out for count in ending.keys.values()),
         part=manifest.part,
-        standing=manifest.standing,
+        latched_count=manifest.latched_count,
         made=manifest.made,
         include=manifest.include,
         exclude=manifest.exclude,
@@ -140,7 +140,7 @@ def _ending(recording: Recording) -> _Ending:
     for number, recorded in enumerate(recording.messages()):
         received = recorded.received()
         progress.update([received])
-        if number >= recording.manifest.standing:
+        if number >= recording.manifest.latched_count:
             trackers.setdefault(recorded.key, SequenceTracker()).add(recorded.stamp, len(recorded.payload))
     progress.catch_up()
     state, applied = progress.state, progress.applied

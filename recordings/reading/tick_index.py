@@ -138,7 +138,7 @@ def tick_index_of(recording: Recording) -> TickIndex:
 
 def _latched_ticks(recording: Recording) -> set[int]:
     """Ticks whose `host/applied` is among the latched messages at the beginning of the file."""
-    repeated = islice(recording.messages(), recording.manifest.standing)
+    repeated = islice(recording.messages(), recording.manifest.latched_count)
     summaries = [_summary_of(recorded) for recorded in repeated if recorded.topic is APPLIED]
     return {summary.tick for summary in summaries if summary is not None}
 

@@ -21,6 +21,9 @@ _AFTER_S = 2.0
 _SETTLED_NS = 200_000_000
 """Simulated time, in ns, after which the world of a tick has been recorded, if at all."""
 
+_MANUAL_CONTROL = ("manual_control", "hand")
+"""Rule of the events on manual control, now and in older recordings."""
+
 
 class TickRecord(NamedTuple):
     """The messages recorded of one tick."""
@@ -47,7 +50,7 @@ def command_check_of(recording: Recording, segment: Segment) -> CommandCheck:
 
 
 def _is_manual_control(event: GameEvent) -> bool:
-    return event.kind is EventKind.AGENT and event.rule == "hand"
+    return event.kind is EventKind.AGENT and event.rule in _MANUAL_CONTROL
 
 
 def _none_missing(count: KeyCount | None) -> bool:

@@ -1,4 +1,4 @@
-"""Records a match from its endpoint into files, as the settings of a recorder ask for."""
+"""Records a match from its endpoint into files, by the settings of a recorder."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -42,9 +42,9 @@ def record(settings: RecorderSettings, should_stop: Callable[[], bool] = lambda:
 def open_sink(
     path: Path, clock: Clock, match: str, loss_counts: LossCounts, limits: FileLimits = ONE_FILE, *, viz: bool = True
 ) -> Sink:
-    """Where a recording goes; with `viz`, what viewers draw is in it.
+    """The sink of a recording; with `viz`, the channels for viewers are written, too.
 
     Raises:
-        TouchlineError: a file that cannot be written.
+        TouchlineError: the file cannot be written.
     """
     return (FileSink if limits.snapshot is None else SnapshotSink)(path, clock, match, loss_counts, limits, viz=viz)

@@ -38,7 +38,7 @@ _BACKLOG = 64
 _SEQUENCES = 0xFFFF_FFFF
 """MCAP has sequence numbers of 32 bits."""
 
-Batch = list[LoggedMessage]
+LoggedMessages = list[LoggedMessage]
 
 
 class RecordingWriter:
@@ -72,7 +72,7 @@ class RecordingWriter:
         self._flush_at = 0.0
         self.begun = False
 
-    def begin(self, manifest: Manifest, attachments: dict[str, bytes], latched: Batch | None = None) -> None:
+    def begin(self, manifest: Manifest, attachments: dict[str, bytes], latched: LoggedMessages | None = None) -> None:
         """Write manifest, attachments and latched messages; `attachments` have names with a suffix, `match.json`.
 
         `latched` are the latched messages at the beginning of this file, which are in the files before it, too.
@@ -81,14 +81,14 @@ class RecordingWriter:
         self._flush_at = self._clock.now() + FLUSH_S
         start_thread(self._thread)
         attached = {name: digest(content) for name, content in attachments.items()}
-        manifest = manifest.model_copy(update={"attached": attached, "standing": len(latched or ())})
+        manifest = manifest.model_copy(update={"attached": attached, "latched_count": len(latched or ())})
         if self._viz and manifest.setup is not None:
             self._viz_channels = VizChannels(self._mcap, manifest.setup)
         self._hand_over(partial(self._write_head, to_metadata(manifest), attachments))
         if latched:
             self.write(latched)
 
-    def write(self, batch: Batch) -> None:
+    def write(self, batch: LoggedMessages) -> None:
         """Add messages in the order of the file; blocks while the thread is far behind."""
         self._hand_over(partial(self._write_batch, batch))
 
@@ -167,7 +167,7 @@ class RecordingWriter:
             self._mcap.add_attachment(now, 0, name, media, data)
         self._mcap.flush()  # type: ignore[no-untyped-call]
 
-    def _write_batch(self, batch: Batch) -> None:
+    def _write_batch(self, batch: LoggedMessages) -> None:
         add, channels, viz_channels = self._mcap.add_message, self._channels, self._viz_channels
         for log_ns, received in batch:
             channel = channels.get(received.key) or self._open_channel(received)

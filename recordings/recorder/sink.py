@@ -22,26 +22,26 @@ MakeResult = Callable[[EndReason], Result]
 
 @dataclass(frozen=True, slots=True)
 class FileLimits:
-    """When a file is finished and the next one begun, and how much is kept."""
+    """When a file is finished and the next one begins, and how many files are kept."""
 
     size: int | None = None
     """Bytes of a file."""
     duration: float | None = None
     """Simulated s in a file."""
     keep: int | None = None
-    """Finished files that are kept, the newest; all where nothing is said."""
+    """Number of finished files that are kept, the newest; None for all."""
     snapshot: float | None = None
-    """Simulated s that are held in memory and written when there is a goal, or on request; nothing else is."""
+    """Simulated s that are held in memory, and written only after a goal or on request."""
 
     @classmethod
     def of(cls, options: RecordOptions) -> Self:
-        """The limits that a recorder was started with, where sizes are in MB."""
+        """The limits in the options of a recorder, where sizes are in MB."""
         size = round(options.split_size * 1e6) if options.split_size is not None else None
         return cls(size, options.split_duration, options.keep, options.snapshot)
 
     @property
     def is_split(self) -> bool:
-        """Several files may come of it."""
+        """Whether the recording may have several files."""
         return any(limit is not None for limit in (self.size, self.duration, self.snapshot))
 
 

@@ -21,8 +21,8 @@ from sim_host.server.presence_tracker import PresenceTracker
 from sim_host.server.services import Services
 
 _FULL_TIME_GRACE_S = 1.5 * HEARTBEAT_S
-"""Wall time that the host stays after full time for those who watch: what they missed of the end shows with the bus's
-next heartbeat, half a second after it, and can be fetched again as long as the host is there."""
+"""Wall time that the host stays after full time for its watchers: missed messages of the end show with the bus's next
+heartbeat, half a second later, and can be fetched as long as the host is running."""
 
 
 class Host:
@@ -109,7 +109,7 @@ class Host:
         return tick
 
     def wait_for_recorders(self) -> None:
-        """Give the recorders time to write the last tick, and after full time the watchers time to receive it."""
+        """Wait until the recorders have read the last tick, and after full time until watchers can have received it."""
         last = self.simulation.now.tick
         self._batches.send()
         deadline = self._clock.now() + PARTING_S
@@ -142,8 +142,8 @@ class Host:
         self._roster = roster
 
     def _while_waiting(self) -> None:
-        """While robots or recorders are waited for: what was published must not wait as long to be recorded."""
-        self._services.attend_meanwhile()
+        """While the host waits for robots or recorders: publish batches that are due, and reply to requests."""
+        self._services.serve_while_waiting()
         self._batches.send_if_due()
 
     def _send_sight(self, robot: str, sight: bytes) -> None:
@@ -153,11 +153,11 @@ class Host:
         self._outbox.publish_sight(robot, sight)
 
     def _look_for_sight_recorders(self) -> None:
-        """Sights are recorded if the match file says so, or while a recorder asks for them."""
+        """Record sights if the match file demands it, or while a recorder requests them."""
         self._outbox.sights_recorded = self._config.record.sights or self.presence.wants_sights
 
     def _set_sim_time(self, tick: int) -> None:
-        """Messages that are sent from now on belong to this tick."""
+        """Set the simulated time of messages sent from now on to that of a tick."""
         self._clock.sim_ns = round(tick * self.simulation.profile.time.tick * 1e9)
 
     def _update_stats(self, tick: TickResult) -> None:
@@ -165,8 +165,8 @@ class Host:
         for name, count in tick.refused.items():
             self.inbox.agent_stats[name].refused += count
         for name, driven in self._manual.changes():
-            text = f"{name} is under manual control" if driven else f"{name} is given back to its brain"
-            self._publish_agent_event(tick, name, "hand", text)
+            text = f"{name} is under manual control" if driven else f"{name} is controlled by its brain again"
+            self._publish_agent_event(tick, name, "manual_control", text)
         for name, was_silent in self._silent.items():
             stats = self.inbox.agent_stats[name]
             if stats.idle:
@@ -177,7 +177,7 @@ class Host:
                 continue
             self._silent[name] = silent
             text = f"{name} does not answer, its robot stops" if silent else f"{name} answers"
-            self._publish_agent_event(tick, name, "attendance", text)
+            self._publish_agent_event(tick, name, "agent_silent", text)
 
     def _publish_agent_event(self, tick: TickResult, name: str, rule: str, text: str) -> None:
         if name not in self._roster.names:

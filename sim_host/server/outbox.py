@@ -23,7 +23,7 @@ class Outbox:
 
     def __init__(self, batches: BatchPublisher, roster: Roster, tick_s: float) -> None:
         self.sights_recorded = False
-        """Sights are recorded, too: ten robots' are four times as much as all the rest."""
+        """Sights are recorded, too: with ten robots they are four times as many bytes as all other messages."""
         self._batches = batches
         self._world = batches.publisher(WORLD)
         self._applied = batches.publisher(APPLIED)
@@ -42,7 +42,7 @@ class Outbox:
         self._state_every = round(_STATE_PERIOD_S / tick_s)
 
     def set_roster(self, roster: Roster) -> None:
-        """Publish for these robots from now on; an existing publisher goes on with its sequence numbers."""
+        """Publish for these robots from now on; an existing publisher continues its sequence numbers."""
         self._roster = roster
         for name, side in zip(roster.names, roster.sides, strict=True):
             if name not in self._sights:

@@ -16,7 +16,7 @@ log = logging.getLogger("sim_host")
 
 
 def run(settings: HostSettings) -> int:
-    """Host one match until it is over or somebody ends this process; the exit status of the process.
+    """Host one match until it is over or a signal ends this process; returns the exit status.
 
     Raises:
         TouchlineError: PyBullet is missing, or the endpoint cannot be listened on or is open to others unguarded.

@@ -1,4 +1,4 @@
-"""What the page on the coach gateway says: its tables name all that there is, its command lines can be typed."""
+"""The page on the coach gateway: its tables are complete, its command lines are valid."""
 
 import re
 from collections.abc import Callable
@@ -40,7 +40,7 @@ def test_every_datagram_both_ways_has_its_row(page: str) -> None:
     assert kinds(*asked, protocol.KeepAlive, protocol.Bye, *said) <= named
 
 
-def test_every_match_mode_and_test_mode_has_the_number_that_the_page_says(page: str) -> None:
+def test_every_match_mode_and_test_mode_has_the_documented_number(page: str) -> None:
     rows = re.findall(r"^\| (\d+)(?:, (\d+))? \| `(\w+)`(?:, `(\w+)`)? \|", page, re.MULTILINE)
     said = {int(number): word for row in rows for number, word in zip(row[:2], row[2:], strict=True) if number}
     assert said == {mode.number: mode.value for mode in MatchMode}
@@ -74,7 +74,7 @@ def test_its_command_lines_can_be_typed(page: str, fenced: Callable[[str, str], 
         assert [word for word in words if word.startswith("--") and word not in known] == [], line
 
 
-def test_what_a_program_says_to_the_page_s_server_can_be_said(page: str) -> None:
+def test_the_documented_messages_of_programs_to_the_server_of_the_page_are_valid(page: str) -> None:
     part = page.partition("## The page")[2].partition("## Coach programs")[0]
     asks = [PAGE_REQUEST.validate_json(line[2:]) for line in part.splitlines() if line.startswith("→ {")]
     assert [ask.deed for ask in asks] == ["action", "action"]

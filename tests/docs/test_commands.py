@@ -1,4 +1,4 @@
-"""The command lines in the documents and in the help are such that somebody could type them."""
+"""The command lines in the documents and in the help are valid."""
 
 import re
 import shlex

@@ -1,4 +1,4 @@
-"""The protocol page: as fresh as the code, and what its text says of the code is so."""
+"""The protocol page: generated from this code, and its text agrees with the code."""
 
 import json
 import re
@@ -63,7 +63,7 @@ def test_every_number_of_a_message_has_a_unit_or_a_meaning(kind: type[Message]) 
         assert [row.name for row in rows(part, str) if row.type.startswith("number") and not row.meaning] == []
 
 
-def test_limits_and_choices_are_said_in_words() -> None:
+def test_limits_and_choices_are_described_in_words() -> None:
     said = {row.name: row.type for row in rows(Command, lambda kind: kind.__name__)}
     assert said["answers_tick"] == "whole number (at least 0)"
     assert said["kick"] == "Kick or null"

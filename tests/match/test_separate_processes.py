@@ -72,7 +72,7 @@ class Story:
 
         second_host = self.host("second", 2)
         again = listen("apart", endpoint, second_host)
-        again.until(lambda one: one.said["game/state"] and one.said["game/state"][-1].phase == "full_time", "full time")
+        again.until(lambda one: one.logs["game/state"] and one.logs["game/state"][-1].phase == "full_time", "full time")
         self.second_healths, self.second_worlds = again.healths, again.worlds
         again.bus.close()
         self.second_status = second_host.status()

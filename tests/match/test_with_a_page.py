@@ -32,7 +32,7 @@ size = 1
 
 
 class Page:
-    """An open page that reads what it is told."""
+    """An open page that reads its messages."""
 
     def __init__(self, socket: ClientConnection, token: str) -> None:
         self.socket = socket
@@ -40,7 +40,7 @@ class Page:
         self._kept: list[dict[str, Any]] = []
 
     def wait_for_match(self) -> None:
-        """Until it is told what is played; that welcome is still to be heard."""
+        """Read until the welcome of a match, which is left to be read."""
         while (welcome := self.hear("welcome"))["setup"] is None:
             pass
         self._kept.append(welcome)
@@ -71,7 +71,7 @@ class Page:
 
 @contextmanager
 def page_at(address: str) -> Iterator[Page]:
-    """A page opened at the address that was said; like any page it comes again when it is sent away."""
+    """A page opened at the printed address; like any page it reconnects when it is disconnected."""
     origin, _, token = address.partition("/#token=")
     deadline = time.monotonic() + LIMIT
     while True:
@@ -92,7 +92,7 @@ def page_at(address: str) -> Iterator[Page]:
 
 
 def said_address(program: Any) -> str:
-    """Where a program says the referee's page is."""
+    """The address of the referee's page that a program prints."""
     deadline = time.monotonic() + LIMIT
     while True:
         found = re.search(r"(http://127\.0\.0\.1:\d+/#token=\S+)", program.out + program.err)
@@ -115,7 +115,7 @@ def config(tmp_path: Path) -> Path:
     return file
 
 
-def test_a_match_with_a_page_says_where_it_is_lives_through_the_server_s_death_and_leaves_nothing(
+def test_a_match_with_a_page_prints_its_address_survives_a_crash_of_the_server_and_leaves_no_process(
     start: Callable[..., Any], config: Path, tmp_path: Path, is_running: Callable[[int], bool]
 ) -> None:
     match = start(
@@ -243,7 +243,7 @@ PathFinder.find_spec = lambda name, *more: None if name.partition(".")[0] in gon
 """As `sitecustomize`, makes the packages of the extra `coach` such as are not installed."""
 
 
-def test_without_the_extra_a_page_says_how_to_get_it_and_everything_else_goes_on(
+def test_without_the_extra_a_warning_names_the_remedy_and_the_match_continues(
     start: Callable[..., Any], config: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "sitecustomize.py").write_text(NO_WEB)

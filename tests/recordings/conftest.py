@@ -1,4 +1,4 @@
-"""A match made by hand on the in-process bus, for the recorder to record: every message is built here."""
+"""Recordings of matches on the in-process bus."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -15,7 +15,7 @@ from recordings.recorder.recorder import Recorder
 from recordings.recorder.sink import ONE_FILE, FileLimits
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.game import Phase, Score
 from schemas.messages.command import Command
@@ -41,7 +41,7 @@ def make_rig(tmp_path: Path) -> Iterator[RigMaker]:
         limits: FileLimits = ONE_FILE,
         selection: KeySelection = EVERYTHING,
     ) -> RecorderRig:
-        medium = Medium()
+        medium = SharedState()
         wall = SteppedClock()
         host_bus, robot_bus = medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", SteppedClock())
         bus = medium.open_bus("friendly", wall)
@@ -80,13 +80,13 @@ def recorded(rig: RecorderRig) -> Recording:
 
 @pytest.fixture
 def make_fake_host() -> Callable[[Bus, Bus], FakeHost]:
-    """Seats a hand-made host on a bus of the test's own."""
+    """Makes a fake host on a bus of the test."""
     return lambda bus, robots: FakeHost(bus, robots, make_setup())
 
 
 @pytest.fixture
 def wait_until_written() -> Callable[[Any], None]:
-    """Waits until what a recorder has handed on is in its file."""
+    """Waits until the messages of a recorder are in its file."""
 
     def wait(rig) -> None:
         done = Event()
@@ -109,7 +109,7 @@ def record_match(
 
     `between` is called before each tick, for what operators do.
     """
-    medium = Medium()
+    medium = SharedState()
     host_bus, bus = medium.open_bus(config.name, SteppedClock()), medium.open_bus(config.name, SteppedClock())
     table, server = InProcessMatch(config), host_bus.serve(SETUP)
     simulation = table.simulation
@@ -153,7 +153,7 @@ def record_match(
 
 @pytest.fixture(scope="session")
 def match_recorder() -> Callable[..., None]:
-    """Records any match in this process, as `record_match` says."""
+    """Records any match in this process; see `record_match`."""
     return record_match
 
 

@@ -15,7 +15,7 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from recordings.viz.drawing import READS, Drawing
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.messages.setup import Setup, SetupRequest
 from schemas.process.clock import SteppedClock
 from schemas.topics import BELIEF, COMMAND, EVENT, SETUP, STATE, WORLD
@@ -107,7 +107,7 @@ def test_a_recording_that_was_cut_off_is_summarized(recording: Recording, tmp_pa
 @pytest.fixture
 def replayed(recording: Recording) -> tuple[InProcessBus, ReplayHost]:
     """A reader on the bus, and the host of a replay as fast as possible."""
-    medium, clock = Medium(), SteppedClock()
+    medium, clock = SharedState(), SteppedClock()
     opened = Replay(ReplaySettings(FILE, rate=None))
     host = ReplayHost(
         medium.open_bus("again", clock), recording.manifest.setup, lambda **more: opened.player(clock, **more)

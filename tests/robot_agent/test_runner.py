@@ -1,7 +1,7 @@
 import pytest
 
 from robot_agent.runner import BrainError, Runner, ask_setup, serve
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command, Drive
 from schemas.process.clock import SteppedClock
@@ -26,7 +26,7 @@ class Raising:
 
 @pytest.fixture
 def seats():
-    medium = Medium()
+    medium = SharedState()
     return medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", SteppedClock())
 
 
@@ -132,7 +132,7 @@ class Impatient(SteppedClock):
 @pytest.fixture
 def stage(setup, monkeypatch):
     """A host that answers every question for the setup at once, and a robot that never sleeps."""
-    medium = Medium()
+    medium = SharedState()
     host, robot = medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", Impatient())
     host.declare_alive("host", "host")
     server = host.serve(SETUP)

@@ -1,4 +1,4 @@
-"""A match made by hand on the in-process bus, for the recorder to record: every message is built here."""
+"""A match on the in-process bus whose messages are all built here, for the recorder to record."""
 
 import math
 from dataclasses import dataclass, field
@@ -9,7 +9,7 @@ from recordings.recorder.recorder import Recorder, RecordingSummary
 from recordings.recorder.sink import Sink
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus, Publisher, Server
-from schemas.bus.in_process_bus import InProcessBus, Medium
+from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
 from schemas.config.rule_book import load_rule_book
@@ -26,7 +26,7 @@ from schemas.topics import APPLIED, COMMAND, EVENT, ORDER, SETUP, STATE, WORLD
 ROBOTS = ("cyan1", "cyan2", "magenta1", "magenta2")
 TICK = 0.02
 MOMENT = 5.0
-"""s of wall time that a robot's word may take to the host; nothing depends on how soon it comes."""
+"""Longest wall time of a robot's message to the host, in s; no test depends on the exact time."""
 
 
 def make_setup(match: str = "friendly") -> Setup:
@@ -57,7 +57,7 @@ class PublisherLog(InProcessBus):
     """The publishers of another bus, kept by their keys."""
 
     def __init__(self, bus: Bus) -> None:
-        super().__init__(bus.match, bus.clock, Medium())
+        super().__init__(bus.match, bus.clock, SharedState())
         self.made: dict[str, Publisher] = {}
         self._bus = bus
 
@@ -71,7 +71,7 @@ class PublisherLog(InProcessBus):
 
 @dataclass
 class FakeHost:
-    """Speaks as host and robots do, tick by tick; simulated time is the host's."""
+    """Publishes the messages of host and robots, tick by tick; simulated time is the host's."""
 
     bus: Bus
     robots: Bus
@@ -86,7 +86,7 @@ class FakeHost:
         self.ears = [self.bus.subscribe(topic) for topic in (COMMAND, ORDER)]
         publishers = PublisherLog(self.bus)
         self.direct = publishers.made
-        """What is sent here is in no record batch."""
+        """Key → publisher whose messages are in no record batch."""
         self.batches = BatchPublisher(publishers)
         for topic in (WORLD, APPLIED, STATE, EVENT):
             self.writers[topic.key] = self.batches.publisher(topic)
@@ -104,7 +104,7 @@ class FakeHost:
         self.batches.process()
 
     def play(self, tick: int) -> None:
-        """One tick: truth, the inputs that led to it, the robots' answers to it."""
+        """One tick: world, inputs, and the commands of the robots."""
         self.bus.clock.sim_ns = self.robots.clock.sim_ns = round(tick * TICK * 1e9)
         self.writers["world"].put(make_world(tick))
         inputs = {name: AppliedInput(drive=Drive(vx=1.0), dribble=False, answers_tick=tick) for name in ROBOTS}
@@ -114,7 +114,7 @@ class FakeHost:
         self.relay(tick, len(ROBOTS))
 
     def relay(self, tick: int, count: int = 0) -> None:
-        """Note what has come from others, `count` of it at least: all of the tick has been said."""
+        """Add the messages of others to the batch, at least `count`, and end the tick."""
         came = 0
         for ear in self.ears:
             while (received := ear.receive(MOMENT if came < count else 0.0)) is not None:
@@ -160,7 +160,7 @@ class RecorderRig:
                 self.recorder.pump()
 
     def leave(self) -> RecordingSummary:
-        """The host leaves; the recorder takes in the rest."""
+        """The host leaves; the recorder reads the rest."""
         self.host.batches.send()
         self.host.bus.close()
         return self.recorder.run(lambda: False)

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
+from recordings.exchange.formats import EXPORTERS
 from schemas.topics import TOPICS
 from touchline.__main__ import app
 
@@ -140,7 +141,7 @@ def test_the_topic_table_is_printed_whole() -> None:
         assert any(line.split()[:2] == [name, topic.key] for line in lines)
 
 
-def test_the_topic_table_as_json_says_who_may_read() -> None:
+def test_the_topic_table_as_json_has_the_readers_of_each_topic() -> None:
     rows = {row["name"]: row for row in json.loads(touchline("topics", "--json").stdout)}
     assert set(rows) == set(TOPICS)
     assert rows["command"]["key"] == "robot/{robot}/command"
@@ -165,3 +166,8 @@ def test_an_environment_variable_stands_in_for_an_option() -> None:
     result = touchline("coach", "start", TOUCHLINE_CONNECT="nowhere")
     assert result.exit_code == 2
     assert "--connect is 'nowhere'; write it as tcp/127.0.0.1:7447" in result.stderr
+
+
+def test_the_help_of_export_lists_every_format() -> None:
+    help_text = touchline("export", "--help").stdout
+    assert [name for name in EXPORTERS if name not in help_text] == []

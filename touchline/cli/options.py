@@ -12,7 +12,8 @@ from coach_gateway.web.settings import WebSettings
 from schemas.bus.contract import BusError
 from schemas.bus.endpoint import is_loopback, parse_endpoint, with_free_port
 from schemas.bus.settings import ListenSettings
-from schemas.config.match_config import MatchConfig, OfficiatingConfig, load_match
+from schemas.config.match_config import MatchConfig, load_match
+from schemas.config.match_parts import OfficiatingConfig
 from schemas.config.profile import SHIPPED as PROFILES
 from schemas.config.robot_model import models_of
 from schemas.config.rule_book import SHIPPED as RULE_BOOKS

@@ -6,23 +6,25 @@ from typing import Annotated
 
 import typer
 
+from recordings.exchange.formats import EXPORTERS
 from schemas.errors import TouchlineError, did_you_mean
 from touchline.cli import options
+
+_FORMATS = f"The format: {'; '.join(f'{name}, {row.description}' for name, row in EXPORTERS.items())}."
 
 
 def export(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="The recording, *.mcap.")],
-    to: Annotated[str, typer.Option(help="The format: csv, msl-log, protobuf or ros2.")],
+    to: Annotated[str, typer.Option(help=_FORMATS)],
     out: Annotated[
         Path | None, typer.Option(help="The file or folder to write; by default beside the recording.")
     ] = None,
     json: options.Json = False,
 ) -> None:
-    """Write a recording in another format: tables, ROS 2 bag, typed protobuf, or the league's log.
+    """Write a recording in another format.
 
     Example: touchline export final.mcap --to csv --out final
     """
-    from recordings.exchange.formats import EXPORTERS
     from recordings.reading.recording import open_recording
 
     if to not in EXPORTERS:

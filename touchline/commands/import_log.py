@@ -24,7 +24,7 @@ def import_log(
     """
     from recordings.exchange.formats import IMPORTERS
 
-    imported = IMPORTERS["msl-log"](log, out or log[0].with_suffix(".mcap"), profile, team_a)
+    imported = IMPORTERS["msl-log"].import_log(log, out or log[0].with_suffix(".mcap"), profile, team_a)
     if json:
         typer.echo(json_text.dumps(imported.to_json(), ensure_ascii=False))
         return

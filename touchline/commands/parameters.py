@@ -115,7 +115,8 @@ def _value(text: str) -> "Value":
 
 def _request(**content: object) -> "ParametersRequest":
     from schemas.messages.parameters import ParametersRequest
-    from schemas.wire.faults import FaultError, validated
+    from schemas.wire.faults import FaultError
+    from schemas.wire.struct_faults import validated
 
     try:
         return validated(ParametersRequest, content)

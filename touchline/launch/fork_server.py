@@ -26,10 +26,12 @@ _PATIENCE_S = 2.0
 class ForkedRobot(ProcessHandle):
     """A robot from the fork server: a child of that server, which reports its exit status."""
 
-    def __init__(self, process: Process, log: Path, begin: int, robot: ForkServerProcess, leads: Connection) -> None:
-        """`leads` closes as soon as the robot leads its process group."""
+    def __init__(
+        self, process: Process, log: Path, begin: int, robot: ForkServerProcess, group_ready: Connection
+    ) -> None:
+        """`group_ready` closes as soon as the robot group_ready its process group."""
         super().__init__(process, log, begin)
-        self._robot, self._leads = robot, leads
+        self._robot, self._group_ready = robot, group_ready
 
     @property
     def pid(self) -> int:
@@ -41,7 +43,7 @@ class ForkedRobot(ProcessHandle):
         return self._robot.exitcode
 
     def _signal_group(self, number: signal.Signals) -> None:
-        self._leads.poll(_PATIENCE_S)
+        self._group_ready.poll(_PATIENCE_S)
         super()._signal_group(number)
 
 
@@ -69,7 +71,7 @@ class ForkServer:
         with log.open("ab") as out:
             begin = out.tell()
         self._context.set_forkserver_preload(list(PRELOAD))
-        leads, held = self._context.Pipe(duplex=False)
+        group_ready, held = self._context.Pipe(duplex=False)
         robot = self._context.Process(target=run_forked, args=(settings, process.environment, str(log), held))
         try:
             with held, _environment(process.environment):
@@ -77,7 +79,7 @@ class ForkServer:
         except (OSError, EOFError):
             self._context = None
             return None
-        return ForkedRobot(process, log, begin, robot, leads)
+        return ForkedRobot(process, log, begin, robot, group_ready)
 
 
 @contextmanager

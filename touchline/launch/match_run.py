@@ -98,7 +98,7 @@ class MatchRun:
                 self._supervisor.end(AT_ONCE)
                 raise
             if follower is not None:  # without a host there is no match to record
-                self._supervisor.end(AFTER_THE_MATCH, hurried=lambda: stop.received is not None)
+                self._supervisor.end(AFTER_THE_MATCH, should_abort=lambda: stop.received is not None)
             self._supervisor.end(AT_ONCE)  # the remaining processes, after an interrupt
         if stop.received is not None:
             raise InterruptedMatchError(stop.received)
@@ -114,7 +114,7 @@ class MatchRun:
             return None
         with bus:
             follower = MatchFollower(bus)
-            while self._is_going(stop):
+            while self._poll_processes(stop):
                 self._show(follower)
                 self._clock.sleep_until(self._clock.now() + _POLL)
             deadline = self._clock.now() + _LAST_MESSAGES
@@ -124,7 +124,7 @@ class MatchRun:
         return follower
 
     def _connect(self, stop: StopSignals) -> Bus | None:
-        while self._is_going(stop):
+        while self._poll_processes(stop):
             self._screen.status("waiting for the host")
             try:
                 return open_client(self._plan.config.name, self._clock, self._plan.connect, patience=0.0)
@@ -132,7 +132,7 @@ class MatchRun:
                 self._clock.sleep_until(self._clock.now() + _POLL)
         return None
 
-    def _is_going(self, stop: StopSignals) -> bool:
+    def _poll_processes(self, stop: StopSignals) -> bool:
         for notice in self._supervisor.check():
             self._screen.warn(notice.sentence)
             for line in notice.log:
@@ -153,7 +153,7 @@ class MatchRun:
         status = self._supervisor.host_status
         if status == 0 and follower is not None and not follower.finished:
             # this process may have missed the last messages if it was stalled; the host waits for the recorder
-            self._report(follower, follower.complete(self._recorded(self._plan)))
+            self._report(follower, follower.merge_recorded(self._recorded(self._plan)))
         if status == 0 and follower is not None and follower.finished:
             return self._result(follower)
         log = self._supervisor.last_lines("host")

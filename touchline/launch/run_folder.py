@@ -30,7 +30,7 @@ def prepare_run(
     try:
         folder = _new_folder(stem)
         out = (recording or folder / RECORDING) if recorded else None
-        refusal = _refusal(out) if out is not None else ""
+        refusal = _why_not_writable(out) if out is not None else ""
         if refusal:
             refusal = f"--record {out}: {refusal}; the match is played, its recording goes to {folder / RECORDING}"
             out = folder / RECORDING
@@ -40,7 +40,7 @@ def prepare_run(
     return plan
 
 
-def _refusal(out: Path) -> str:
+def _why_not_writable(out: Path) -> str:
     """The reason why the file cannot be written; empty if it can."""
     from recordings.container.partial_file import NotWritableError, PartialFile
 

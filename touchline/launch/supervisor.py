@@ -109,11 +109,11 @@ class Supervisor:
         """The last lines of a process's log."""
         return self._running[name].last_lines() if name in self._running else []
 
-    def end(self, steps: Sequence[EndStep], hurried: Callable[[], bool] = lambda: False) -> None:
-        """End all processes by these steps; returns when all have ended, or as soon as `hurried()` is true."""
+    def end(self, steps: Sequence[EndStep], should_abort: Callable[[], bool] = lambda: False) -> None:
+        """End all processes by these steps; returns when all have ended, or as soon as `should_abort()` is true."""
         began = self._clock.now()
         waiting = list(steps)
-        while self._still_running() and not hurried():
+        while self._still_running() and not should_abort():
             elapsed = self._clock.now() - began
             while waiting and waiting[0].after <= elapsed:
                 self._signal(waiting.pop(0))

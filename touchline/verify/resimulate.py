@@ -5,7 +5,6 @@ with a checkpoint does not depend on earlier ticks, so several processes verify 
 """
 
 import math
-import time
 from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass, field
@@ -19,6 +18,7 @@ from recordings.reading.tick_index import Segment, SkippedTicks, SkipReason, Tic
 from recordings.reading.tick_records import TickRecord, command_check_of, tick_records
 from schemas.errors import TouchlineError
 from schemas.messages.applied import Applied, chained_part_of
+from schemas.process.clock import WallClock
 from schemas.wire.message import BadMessageError
 from sim_host.match.resimulation import ImpossibleTickError, Resimulation
 from sim_host.match.world_difference import differences
@@ -104,7 +104,8 @@ def verify(path: Path, from_kick_off: int | None = None, processes: int = 1) -> 
     Raises:
         TouchlineError: not a recording, too few kick-offs, or no tick can be simulated again.
     """
-    began = time.perf_counter()
+    clock = WallClock()
+    began = clock.now()
     recording = open_recording(path)
     index = tick_index_of(recording)
     since = _since(path, index, from_kick_off)
@@ -129,7 +130,7 @@ def verify(path: Path, from_kick_off: int | None = None, processes: int = 1) -> 
         verdict.difference = result.difference
         if verdict.difference is not None:
             break
-    verdict.took = time.perf_counter() - began
+    verdict.took = clock.now() - began
     return verdict
 
 

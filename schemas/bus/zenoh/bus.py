@@ -19,7 +19,7 @@ from schemas.bus.contract import (
     full_key,
 )
 from schemas.bus.endpoint import DEFAULT_ENDPOINT
-from schemas.bus.mailbox import EveryMailbox
+from schemas.bus.mailbox import FifoMailbox
 from schemas.bus.zenoh.newest import ZenohNewest
 from schemas.bus.zenoh.presence import ZenohPresenceWatch
 from schemas.bus.zenoh.queries import ZenohPendingReply, ZenohServer
@@ -58,7 +58,7 @@ class ZenohBus(Bus):
         super().__init__(match, clock)
         self.session = session
         self._context = SessionContext(session, key_prefix(match), clock, is_client, WaitTimer(clock), self)
-        self._mailboxes: list[EveryMailbox[Any]] = []
+        self._mailboxes: list[FifoMailbox[Any]] = []
         self._subscriptions: list[ZenohReader] = []
         self._tokens: dict[str, zenoh.LivelinessToken] = {}
         _close_at_exit(self)

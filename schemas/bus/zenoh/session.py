@@ -25,7 +25,7 @@ _RETRY = {"period_init_ms": 20, "period_max_ms": 500, "period_increase_factor": 
 _TRY_S = (0.5, 2.0)
 """Length of the first attempt to connect, and the longest to which it doubles, for a machine that is too busy to answer
 at once. Ctrl-C takes effect between attempts."""
-_ROOM_US = 1_000_000
+_CONGESTION_TIMEOUT_US = 1_000_000
 """Wall time in which a client has to make room for data that must not be dropped, in µs; then its link is closed, and
 it may connect again."""
 
@@ -55,7 +55,7 @@ def open_router(listen: str) -> zenoh.Session:
         "router",
         {
             "listen/endpoints": [listen],
-            "transport/link/tx/queue/congestion_control/block/wait_before_close": _ROOM_US,
+            "transport/link/tx/queue/congestion_control/block/wait_before_close": _CONGESTION_TIMEOUT_US,
         },
     )
     try:

@@ -46,10 +46,10 @@ class Services:
             handler.process()
         self._batches.process()
 
-    def attend_meanwhile(self) -> None:
-        """Answer what may not wait for the end of a tick.
+    def serve_while_waiting(self) -> None:
+        """Serve the requests that cannot wait for the end of a tick.
 
-        An agent that is waited for may have to know the setup first, a recorder that is waited for may need batches.
+        The host may be waiting for an agent that needs the setup first, or for a recorder that needs batches.
         """
         self._setup.process()
         self._batches.process()

@@ -26,7 +26,7 @@ class ActionHandler:
 
     def __init__(self, bus: Bus, invalid_log: InvalidLog, has_referee_box: Callable[[], bool]) -> None:
         """`has_referee_box` returns whether a referee box is connected."""
-        self._questions = bus.serve(ACTION)
+        self._server = bus.serve(ACTION)
         self._invalid_log = invalid_log
         self._has_referee_box = has_referee_box
         self._pending: list[Query] = []
@@ -35,7 +35,7 @@ class ActionHandler:
 
     def process(self) -> None:
         """Queue the actions that have been requested."""
-        while (query := self._questions.receive()) is not None:
+        while (query := self._server.receive()) is not None:
             try:
                 action: RefereeAction = query.message()
             except BadMessageError as error:

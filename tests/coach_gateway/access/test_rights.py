@@ -30,7 +30,7 @@ def allowed(role: Role) -> list[str]:
         (Role.MAGENTA, ["read_parameters"]),
     ],
 )
-def test_each_role_may_do_what_the_table_says_to_cyan_and_no_more(role: Role, deeds: list[str]) -> None:
+def test_each_role_has_exactly_the_rights_of_the_table_over_cyan(role: Role, deeds: list[str]) -> None:
     assert allowed(role) == deeds
 
 

@@ -33,7 +33,7 @@ def met(opened: Callable[..., Any], until: Any) -> Callable[..., Any]:
         async with opened() as bench:
             box = Box(**box_is)
             port = await box.open()
-            client = RefBoxClient(bench.live, BoxAddress(team, "127.0.0.1", port, protocol), bench.said.append)
+            client = RefBoxClient(bench.live, BoxAddress(team, "127.0.0.1", port, protocol), bench.logged.append)
             bench.start(client)
             try:
                 await until(lambda: box.links and client.connected, "the connection, on both sides")
@@ -107,7 +107,7 @@ def test_garbage_between_commands_is_counted_and_the_next_command_read(met: Any,
             await until(lambda: bench.stage.asked)
             assert asked(bench) == ["corner magenta"]
             await until(lambda: client.counts["unreadable"] == 5)  # a broken piece counts what is before its brace, too
-            assert any('"DANCE" is not a command' in line for line in bench.said)
+            assert any('"DANCE" is not a command' in line for line in bench.logged)
 
     asyncio.run(play())
 
@@ -127,7 +127,7 @@ def test_cards_repairs_and_substitutions_find_their_robot_by_its_number_or_else_
             named = ["yellow_card cyan2", "repair magenta3", "enter magenta3"]
             assert asked(bench) == [*named[:2], "red_card magenta", "substitute cyan", named[2]]
             assert client.counts["not forwarded"] == 0
-            assert any("SUBSTITUTION names robot 9, and no robot of cyan" in line for line in bench.said)
+            assert any("SUBSTITUTION names robot 9, and no robot of cyan" in line for line in bench.logged)
 
     asyncio.run(play())
 
@@ -156,7 +156,7 @@ def test_start_lets_the_game_run_though_our_referee_takes_it_in_steps(met: Any, 
             await until(lambda: bench.live.state.running)
             await asyncio.sleep(0.2)
             assert asked(bench) == ["start", "start", "start"]
-            assert not any("put back" in line for line in bench.said)
+            assert not any("put back" in line for line in bench.logged)
 
     asyncio.run(play())
 
@@ -173,7 +173,7 @@ def test_a_stop_is_not_held_up_by_a_start_that_leads_nowhere(met: Any, until: An
             box.say("STOP")
             await until(lambda: asked(bench)[-1] == "stop")
             assert client.counts["refused"] == 1
-            assert "referee box: not now" in bench.said
+            assert "referee box: not now" in bench.logged
 
     asyncio.run(play())
 
@@ -231,7 +231,7 @@ def test_manual_actions_are_locked_while_the_link_is_up_and_not_after(met: Any, 
 def test_a_referee_of_ours_that_decides_beside_the_box_is_logged(met: Any, until: Any) -> None:
     async def play() -> None:
         async with met() as (bench, _, _):
-            await until(lambda: any("--referee manual" in line for line in bench.said))
+            await until(lambda: any("--referee manual" in line for line in bench.logged))
 
     asyncio.run(play())
 
@@ -264,7 +264,7 @@ def test_a_box_that_drops_every_link_is_tried_less_and_less_often(opened: Any, u
 
         async with opened() as bench, await asyncio.start_server(meet, "127.0.0.1", 0) as tunnel:
             port = tunnel.sockets[0].getsockname()[1]
-            bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append))
+            bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.logged.append))
             await until(lambda: len(came) == 4)
             first, second, third = (b - a for a, b in itertools.pairwise(came))
             assert first >= 0.24 and second >= 0.49 and third >= 0.99
@@ -305,7 +305,7 @@ def test_unknown_commands_do_not_fill_the_log(met: Any, until: Any) -> None:
             for _ in range(500):
                 box.say("DANCE")
             await until(lambda: client.counts["unreadable"] == 500)
-            assert 5 <= sum("is not a command" in line for line in bench.said) < 60
+            assert 5 <= sum("is not a command" in line for line in bench.logged) < 60
 
     asyncio.run(play())
 
@@ -316,12 +316,12 @@ def test_a_box_that_comes_late_is_met(opened: Any, until: Any) -> None:
             box = Box()
             port = await box.open()
             await box.close()
-            client = RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append)
+            client = RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.logged.append)
             bench.start(client)
-            await until(lambda: any("is not there" in line for line in bench.said))
+            await until(lambda: any("is not there" in line for line in bench.logged))
             await box.open(port)
             await until(lambda: client.connected)
-            assert sum("is not there" in line for line in bench.said) == 1
+            assert sum("is not there" in line for line in bench.logged) == 1
             bench.stop.set()
             await box.close()
 
@@ -375,7 +375,7 @@ def test_a_gateway_that_waits_for_a_box_ends_when_stopped(opened: Any, until: An
                     other.connect(full.getsockname())
             async with opened() as bench:
                 box = BoxAddress(Side.CYAN, "127.0.0.1", full.getsockname()[1])
-                task = bench.start(RefBoxClient(bench.live, box, bench.said.append))
+                task = bench.start(RefBoxClient(bench.live, box, bench.logged.append))
                 await asyncio.sleep(0.05)
                 bench.stop.set()
                 await until(task.done)
@@ -391,7 +391,7 @@ def test_two_base_stations_of_ours_at_one_box_pass_each_command_on_once(opened: 
             box = Box()
             port = await box.open()
             for number, team in enumerate(Side, 1):
-                bench.start(RefBoxClient(bench.live, BoxAddress(team, "127.0.0.1", port), bench.said.append))
+                bench.start(RefBoxClient(bench.live, BoxAddress(team, "127.0.0.1", port), bench.logged.append))
                 await until(lambda number=number: len(box.links) == number)
             await until(lambda: bench.live.refboxes == list(Side))
             bench.stage.say(phase=Phase.STOPPED)

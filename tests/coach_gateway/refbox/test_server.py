@@ -67,7 +67,7 @@ def boxed(opened: Callable[..., Any], until: Any) -> Callable[..., Any]:
     async def make(*server_addresses: ServerAddress, **settings: Any) -> Any:
         names = {"teams.cyan.name": "Sapphire", "teams.magenta.name": "Ruby"} | settings.pop("names", {})
         async with opened(**names) as bench:
-            box = RefBoxServer(bench.live, server_addresses or (ServerAddress(0),), bench.said.append, **settings)
+            box = RefBoxServer(bench.live, server_addresses or (ServerAddress(0),), bench.logged.append, **settings)
             bench.start(box)
             await until(lambda: len(box.ports) == max(1, len(server_addresses)))
             teams: list[Team] = []
@@ -102,7 +102,7 @@ def world_state(team: str, **more: Any) -> dict[str, Any]:
     }
 
 
-def test_a_whole_game_is_told_to_both_teams_in_the_leagues_words(boxed: Any, until: Any) -> None:
+def test_a_whole_game_is_sent_to_both_teams_in_the_leagues_terms(boxed: Any, until: Any) -> None:
     """Cards and repairs follow at the next change of the game, as in RefBox."""
 
     async def play() -> None:
@@ -218,7 +218,7 @@ def test_our_own_base_station_understands_our_box_in_characters(boxed: Any, unti
 
     async def play() -> None:
         async with boxed(ServerAddress(0, protocol=BoxProtocol.CHARACTERS)) as (bench, box, _):
-            client = RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", box.ports[0]), bench.said.append)
+            client = RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", box.ports[0]), bench.logged.append)
             bench.start(client)
             bench.stage.show()
             await until(lambda: client.connected and box.team_states[Side.CYAN].states)
@@ -233,7 +233,7 @@ def test_an_unknown_protocol_in_a_hello_is_named_and_ends_the_connection(boxed: 
     async def play() -> None:
         async with boxed() as (bench, _, come):
             assert (await come(team="cyan", protocol="morse")).gone
-            assert any('protocol is "morse"; it is json or characters' in line for line in bench.said)
+            assert any('protocol is "morse"; it is json or characters' in line for line in bench.logged)
 
     asyncio.run(play())
 
@@ -267,8 +267,8 @@ def test_a_team_may_be_called_by_an_address_of_its_own(boxed: Any, until: Any) -
     asyncio.run(play())
 
 
-def test_a_team_against_itself_is_told_apart_by_its_suffix(boxed: Any) -> None:
-    """RefBox tells teams apart by the network they connect from; here the address does not matter."""
+def test_a_team_against_itself_is_distinguished_by_its_suffix(boxed: Any) -> None:
+    """RefBox distinguishes teams by the network they connect from; here the address does not matter."""
 
     async def play() -> None:
         async with boxed(names={"teams.cyan.name": "Twins", "teams.magenta.name": "Twins"}) as (_, _, come):
@@ -287,7 +287,7 @@ def test_a_token_identifies_the_side_and_an_unknown_one_is_turned_away(boxed: An
             right = await come(token="secret-of-magenta")
             assert right.commands()[0] == "WELCOME Ruby"
             assert (await come(token="guessed", team="cyan")).gone
-            assert any("unknown token" in line for line in bench.said)
+            assert any("unknown token" in line for line in bench.logged)
 
     asyncio.run(play())
 
@@ -300,7 +300,7 @@ def test_half_a_letter_in_a_hello_is_an_unknown_name(boxed: Any, until: Any, wor
         async with boxed(of_token=lambda token: role_side(Tokens.random().role_of(token))) as (bench, _, come):
             stranger = await come(**{word: "\ud800"})
             await until(lambda: stranger.gone)
-            assert any("is gone" in line for line in bench.said)
+            assert any("is gone" in line for line in bench.logged)
             assert (await come(team="cyan")).commands()[0].startswith("WELCOME")
         assert faults == []
 
@@ -380,7 +380,7 @@ def test_world_states_are_read_leniently_and_counted(boxed: Any, until: Any) -> 
             assert found["robot without a position"] == 1
             assert found["worldstate without balls"] == 1
             await team.leave()
-            await until(lambda: any("3 world states" in line and "1 pieces" in line for line in bench.said))
+            await until(lambda: any("3 world states" in line and "1 pieces" in line for line in bench.logged))
 
     asyncio.run(play())
 
@@ -410,7 +410,7 @@ def test_a_base_station_that_never_reads_is_dropped_and_the_others_receive_every
             await asyncio.get_running_loop().sock_sendall(deaf, b'{"type": "hello", "team": "magenta"}\x00')
             cyan = await come(team="cyan")
             told = 0
-            while not any("does not read and is dropped" in line for line in bench.said):
+            while not any("does not read and is dropped" in line for line in bench.logged):
                 box.send([Call(BY_NAME["CORNER"], Side.CYAN)] * 1000)
                 told += 1000
                 assert told < 1_000_000
@@ -475,7 +475,7 @@ def test_a_port_that_is_taken_is_an_error_of_one_line(opened: Any) -> None:
             taken.bind(("127.0.0.1", 0))
             taken.listen()
             async with opened() as bench:
-                box = RefBoxServer(bench.live, [ServerAddress(taken.getsockname()[1])], bench.said.append)
+                box = RefBoxServer(bench.live, [ServerAddress(taken.getsockname()[1])], bench.logged.append)
                 with pytest.raises(TouchlineError, match=r"--refbox-server \d+ cannot be listened on"):
                     await box.serve(bench.stop)
 
@@ -504,7 +504,7 @@ def test_the_audience_receives_teams_and_events(
             loop = asyncio.get_running_loop()
             transport, display = await loop.create_datagram_endpoint(Display, local_addr=("127.0.0.1", 0))
             address = transport.get_extra_info("sockname")[:2]
-            bench.start(AudienceFeed(bench.live, [address], bench.said.append, box.team_states))
+            bench.start(AudienceFeed(bench.live, [address], bench.logged.append, box.team_states))
             await until(lambda: display.said, "the feed")
             bench.stage.show()
             cyan = await come(team="cyan")
@@ -553,7 +553,9 @@ def test_a_world_state_that_is_too_large_does_not_silence_the_audience_feed(
             loop = asyncio.get_running_loop()
             transport, display = await loop.create_datagram_endpoint(Display, local_addr=("127.0.0.1", 0))
             bench.start(
-                AudienceFeed(bench.live, [transport.get_extra_info("sockname")[:2]], bench.said.append, box.team_states)
+                AudienceFeed(
+                    bench.live, [transport.get_extra_info("sockname")[:2]], bench.logged.append, box.team_states
+                )
             )
             bench.stage.show()
             cyan = await come(team="cyan")
@@ -562,7 +564,7 @@ def test_a_world_state_that_is_too_large_does_not_silence_the_audience_feed(
             told = len(display.said)
             await until(lambda: len(display.said) > told + 3)
             check_world_state(display.said[-1]["teamA"]["worldState"])
-            assert sum("larger than a datagram" in line for line in bench.said) == 1
+            assert sum("larger than a datagram" in line for line in bench.logged) == 1
             transport.close()
 
     asyncio.run(play())

@@ -20,7 +20,7 @@ async def officiated(kicked_off: Callable[..., Any], until: Any, **words: Any) -
     async with kicked_off(**{"referee.mode": "manual", "rules": "friendly", "duration": 3600.0} | words) as bench:
         box = Box()
         port = await box.open()
-        bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.said.append))
+        bench.start(RefBoxClient(bench.live, BoxAddress(Side.CYAN, "127.0.0.1", port), bench.logged.append))
         await until(lambda: box.links and bench.live.refboxes)
         yield bench, box
         await box.close()
@@ -139,7 +139,7 @@ def test_a_game_of_longer_halves_with_cards_for_no_robot_ends_with_the_score_of_
             box.say("END_GAME")
             await until(lambda: bench.stage.host.simulation.over, "the end")
             assert (state().score.cyan, state().score.magenta) == (2, 1)
-            assert not any("refused" in line or "no half" in line for line in bench.said), bench.said
+            assert not any("refused" in line or "no half" in line for line in bench.logged), bench.logged
 
     asyncio.run(play())
 
@@ -172,7 +172,7 @@ def test_a_team_of_the_league_receives_the_match_that_our_referee_officiates(
 
     async def play() -> None:
         async with kicked_off(rules="friendly") as bench:
-            box = RefBoxServer(bench.live, [ServerAddress(0, Side.MAGENTA)], bench.said.append)
+            box = RefBoxServer(bench.live, [ServerAddress(0, Side.MAGENTA)], bench.logged.append)
             bench.start(box)
             await until(lambda: box.ports)
             reader, writer = await asyncio.open_connection("127.0.0.1", box.ports[0])

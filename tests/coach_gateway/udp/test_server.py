@@ -65,7 +65,7 @@ def served(opened: Any, kicked_off: Any, until: Any) -> Any:
     @asynccontextmanager
     async def make(real: bool = False) -> Any:
         async with (kicked_off if real else opened)() as bench:
-            server = UdpServer(bench.live, TOKENS.role_of, bench.said.append, port=0)
+            server = UdpServer(bench.live, TOKENS.role_of, bench.logged.append, port=0)
             bench.start(server)
             await until(lambda: server.port)
             programs: list[Program] = []
@@ -177,7 +177,7 @@ def test_a_program_receives_a_bye_when_the_gateway_ends(served: Any, until: Any)
             cyan, referee = await come("cyan"), await come("referee")
             bench.stop.set()
             await until(lambda: cyan.of("bye") and referee.of("bye"))
-            assert cyan.of("bye") == [{"kind": "bye", "reason": "the gateway ends"}]
+            assert cyan.of("bye") == [{"kind": "bye", "reason": "the gateway is shutting down"}]
 
     asyncio.run(play())
 
@@ -362,7 +362,7 @@ def test_a_port_that_is_taken_is_an_error_of_one_line(opened: Any) -> None:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
             taken.bind(("127.0.0.1", 0))
             async with opened() as bench:
-                server = UdpServer(bench.live, TOKENS.role_of, bench.said.append, port=taken.getsockname()[1])
+                server = UdpServer(bench.live, TOKENS.role_of, bench.logged.append, port=taken.getsockname()[1])
                 with pytest.raises(TouchlineError, match=r"--udp \d+ cannot be listened on"):
                     await server.serve(bench.stop)
 

@@ -90,7 +90,9 @@ def test_refusals_are_counted_and_logged_at_the_end(host: FakeHost, gateway_of: 
         Visitor(gateway.origin, claims="http://evil.example")
     page.close()
     gateway.close()
-    assert gateway.said == ["refused or dropped: 1 page refused for its origin, 3 unreadable messages, 1 unknown token"]
+    assert gateway.logged == [
+        "refused or dropped: 1 page refused for its origin, 3 unreadable messages, 1 unknown token"
+    ]
 
 
 def test_a_broken_message_is_answered_under_its_number_where_it_has_one(visit: Visit) -> None:

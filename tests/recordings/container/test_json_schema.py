@@ -103,7 +103,7 @@ def test_an_optional_part_is_flattened_to_the_part():
     assert {name: field["type"] for name, field in kick["properties"].items()} == {"mode": "string", "speed": "number"}
 
 
-def test_what_stands_below_the_robots_names_is_told():
+def test_the_schema_describes_the_fields_below_the_names_of_robots():
     robots = flat_schema(MODELS["World"])["properties"]["robots"]
     assert robots["additionalProperties"]["properties"]["heading"]["type"] == "number"
 

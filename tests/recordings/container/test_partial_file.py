@@ -1,4 +1,4 @@
-"""One file has one writer: whoever comes second is refused before it has written a byte, in any process."""
+"""One file has one writer: a second one is refused before it has written a byte, in any process."""
 
 import subprocess
 import sys

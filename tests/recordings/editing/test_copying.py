@@ -107,7 +107,7 @@ def test_a_filtered_recording_has_the_chosen_keys_and_seconds_byte_for_byte(run,
     assert part.manifest.made == "filtered"
     assert part.manifest.setup == recording.manifest.setup
     assert part.attachments == recording.attachments
-    assert part.manifest.standing == 1  # the state that was said at tick 0
+    assert part.manifest.latched_count == 1  # the state of tick 0
     wanted = [m for m in told(recording) if m[0].startswith("robot/") and 1_000_000_000 <= m[3] < 2_000_000_000]
     assert told(part)[1:] == wanted
     assert told(part)[0][0] == "game/state"
@@ -133,7 +133,7 @@ def test_the_files_of_a_split_recording_are_merged_to_what_one_file_would_have_b
     merged = open_recording(copied.path, whole=True)
     assert told(merged) == told(whole)
     assert merged.result.keys == whole.result.keys
-    assert copied.dropped == sum(part.manifest.standing for part in parts)
+    assert copied.dropped == sum(part.manifest.latched_count for part in parts)
 
 
 def test_two_recordings_of_different_keys_become_one(run, tmp_path):
@@ -159,7 +159,7 @@ def test_two_runs_of_one_match_are_not_merged(run, make_rig, tmp_path):
     assert not list(tmp_path.glob("merged*"))
 
 
-def test_a_file_that_was_cut_off_can_be_filtered_and_says_so(run, tmp_path):
+def test_a_truncated_file_can_be_filtered_and_is_reported_as_truncated(run, tmp_path):
     (recording,) = run("a")
     cut = tmp_path / "cut.mcap"
     data = recording.path.read_bytes()

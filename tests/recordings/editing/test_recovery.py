@@ -88,7 +88,7 @@ def test_a_part_that_was_left_becomes_a_recording_in_place(make_rig):
     assert not part.exists()
 
 
-def test_a_file_cut_off_anywhere_holds_an_exact_beginning_or_says_that_nothing_is_in_it(several_chunks, tmp_path, rng):
+def test_a_file_truncated_anywhere_has_an_exact_beginning_or_is_reported_as_empty(several_chunks, tmp_path, rng):
     data, whole = several_chunks.read_bytes(), told(several_chunks)
     path = tmp_path / "cut.mcap"
     lengths = []

@@ -1,4 +1,4 @@
-"""Real logs deviate from their schema: what can be read is, what cannot is counted and told."""
+"""Real logs deviate from their schema: readable data is read, the rest is counted and reported."""
 
 import json
 import math
@@ -176,7 +176,7 @@ def test_a_team_that_is_silent_for_seconds_is_left_out_meanwhile(log: Log) -> No
     assert all("magenta1" in world.robots for world in worlds(recording))
 
 
-def test_a_velocity_that_is_not_said_comes_from_the_way_between_records(log: Log) -> None:
+def test_a_missing_velocity_is_computed_from_the_distance_between_records(log: Log) -> None:
     """1 m/s toward the opponents' goal."""
     log.write("A", [record(time, [robot(2, [0.0, time / 1e3, 0.0], velocity=[])]) for time in range(0, 401, 40)])
     moving = [world.robots["cyan2"] for world in worlds(log.read()[1])]
@@ -290,7 +290,7 @@ def test_signals_of_either_kind_tell_the_same_game(kind: str, log: Log) -> None:
     assert by_time[1.84].robots["cyan2"].x == pytest.approx(2.0), "the second half begins with its kick-off"
 
 
-def test_a_goal_for_an_address_that_nobody_named_is_told_and_not_given_to_anybody(log: Log) -> None:
+def test_a_goal_for_an_unknown_address_is_reported_and_counts_for_no_side(log: Log) -> None:
     log.write("A", [record(time) for time in range(0, 3001, 40)])
     log.events(*(as_json(line, "224.16.32.9", "224.16.32.8") for line in CHARACTERS))
     imported, recording = log.read()

@@ -1,4 +1,4 @@
-"""A match exported to the league's log and imported again is the same match, as far as a log tells."""
+"""A match exported to the league's log and imported again is the same match, as far as the log records it."""
 
 import json
 import math
@@ -30,7 +30,7 @@ def log(real: Recording, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def back(log: Path) -> Recording:
-    imported = IMPORTERS["msl-log"]([log], log.with_name("back.mcap"), "msl", None)
+    imported = IMPORTERS["msl-log"].import_log([log], log.with_name("back.mcap"), "msl", None)
     assert (imported.lost, imported.coped) == ([], [])
     return open_recording(imported.out)
 
@@ -150,7 +150,7 @@ def test_the_commands_say_what_they_wrote_and_read(real: Recording, tmp_path: Pa
 
 
 def test_figures_of_an_imported_match_are_those_of_the_match(real: Recording, back: Recording) -> None:
-    """What a log tells: score, and the distance each robot drove, here within 2 %."""
+    """The content of a log: score, and the distance each robot drove, here within 2 %."""
     mine, theirs = figures_of_recording(real), figures_of_recording(back)
     assert {side: figures.goals for side, figures in theirs.sides.items()} == {
         side: figures.goals for side, figures in mine.sides.items()

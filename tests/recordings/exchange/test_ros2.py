@@ -114,7 +114,7 @@ def test_the_bag_has_the_profile_and_the_quality_of_service_that_ros_asks_for(ba
     assert "storage_identifier: mcap" in (bag / "metadata.yaml").read_text()
 
 
-def test_without_rosbags_the_line_that_brings_it_is_said(
+def test_without_rosbags_the_error_names_the_remedy(
     real: Recording, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "rosbags.rosbag2", None)

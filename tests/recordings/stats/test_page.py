@@ -53,7 +53,7 @@ class Opened:
         self.until("window.touchline !== undefined && document.getElementById('pitch').style.height !== ''")
 
     def until(self, holds: str) -> None:
-        """Wait for the page; its own rules let nobody evaluate a text in it, so it is asked from outside."""
+        """Wait; the page's content security policy forbids evaluating text in it, so it is polled from outside."""
         for _ in range(500):
             if self.page.evaluate(holds):
                 return
@@ -237,7 +237,9 @@ def test_a_link_opens_the_page_at_a_time(browser: Browser, made: tuple[MatchFigu
     tab.context.close()
 
 
-def test_a_recording_that_tells_little_makes_a_page_that_says_so(browser: Browser, script: Any, tmp_path: Path) -> None:
+def test_a_page_of_a_recording_with_little_evidence_names_what_is_missing(
+    browser: Browser, script: Any, tmp_path: Path
+) -> None:
     script.rest(5)
     script.messages = [(time, message) for time, message in script.messages if not hasattr(message, "phase")]
     write_page(tmp_path / "little.html", page(script.content()))
@@ -269,7 +271,7 @@ def test_names_are_shown_as_they_are_and_never_run(
     tab.context.close()
 
 
-def test_a_page_that_cannot_be_written_is_said_in_one_line(tmp_path: Path) -> None:
+def test_a_page_that_cannot_be_written_is_reported_in_one_line(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(TouchlineError, match=r"--html .*file/page\.html: .*; give a path that can be written"):
         write_page(tmp_path / "file" / "page.html", "")

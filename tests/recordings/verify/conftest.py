@@ -1,4 +1,4 @@
-"""Recordings to verify, and copies of them in which somebody has changed something."""
+"""Recordings to verify, and copies of them with changes."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path

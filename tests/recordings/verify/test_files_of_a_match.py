@@ -133,7 +133,7 @@ def test_where_a_config_names_a_file_that_is_there_it_is_read(named: Callable[..
 
 
 @pytest.mark.parametrize("types", [{}, {"cleo": "keeper"}])
-def test_where_a_config_names_a_file_that_is_gone_the_setup_says_who_played(
+def test_where_a_config_names_a_missing_file_the_setup_names_the_robots(
     named: Callable[..., Path], tmp_path: Path, types: dict[str, str]
 ) -> None:
     """Only simulating the sights needs the scene itself."""

@@ -1,4 +1,4 @@
-"""`touchline verify`: identical, or the first tick that differs, whoever changed what."""
+"""`touchline verify`: identical, or the first tick that differs, for every kind of change."""
 
 import math
 from pathlib import Path
@@ -140,7 +140,7 @@ def test_a_body_that_was_set_down_elsewhere_shows_where_it_is(operated: Path, ed
     assert y.by == pytest.approx(0.5, abs=0.01)
 
 
-def test_ticks_that_are_missing_are_said_and_the_rest_is_compared(operated: Path, verified: Verdict, edited) -> None:
+def test_missing_ticks_are_reported_and_the_others_compared(operated: Path, verified: Verdict, edited) -> None:
     after = next(start.tick for start in tick_index_of(open_recording(operated)).starts if start.tick > 310)
     path = edited(operated, "host/applied", lambda fields: None if 300 <= fields["tick"] < 310 else fields)
     verdict = verify(path)
@@ -156,7 +156,7 @@ def test_ticks_that_are_missing_are_said_and_the_rest_is_compared(operated: Path
     assert "ticks 300 to 309 are missing in the recording and were not verified" in result.stdout
 
 
-def test_a_difference_before_ticks_that_are_missing_is_told_by_one_process_as_by_two(operated: Path, edited) -> None:
+def test_a_difference_before_missing_ticks_is_reported_by_one_process_as_by_two(operated: Path, edited) -> None:
     """What stands behind the gap is a segment of its own, and is not gone over any more."""
 
     def edit(fields):

@@ -51,7 +51,7 @@ class Squad:
         return self.sight_of(self.tick, name, self.poses[name], obstacles=obstacles, radio=radio, **seen)
 
     def move(self, commands: dict[str, Command]) -> None:
-        """Everybody drives exactly as demanded for one tick."""
+        """All robots drive exactly as demanded for one tick."""
         for name, command in commands.items():
             x, y, heading = self.poses[name]
             c, s, drive = math.cos(heading), math.sin(heading), command.drive

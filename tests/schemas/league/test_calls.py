@@ -113,7 +113,7 @@ def test_what_becomes_of_a_robot_is_signalled_with_its_name(
     assert said(state(robots={"cyan2": was}), state(robots={"cyan2": now})) == expected
 
 
-def test_a_robot_that_is_nobodys_is_passed_over() -> None:
+def test_a_robot_of_no_side_is_skipped() -> None:
     assert said(state(), state(robots={"ghost": DisciplinaryRecord(red=1)})) == []
 
 

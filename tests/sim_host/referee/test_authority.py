@@ -84,7 +84,7 @@ def test_a_proposal_that_is_overruled_is_not_carried_out(mixed):
     assert mixed.state.score == Score() and mixed.state.phase is Phase.PLAY
 
 
-def test_people_who_stop_the_game_settle_what_was_proposed(mixed):
+def test_a_stop_by_people_settles_what_was_proposed(mixed):
     out(mixed)
     mixed.ask("free_kick", CYAN)
     mixed.run(3.0)

@@ -1,4 +1,4 @@
-"""What the host tells coaches of their orders.
+"""The host's messages about the orders of coaches.
 
 Several robots receive each order; in the paper, the coach's socket reached one robot only. Each
 order has a number, and each robot acknowledges it.
@@ -17,7 +17,7 @@ from schemas.topics import ACTIVE_ORDER, INVALID, ORDER, SETUP
 
 
 class Obedient:
-    """Acknowledges each order, unless told not to."""
+    """Acknowledges each order, unless disabled."""
 
     def __init__(self) -> None:
         self.deaf = False
@@ -53,7 +53,7 @@ def test_nothing_is_published_while_no_order_is_in_force(rig) -> None:
     assert told.all() == []
 
 
-def test_each_robot_of_the_side_gets_the_order_and_is_told_to_have_acknowledged_it(rig) -> None:
+def test_each_robot_of_the_side_gets_the_order_and_its_acknowledgement_is_published(rig) -> None:
     told = rig.listen(ACTIVE_ORDER)
     give(rig.outside, 7)
     rig.ticks(3)
@@ -84,7 +84,7 @@ def test_a_new_order_is_not_acknowledged_by_any_robot(rig) -> None:
     assert told.all()[0].acknowledged == {"cyan1": False, "cyan2": False}
 
 
-def test_an_order_with_a_smaller_number_does_not_stand_and_its_sender_is_told_how_to_number(rig) -> None:
+def test_an_order_with_a_smaller_number_is_refused_with_the_remedy(rig) -> None:
     give(rig.outside, 7)
     rig.ticks(3)
     told, invalid = rig.listen(ACTIVE_ORDER), rig.listen(INVALID)
@@ -96,7 +96,7 @@ def test_an_order_with_a_smaller_number_does_not_stand_and_its_sender_is_told_ho
     assert complaint.reason == "sequence 6 is not above 7, which is in force; number orders from 8 on"
 
 
-def test_an_order_that_is_said_twice_is_no_fault(rig) -> None:
+def test_an_order_that_is_sent_twice_is_no_fault(rig) -> None:
     invalid = rig.listen(INVALID)
     for _ in range(2):
         give(rig.outside, 7)
@@ -130,7 +130,7 @@ def test_whoever_asks_how_the_match_is_set_up_hears_which_numbers_stand(rig) -> 
     assert answer.result(0.0).orders == {Side.CYAN: 1_795_275_009_214_000}
 
 
-def test_what_has_not_changed_is_said_once_a_simulated_second(rig) -> None:
+def test_an_unchanged_order_is_published_once_a_simulated_second(rig) -> None:
     give(rig.outside, 7)
     rig.ticks(3)
     told = rig.listen(ACTIVE_ORDER)
@@ -138,7 +138,7 @@ def test_what_has_not_changed_is_said_once_a_simulated_second(rig) -> None:
     assert len(told.all()) == 3
 
 
-def test_sides_are_told_apart(rig) -> None:
+def test_each_side_has_its_own_order(rig) -> None:
     give(rig.outside, 7, Side.MAGENTA)
     told = rig.listen(ACTIVE_ORDER)
     rig.ticks(3)

@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.game import ActionName, Phase, Score
 from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.messages.health import Health, RobotHealth
@@ -19,7 +19,7 @@ from touchline.commands import coach
 
 
 class TalkingClock(SteppedClock):
-    """Lets the host say its piece whenever somebody waits."""
+    """Lets the host publish whenever a client waits."""
 
     __slots__ = ("host",)
 
@@ -33,7 +33,7 @@ class Host(FakeHost):
 
     def __init__(self) -> None:
         self.says: list[GameState | Health] = []
-        super().__init__(Medium(), answers={ACTION: self._act}, clock=SteppedClock(), in_threads=True)
+        super().__init__(SharedState(), answers={ACTION: self._act}, clock=SteppedClock(), in_threads=True)
 
     def speak(self) -> None:
         for message in self.says:
@@ -104,7 +104,7 @@ def test_a_name_that_no_robot_can_have_is_wrong_input(host: Host) -> None:
     assert host.asked == []
 
 
-def test_an_action_in_a_match_that_nobody_plays_is_wrong_input(host: Host) -> None:
+def test_an_action_in_a_match_without_a_host_is_wrong_input(host: Host) -> None:
     result = touchline("stop", "--match", "final")
     assert result.exit_code == 2
     assert 'match "final": no process answers game/action' in result.stderr
@@ -117,7 +117,7 @@ def test_the_state_is_shown_once_in_words_and_as_json(host: Host) -> None:
     assert (shown["phase"], shown["score"]) == ("play", {"cyan": 2, "magenta": 0})
 
 
-def test_the_state_of_a_match_that_waits_for_robots_says_how_many_are_there(host: Host) -> None:
+def test_the_state_of_a_match_that_waits_for_robots_has_the_number_of_present_ones(host: Host) -> None:
     robots = {"cyan1": RobotHealth(alive=True), "cyan2": RobotHealth()}
     host.says = [Health(tick=0, time=0.0, pace="lockstep", real_time_factor=0.0, robots=robots)]
     result = touchline("state")
@@ -125,7 +125,7 @@ def test_the_state_of_a_match_that_waits_for_robots_says_how_many_are_there(host
     assert result.stderr == 'touchline: match "friendly" has not begun: 1 of 2 robots are connected\n'
 
 
-def test_a_host_that_says_nothing_is_named(host: Host) -> None:
+def test_a_host_that_publishes_no_state_is_reported(host: Host) -> None:
     result = touchline("state")
     assert result.exit_code == 2
     assert 'match "friendly": the host publishes no state of it' in result.stderr

@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
@@ -28,7 +28,7 @@ class Host(FakeHost):
         self.refused: dict[str, str] = {}
         self._acknowledged = 0
         super().__init__(
-            Medium(), answers={SETUP: lambda _: self._acknowledge()}, clock=SteppedClock(), in_threads=True
+            SharedState(), answers={SETUP: lambda _: self._acknowledge()}, clock=SteppedClock(), in_threads=True
         )
 
     def _acknowledge(self) -> Setup:
@@ -57,7 +57,7 @@ def coach(*words: str) -> Result:
     return CliRunner().invoke(app, ["coach", *words], prog_name="touchline")
 
 
-def test_an_order_is_given_and_says_who_has_acknowledged_it(host: Host) -> None:
+def test_an_order_is_sent_and_the_robots_that_acknowledged_it_are_printed(host: Host) -> None:
     result = coach("order", "cyan", "--mode", "hold", "--max-speed", "1.5")
     ((side, order),) = host.given_orders
     assert (side, order.mode, order.max_speed) == ("cyan", CoachMode.HOLD, 1.5)
@@ -88,7 +88,7 @@ def test_a_point_outside_the_field_is_wrong_input(host: Host) -> None:
     assert "point_a at (50, 0) is outside the field and its border; |x| is at most 12 m" in result.stderr
 
 
-def test_what_became_of_an_order_is_told_to_programs(host: Host) -> None:
+def test_the_result_of_an_order_is_printed_as_json_for_programs(host: Host) -> None:
     host.deaf = {"cyan5"}
     said = json.loads(coach("order", "cyan", "--json").stdout)
     assert said == {
@@ -141,9 +141,7 @@ def test_an_order_that_names_a_test_is_one(host: Host) -> None:
         (("order", "cyan", "--wait", "-1"), "--wait"),
     ],
 )
-def test_what_cannot_be_meant_is_wrong_input_and_reaches_nobody(
-    host: Host, words: tuple[str, ...], reason: str
-) -> None:
+def test_an_impossible_order_is_wrong_input_and_is_not_sent(host: Host, words: tuple[str, ...], reason: str) -> None:
     result = coach(*words)
     assert result.exit_code == 2 and len(result.stderr.splitlines()) == 1
     assert reason in result.stderr

@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.messages.parameters import ParametersReply
@@ -23,7 +23,7 @@ from touchline.commands import parameters
 @pytest.fixture(autouse=True)
 def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Answers as a host does, from the numbers of the default match."""
-    medium = Medium()
+    medium = SharedState()
     bus = medium.open_bus("friendly", SteppedClock())
     server = bus.serve(PARAMETERS)
 

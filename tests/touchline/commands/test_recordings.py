@@ -23,7 +23,7 @@ def touchline(*words: str | Path) -> Result:
 
 
 def write(path: Path, *, changed_at: int = -1, count: int = 50, missing: int = 0) -> Path:
-    """Game states, one in each tick; one of them says something else, and some numbers are missing at the end."""
+    """Game states, one in each tick; one of them differs, and some numbers are missing at the end."""
     clock = SteppedClock()
     writer = RecordingWriter(path, clock, "friendly")
     writer.begin(make_manifest("friendly", "test", clock, None, load_match(None), sights=False), {})
@@ -42,7 +42,7 @@ def test_recordings_that_say_the_same_are_identical(tmp_path: Path) -> None:
     assert (result.exit_code, result.stdout) == (0, "identical: 50 messages on 1 keys\n")
 
 
-def test_the_first_difference_is_a_failure_that_says_where_what_and_by_how_much(tmp_path: Path) -> None:
+def test_the_first_difference_is_a_failure_with_place_field_and_amount(tmp_path: Path) -> None:
     one, other = write(tmp_path / "a.mcap"), write(tmp_path / "b.mcap", changed_at=20)
     result = touchline("diff", one, other)
     assert result.exit_code == 1

@@ -32,7 +32,7 @@ _LIMIT_S = 120.0
 _NOBODY = "tcp/127.0.0.1:1"
 """An endpoint at which no host will ever answer."""
 _ENDED = (0, -signal.SIGTERM)
-"""How a robot ends that is told to: by itself, or before it could listen."""
+"""How a robot ends after a signal: by itself, or before it handled signals."""
 
 
 def robot(folder: Path, name: str, patience: float = 600.0, **environment: str) -> Process:
@@ -226,7 +226,7 @@ def test_robots_and_their_fork_server_end_with_a_supervisor_that_is_killed(tmp_p
 def test_robots_whose_fork_server_is_killed_count_as_crashed_and_are_ended(
     launch: Callable[[Process], ProcessHandle], tmp_path: Path
 ) -> None:
-    """Nobody else could tell how they end."""
+    """No other process can report how they end."""
     first = launch(robot(tmp_path, "cyan1"))
     os.kill(int(fields_of(first.pid)[1]), signal.SIGKILL)
     assert end_of(first) == 255

@@ -57,7 +57,7 @@ LOSES = "import sys; sys.exit('disk full')"
 
 
 class WatchedScreen(PlainScreen):
-    """Leaves a file for the host when play is seen and `awaited` was said, so that its next words come in time."""
+    """Leaves a file for the host when play is seen and `awaited` was printed, so that its next lines come in time."""
 
     def __init__(self, words: io.StringIO, clock: WallClock, seen: Path, awaited: str) -> None:
         super().__init__(words, clock)
@@ -129,12 +129,14 @@ def test_a_crashing_agent_is_shown_with_its_log_and_does_not_end_the_match(
     ]
 
 
-def test_a_host_with_wrong_input_is_heard_in_its_own_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_error_of_a_host_with_wrong_input_is_shown_unchanged(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     with pytest.raises(TouchlineError, match=r"^profile is odd; mend it$"):
         stage(tmp_path, monkeypatch, WRONG).play()
 
 
-def test_a_recorder_that_waits_for_a_host_who_could_not_begin_is_sent_away(
+def test_a_recorder_that_waits_for_a_host_that_could_not_start_is_ended(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     match = stage(tmp_path, monkeypatch, WRONG, recorder=RESTS)

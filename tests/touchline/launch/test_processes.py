@@ -44,7 +44,7 @@ def test_a_friendly_has_a_host_a_recorder_and_ten_agents() -> None:
 
 @pytest.mark.parametrize("name", ["host", "recorder", "page", "bridges"])
 def test_no_robot_is_called_as_another_process_of_the_match(name: str) -> None:
-    """The supervisor knows processes by their names: such a robot took the host's place, and nobody played."""
+    """The supervisor knows processes by their names: such a robot took the host's place, and no match was played."""
     with pytest.raises(TouchlineError, match=f'a robot is named "{name}", as a process of the match is; rename it'):
         check_robot_names(load_match(None, {"teams.magenta.robots": ["magenta1", name]}))
     check_robot_names(load_match(None))
@@ -73,7 +73,7 @@ def test_the_settings_of_an_agent_are_its_match_its_robot_and_its_brain() -> Non
     assert agent.restarts == PROCESSES[ProcessKind.AGENT].restarts == 3
 
 
-def test_a_team_with_a_command_is_told_who_it_is_by_its_environment() -> None:
+def test_a_team_with_a_command_gets_its_robot_in_environment_variables() -> None:
     agent = by_name(plan(**{"teams.cyan.command": ["./robot", "--fast"], "teams.cyan.size": 1}))["cyan1"]
     assert agent.command == ("./robot", "--fast")
     assert agent.settings is None
@@ -105,7 +105,7 @@ def test_no_recorder_is_launched_when_no_recording_is_wanted() -> None:
     assert "recorder" not in by_name(plan(recording=None))
 
 
-def test_the_settings_of_a_recorder_have_what_the_match_file_says_of_the_recording() -> None:
+def test_the_settings_of_a_recorder_have_the_record_options_of_the_match_file() -> None:
     wanted = {"include": ["world"], "split_duration": 60.0, "keep": 3, "sights": True, "viz": False}
     planned = plan(**{f"record.{key}": value for key, value in wanted.items()})
     written = by_name(planned)["recorder"].settings
@@ -147,7 +147,7 @@ def test_a_recording_elsewhere_gets_its_folder_made(tmp_path: Path, monkeypatch:
     assert Path("finals").is_dir()
 
 
-def test_a_recording_that_cannot_be_written_goes_into_the_folder_of_the_run_and_that_is_said(
+def test_a_recording_that_cannot_be_written_goes_into_the_folder_of_the_run_with_a_warning(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)

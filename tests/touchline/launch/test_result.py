@@ -64,7 +64,7 @@ def test_the_json_holds_everything_a_program_asks_for() -> None:
     }
 
 
-def test_a_match_without_recording_says_null() -> None:
+def test_a_match_without_recording_has_the_path_null() -> None:
     assert json.loads(result(recording=None).json())["recording"] is None
 
 

@@ -11,7 +11,7 @@ from touchline.launch.supervisor import AFTER_THE_MATCH, AT_ONCE, Supervisor
 
 
 class Actor:
-    """A process that plays its part: runs until it is told to end, or ends with a status when the test says so."""
+    """A process that plays its part: runs until it is signalled, or ends with a status when the test sets one."""
 
     def __init__(self, name: str, clock: SteppedClock, deaf_to: frozenset[signal.Signals] = frozenset()) -> None:
         self.name = name
@@ -134,7 +134,7 @@ def test_whoever_does_not_listen_is_killed_within_two_seconds() -> None:
 def test_after_the_match_a_recorder_has_time_to_finish_while_agents_are_sent_away() -> None:
     stage = Stage(deaf_to=frozenset({signal.SIGTERM}))
     stage.end("host", 0)
-    stage.supervisor.end(AFTER_THE_MATCH, hurried=lambda: stage.clock.now() > 20.0)
+    stage.supervisor.end(AFTER_THE_MATCH, should_abort=lambda: stage.clock.now() > 20.0)
     assert stage.cast["recorder"][-1].heard == []
     assert stage.supervisor.ended["cyan1"] == -signal.SIGKILL
 
@@ -150,7 +150,7 @@ def test_a_process_that_has_ended_gets_no_signal() -> None:
 def test_a_second_interrupt_does_not_wait_for_the_recorder() -> None:
     stage = Stage()
     stage.end("host", 0)
-    stage.supervisor.end(AFTER_THE_MATCH, hurried=lambda: stage.clock.now() > 3.0)
+    stage.supervisor.end(AFTER_THE_MATCH, should_abort=lambda: stage.clock.now() > 3.0)
     assert stage.clock.now() < 4.0
     assert "recorder" not in stage.supervisor.ended
     stage.supervisor.end(AT_ONCE)
@@ -178,7 +178,7 @@ def test_a_child_has_its_own_environment_log_and_exit_status(tmp_path: Path) -> 
 
 
 @pytest.mark.processes
-def test_a_child_that_does_not_exist_says_so_in_its_log(tmp_path: Path) -> None:
+def test_a_program_that_does_not_exist_is_reported_in_its_log(tmp_path: Path) -> None:
     child = ChildProcess(Process("cyan1", ProcessKind.AGENT, ("no-such-program",), {}), tmp_path / "cyan1.log")
     assert wait_for(child) == 127
     assert child.last_lines() == ["no-such-program: No such file or directory"]

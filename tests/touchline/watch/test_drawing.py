@@ -9,7 +9,7 @@ from rich.text import Text
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.orders import OrderBook
 from schemas.bus.contract import Bus
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, OffField, Phase, Point, Score
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
@@ -91,7 +91,7 @@ def test_a_restart_shows_how_far_opponents_stay(setup: Setup) -> None:
 
 @pytest.mark.parametrize("size", [(1, 1), (20, 5), (80, 24), (120, 40), (200, 60), (300, 20), (40, 100)])
 def test_a_picture_fits_its_terminal(setup: Setup, size: tuple[int, int]) -> None:
-    medium = Medium()
+    medium = SharedState()
     host = medium.open_bus("friendly", SteppedClock())
     seen = MatchFollower(medium.open_bus("friendly", SteppedClock()), details=True)
     say(host, world(cyan1=robot(-30.0, 2.0), magenta5=robot(3.0, 99.0)), state())
@@ -106,8 +106,8 @@ def say(host: Bus, world: World, state: GameState) -> None:
     host.publisher(STATE).put(state)
 
 
-def test_a_picture_says_score_phase_events_and_how_the_host_is_doing(setup: Setup) -> None:
-    medium = Medium()
+def test_a_picture_has_score_phase_events_and_the_health_of_the_host(setup: Setup) -> None:
+    medium = SharedState()
     host = medium.open_bus("friendly", SteppedClock())
     seen = MatchFollower(medium.open_bus("friendly", SteppedClock()), details=True)
     say(host, world(cyan2=robot(1.0, 0.0)), state(Phase.THROW_IN, side=Side.MAGENTA, score=Score(cyan=2, magenta=1)))
@@ -123,7 +123,7 @@ def test_a_picture_says_score_phase_events_and_how_the_host_is_doing(setup: Setu
     assert "striker: shoot" in text
 
 
-def test_what_a_robot_says_cannot_speak_to_the_terminal(setup: Setup) -> None:
+def test_control_characters_of_a_robot_do_not_reach_the_terminal(setup: Setup) -> None:
     words = {"cyan2": Radio(role="\x1b[2J", intention="to\nnight")}
     rows = [row.plain for row in robots(setup, world(cyan2=robot(1.0, 0.0)), words, None, None)]
     assert any("\N{REPLACEMENT CHARACTER}[2J: to\N{REPLACEMENT CHARACTER}night" in row for row in rows)
@@ -151,7 +151,7 @@ def test_what_keeps_a_robot_from_playing_stands_beside_it(setup: Setup) -> None:
     assert "●" in rows[4]
 
 
-def test_an_order_that_stands_is_shown_with_who_has_not_heard_it() -> None:
+def test_an_active_order_is_shown_with_the_robots_that_have_not_acknowledged_it() -> None:
     book = OrderBook()
     assert orders(book) == []
     told = CoachOrder(sequence=3, mode=CoachMode.TEST, test=CoachTest.PASS, robot_a="cyan2", robot_b="cyan3")
@@ -181,7 +181,7 @@ class HostOfTicks(SteppedClock):
 def test_a_match_is_drawn_until_its_host_goes_and_its_last_picture_stays(
     setup: Setup, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    medium, clock = Medium(), HostOfTicks()
+    medium, clock = SharedState(), HostOfTicks()
     clock.host, clock.tick = medium.open_bus("friendly", SteppedClock()), 0
     clock.host.declare_alive("host", "host")
     monkeypatch.setattr("coach_gateway.match.host_client.HostClient.setup", lambda self: setup)
@@ -191,6 +191,6 @@ def test_a_match_is_drawn_until_its_host_goes_and_its_last_picture_stays(
     assert "1:01.0" in last and "2→" in last
 
 
-def test_a_match_that_nobody_plays_is_wrong_input() -> None:
+def test_a_match_without_a_host_is_wrong_input() -> None:
     with pytest.raises(TouchlineError, match='match "cup": no process answers host/setup'):
-        watch_on(Medium().open_bus("cup", SteppedClock()), Console(file=io.StringIO()))
+        watch_on(SharedState().open_bus("cup", SteppedClock()), Console(file=io.StringIO()))

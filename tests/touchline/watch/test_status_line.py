@@ -1,7 +1,7 @@
 import pytest
 
 from coach_gateway.match.follower import MatchFollower
-from schemas.bus.in_process_bus import Medium
+from schemas.bus.in_process_bus import SharedState
 from schemas.game import GameStage, OffField, Phase, Score
 from schemas.messages.game import DisciplinaryRecord, GameState
 from schemas.messages.health import Health, RobotHealth
@@ -18,7 +18,7 @@ def health(tick: int, **silent_robots: RobotHealth) -> Health:
 
 
 def view() -> MatchFollower:
-    return MatchFollower(Medium().open_bus("friendly", SteppedClock()))
+    return MatchFollower(SharedState().open_bus("friendly", SteppedClock()))
 
 
 def test_before_the_host_speaks_it_is_waited_for() -> None:

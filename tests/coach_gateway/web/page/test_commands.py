@@ -315,7 +315,7 @@ def test_a_robot_is_driven_by_keys_in_place_of_its_brain_and_given_back(match, v
     match.until(lambda: match.world["robots"]["cyan2"]["omega"] > 1.0)
     tab.page.keyboard.up("q")
     tab.page.keyboard.press("Escape")
-    match.until(lambda: said(match, "cyan2 is given back to its brain"))
+    match.until(lambda: said(match, "cyan2 is controlled by its brain again"))
     assert tab.page.locator("#drive-take").inner_text() == "Take over"
 
 
@@ -350,7 +350,7 @@ def test_leaving_the_page_gives_the_robot_back(match, visit) -> None:
     tab.page.locator("#drive-take").click()
     match.until(lambda: said(match, "magenta1 is under manual control"))
     tab.page.goto("about:blank")
-    match.until(lambda: said(match, "magenta1 is given back to its brain"))
+    match.until(lambda: said(match, "magenta1 is controlled by its brain again"))
 
 
 def standing(match, robot: str) -> DisciplinaryRecord:

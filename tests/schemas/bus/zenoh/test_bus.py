@@ -27,7 +27,7 @@ def test_a_port_in_use_is_one_line_with_the_remedy() -> None:
     assert "\n" not in str(error.value)
 
 
-def test_a_client_without_a_host_says_so_after_its_patience() -> None:
+def test_a_client_without_a_host_reports_it_after_its_patience() -> None:
     with pytest.raises(BusError, match="no host answers there"):
         open_client("test", WallClock(), with_free_port("tcp/127.0.0.1:0"), patience=0.0)
 
@@ -63,7 +63,7 @@ with open_host("test", WallClock(), sys.argv[1]) as bus:
     print("said", flush=True)
     sys.stdin.read()
 """
-"""A host that said more than a socket swallows before anybody came, and keeps it for those who come late."""
+"""A host that published more than a socket buffers before any client joined, and keeps it for late ones."""
 LATE = """
 import sys
 from schemas.bus.zenoh.bus import open_client
@@ -78,7 +78,7 @@ with open_client("test", WallClock(), sys.argv[1], patience=30.0) as bus:
 
 
 @pytest.mark.processes
-def test_a_reader_who_comes_late_is_sent_all_that_is_kept_and_the_host_does_not_wait_for_itself() -> None:
+def test_a_late_subscriber_receives_all_kept_messages_and_the_host_does_not_query_itself() -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     with subprocess.Popen([sys.executable, "-c", SAYS_MUCH, endpoint], **pipes) as host:
