@@ -57,6 +57,8 @@ class Applied(Message):
     episode: int = 1
     """The episode that this tick belongs to: the start of the match is 1, and each scene that is loaded and each reset
     begin another."""
+    refbox: bool = False
+    """A league's referee box was connected in this tick."""
     chain: str
     """blake2b over the state of this tick and all other fields of this message, keyed with the chain before it; hex."""
 

@@ -253,6 +253,8 @@ class Simulation:
             fields["robots"] = self._operator.layout.robots
         if changes.obstacles_changed:
             fields["obstacles"] = self._operator.layout.obstacles
+        if snapshot.refbox:
+            fields["refbox"] = True
         fields["episode"] = self.episode
         message = {**fields, "inputs": Raw(encode(inputs))}  # encoded once, for the chain and for the bus
         chain = self.world.chain(chained_part(message))

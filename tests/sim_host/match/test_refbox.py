@@ -35,6 +35,7 @@ def played(inputs: list[Inputs]) -> list[tuple[str, GameState]]:
             drive = Command(answers_tick=simulation.now.tick, drive=Drive(vx=0.3))
             tick = simulation.step(dict.fromkeys(simulation.roster.names, drive), actions, refbox=refbox)
             assert all(reply.accepted for reply in tick.replies), tick.replies
+            assert tick.applied.get("refbox", False) is refbox
             ticks.append((tick.applied["chain"], simulation.state.game_state(tick.tick, tick.time)))
         return ticks
 
