@@ -7,6 +7,7 @@ import signal
 import socket
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -134,7 +135,7 @@ def test_bridges_need_no_web_server() -> None:
 
 
 @pytest.mark.processes
-def test_one_process_has_all_bridges_and_ends_on_a_signal(tmp_path: Path) -> None:
+def test_one_process_has_all_bridges_and_ends_on_a_signal_with_a_bye_to_coach_programs(tmp_path: Path) -> None:
     endpoint = with_free_port("tcp/127.0.0.1:0")
     setup = make_setup()
     tokens = tmp_path / "tokens.json"
@@ -153,8 +154,14 @@ def test_one_process_has_all_bridges_and_ends_on_a_signal(tmp_path: Path) -> Non
             query = setups.receive(LIMIT_S)
             assert query is not None
             query.reply(setup)
-            asyncio.run(_meet(ports, json.loads(tokens.read_text("utf-8"))["cyan"], states))
-            process.send_signal(signal.SIGINT)
+            with closing(socket.socket(socket.AF_INET, socket.SOCK_DGRAM)) as program:
+                program.settimeout(LIMIT_S)
+                program.connect(("127.0.0.1", ports["coach programs over UDP"]))
+                asyncio.run(_meet(ports, json.loads(tokens.read_text("utf-8"))["cyan"], states, program))
+                process.send_signal(signal.SIGINT)
+                kind = ""
+                while kind != "bye":
+                    kind = json.loads(program.recv(65536))["kind"]
             rest, _ = process.communicate(timeout=LIMIT_S)
             assert process.returncode == 0, rest
             assert "Traceback" not in rest
@@ -163,7 +170,7 @@ def test_one_process_has_all_bridges_and_ends_on_a_signal(tmp_path: Path) -> Non
             process.communicate()
 
 
-async def _meet(ports: dict[str, int], token: str, states: Any) -> None:
+async def _meet(ports: dict[str, int], token: str, states: Any, program: socket.socket) -> None:
     """A base station receives a corner, and a coach program is welcomed."""
     reader, writer = await asyncio.open_connection("127.0.0.1", ports["referee box for base stations"])
     writer.write(json.dumps({"type": "hello", "team": "magenta"}).encode() + b"\x00")
@@ -182,8 +189,5 @@ async def _meet(ports: dict[str, int], token: str, states: Any) -> None:
             break
     assert "CORNER" in heard
     writer.transport.abort()
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as program:
-        program.settimeout(LIMIT_S)
-        program.connect(("127.0.0.1", ports["coach programs over UDP"]))
-        program.send(json.dumps({"kind": "hello", "sequence": 1, "token": token}).encode())
-        assert json.loads(program.recv(65536))["role"] == "cyan"
+    program.send(json.dumps({"kind": "hello", "sequence": 1, "token": token}).encode())
+    assert json.loads(program.recv(65536))["role"] == "cyan"

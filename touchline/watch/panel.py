@@ -7,7 +7,7 @@ from rich.style import Style
 from rich.text import Text
 
 from coach_gateway.match.follower import MatchFollower
-from coach_gateway.match.lines import clock_text, event_line, half_text, phase_text, printable
+from coach_gateway.match.lines import clock_text, event_line, half_text, phase_text, printable, question_phrases
 from coach_gateway.match.orders import OrderBook
 from schemas.game import EventKind
 from schemas.messages.coach import CoachOrder
@@ -36,7 +36,7 @@ _ACTIVITY = 26
 
 
 def head(setup: Setup, state: GameState | None) -> Text:
-    """Teams and score, clock, half and phase, the referee's proposal."""
+    """Teams and score, clock, half and phase, the referee's proposal, robots that sides have to name."""
     names = {side: setup.teams[side].name for side in Side}
     if state is None:
         return Text(f"{names[Side.CYAN]} – {names[Side.MAGENTA]}  waiting for the robots")
@@ -49,6 +49,8 @@ def head(setup: Setup, state: GameState | None) -> Text:
     )
     if state.proposal is not None:
         line.append(f"  proposed: {state.proposal}", TROUBLE)
+    for phrase in question_phrases(state):
+        line.append(f"  {phrase}", TROUBLE)
     return line
 
 
