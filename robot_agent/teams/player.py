@@ -14,14 +14,14 @@ from robot_agent.skills.let_go import let_go
 from robot_agent.skills.search import search_place
 from robot_agent.teams import coach_tests, shoot_out
 from robot_agent.teams.action import Action
+from robot_agent.teams.reports import radio_message, why_refused
 from robot_agent.teams.set_piece import PENALTIES
 from robot_agent.world_model import WorldBelief, WorldModel
 from schemas.config.roster import goalkeeper_of
-from schemas.game import GameStage, Point, TeamPhase
+from schemas.game import GameStage, TeamPhase
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import Command, Drive
 from schemas.messages.game import GameView
-from schemas.messages.radio import BallBelief, Motion, Radio
 from schemas.messages.sight import Sight
 
 RADIO_EVERY = 5
@@ -48,8 +48,6 @@ _PARKING_SPEED = 1.5
 """m/s."""
 _AT_THE_CENTRE = Ball(0.0, 0.0)
 """Stands in for a ball whose place is unknown."""
-_REASON = 80
-"""Characters of a reason, as of `schemas.wire.message.ShortText`."""
 _AIR = 0.1
 """m between two robots that pass each other."""
 
@@ -150,16 +148,10 @@ class Player(ABC):
             drive=action.drive,
             dribble=action.dribble and (action.kick is not None or self._lets_go == 0.0),
             kick=action.kick,
-            radio=self._radio(belief, action) if sends or action.pass_to is not None else None,
+            radio=radio_message(belief, action) if sends or action.pass_to is not None else None,
             acknowledges_order=order.sequence if order else None,
-            refuses_order=self.why_refused(order) if order else "",
+            refuses_order=why_refused(order, self.tests, self.tactics) if order else "",
         )
-
-    def why_refused(self, order: CoachOrder) -> str:
-        """Why this robot does not carry out an order; empty where it does."""
-        if order.test is not None and order.test not in self.tests:
-            return f"unknown test: {order.test.value}"
-        return f"unknown tactic: {order.tactic}"[:_REASON] if order.tactic and order.tactic not in self.tactics else ""
 
     def _act(self, belief: WorldBelief, order: CoachOrder | None) -> Action:
         """The action in the coach's test or in the game; what all teams have in common comes before the team's play."""
@@ -286,18 +278,6 @@ class Player(ABC):
         y = -pitch.touch_line + radius + 0.1
         blocked = circles(belief.others, 2.0 * self.setup.robot.reach + _AIR)
         return go_around(belief.me, x, y, 0.0, blocked, self.limits.capped(_PARKING_SPEED))
-
-    def _radio(self, belief: WorldBelief, action: Action) -> Radio:
-        """The radio message to the teammates."""
-        me, ball = belief.me, belief.ball
-        return Radio(
-            self=Motion(x=me.x, y=me.y, heading=me.heading, vx=me.vx, vy=me.vy, omega=me.omega),
-            ball=BallBelief(x=ball.now.x, y=ball.now.y, vx=ball.now.vx, vy=ball.now.vy, age=ball.age) if ball else None,
-            role=action.role,
-            intention=action.intention,
-            pass_to=action.pass_to,
-            obstacles=[Point(x=round(x, 2), y=round(y, 2)) for x, y in belief.opponents],
-        )
 
 
 def _away(game: GameView) -> list[str]:

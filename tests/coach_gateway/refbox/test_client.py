@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from coach_gateway.refbox import client as client_module
+from coach_gateway.refbox import signal_queue
 from coach_gateway.refbox.client import UPLOAD_S, BoxAddress, RefBoxClient
 from coach_gateway.refbox.framing import BoxProtocol
 from schemas.game import REFBOX, ActionName, Phase
@@ -161,6 +161,30 @@ def test_start_lets_the_game_run_though_our_referee_takes_it_in_steps(met: Any, 
     asyncio.run(play())
 
 
+def test_a_card_right_behind_start_does_not_keep_the_game_from_running(met: Any, until: Any) -> None:
+    """The league's box sends cards when its own state has changed, which is at START."""
+
+    async def play() -> None:
+        async with met() as (bench, box, _):
+            bench.stage.say(phase=Phase.THROW_IN, side=Side.CYAN)
+            refusals = ["the ball is being put back"] * 3
+
+            def answer(action: RefereeAction) -> ActionReply:
+                if action.action is ActionName.START and refusals:
+                    return ActionReply(accepted=False, reason=refusals.pop())
+                if action.action is ActionName.START:
+                    bench.stage.say(running=True)
+                return ActionReply(accepted=True, tick=bench.stage.state.tick)
+
+            bench.stage.answer = answer
+            box.say("START")
+            box.say("YELLOW_CARD", CYAN_AT)
+            await until(lambda: bench.live.state.running and len(bench.stage.asked) == 5)
+            assert asked(bench) == ["start"] * 4 + ["yellow_card cyan"]
+
+    asyncio.run(play())
+
+
 def test_a_stop_is_not_held_up_by_a_start_that_leads_nowhere(met: Any, until: Any) -> None:
     async def play() -> None:
         async with met() as (bench, box, client):
@@ -274,7 +298,7 @@ def test_a_box_that_drops_every_link_is_tried_less_and_less_often(opened: Any, u
 
 
 def test_of_too_many_commands_the_newest_count(met: Any, until: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(client_module, "_MOST_WAITING", 3)
+    monkeypatch.setattr(signal_queue, "MOST_WAITING", 3)
 
     async def play() -> None:
         async with met() as (bench, box, client):
