@@ -9,7 +9,7 @@ from coach_gateway import refbox
 from coach_gateway.access.roles import COACHES
 from coach_gateway.access.tokens import Tokens
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.ports import LOOPBACK, port_tried
+from coach_gateway.ports import LOOPBACK, InheritedSockets, bound_socket
 from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
 from coach_gateway.refbox.framing import BoxProtocol
@@ -45,17 +45,40 @@ class Bridges:
         """Whether there is any bridge."""
         return self.udp is not None or bool(self.boxes or self.server_addresses or self.audience)
 
-    def try_ports(self) -> None:
-        """Make sure that all ports can be listened on at the same time.
+    def open_ports(self, inherited: InheritedSockets | None = None) -> "OpenPorts":
+        """Bind all ports, or take the sockets of a launcher that has bound them.
 
         Raises:
-            TouchlineError: a port is taken.
+            TouchlineError: a port is in use.
         """
         with ExitStack() as stack:
-            if self.udp is not None:
-                stack.enter_context(port_tried("--udp", self.listen, self.udp, socket.SOCK_DGRAM))
-            for address in self.server_addresses:
-                stack.enter_context(port_tried("--refbox-server", address.host, address.port, socket.SOCK_STREAM))
+
+            def bound(option: str, address: str, port: int, kind: socket.SocketKind) -> socket.socket:
+                opened = inherited.next() if inherited is not None else None
+                return stack.enter_context(opened or bound_socket(option, address, port, kind))
+
+            udp = bound("--udp", self.listen, self.udp, socket.SOCK_DGRAM) if self.udp is not None else None
+            servers = [
+                bound("--refbox-server", address.host, address.port, socket.SOCK_STREAM)
+                for address in self.server_addresses
+            ]
+            stack.pop_all()
+        return OpenPorts(udp, tuple(servers))
+
+
+@dataclass(frozen=True, slots=True)
+class OpenPorts:
+    """The bound sockets of bridges."""
+
+    udp: socket.socket | None
+    """For coach programs."""
+    servers: tuple[socket.socket, ...]
+    """For team software, in the order of the server addresses."""
+
+    @property
+    def all(self) -> list[socket.socket]:
+        """All sockets, in the order in which `Bridges.open_ports` inherits them."""
+        return [*([self.udp] if self.udp is not None else []), *self.servers]
 
 
 _LAST_PORT = 65_535
@@ -85,18 +108,27 @@ def bridges_of(options: BridgeOptions) -> Bridges:
     )
 
 
-def services_of(bus: Bus, wanted: Bridges, tokens: Tokens, log: Callable[[str], None]) -> list[Service]:
-    """The services of these bridges; the first follows the match for all of them."""
+def services_of(
+    bus: Bus, wanted: Bridges, ports: OpenPorts, tokens: Tokens, log: Callable[[str], None]
+) -> list[Service]:
+    """The services of these bridges, on their open ports; the first follows the match for all of them."""
     if not wanted.wanted:
         return []
     live = LiveMatch(bus)
     services: list[Service] = [live]
-    if wanted.udp is not None:
-        services.append(UdpServer(live, tokens.role_of, log, wanted.udp, wanted.listen))
+    if ports.udp is not None:
+        services.append(UdpServer(live, tokens.role_of, log, bound=ports.udp))
     services += [RefBoxClient(live, box, log) for box in wanted.boxes]
     team_states = None
     if wanted.server_addresses:
-        box = RefBoxServer(live, wanted.server_addresses, log, lambda token: _side_of(tokens, token), wanted.addresses)
+        box = RefBoxServer(
+            live,
+            wanted.server_addresses,
+            log,
+            lambda token: _side_of(tokens, token),
+            addresses=wanted.addresses,
+            bound=ports.servers,
+        )
         team_states = box.team_states
         services.append(box)
     if wanted.audience:

@@ -29,6 +29,8 @@ def run_forked(settings: AgentSettings, environment: Mapping[str, str], log: str
     `held` is closed when it leads its group: signals are sent to that group.
     """
     os.setpgid(0, 0)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored by the fork server, if its launcher ignored it
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     held.close()
     _end_with_supervisor()
     _redirect(log)

@@ -27,7 +27,7 @@ def run(settings: AgentSettings) -> int:
                 use_batch_scheduling(setup.pace == LOCKSTEP)
                 return load_brain(settings.brain, Briefing.of(settings.robot, setup))
 
-            return serve(bus, build, settings.robot, settings.patience)
+            return serve(bus, build, settings.robot, settings.patience, settings.launch_token)
     except KeyboardInterrupt:
         return 0
 

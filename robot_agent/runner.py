@@ -5,8 +5,9 @@ import sys
 import traceback
 from collections.abc import Callable
 
+from robot_agent.claim import Membership
 from robot_agent.contract import Brain
-from schemas.bus.contract import Bus, NoReplyError, PresenceKind
+from schemas.bus.contract import Bus, NoReplyError
 from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
 from schemas.messages.command import Command
@@ -130,17 +131,23 @@ def ask_setup(bus: Bus, patience: float) -> Setup:
             return setup
 
 
-def serve(bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float) -> int:
+def serve(
+    bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float, launch_token: str | None = None
+) -> int:
     """Run a robot until its host has been gone for `patience` s; the exit status of the process.
+
+    `launch_token` is the secret of the launch that the agent belongs to; None without one.
 
     A host that has left and is back plays another match: the brain is built again before its first sight of it.
 
     Raises:
-        TouchlineError: `build` cannot make the brain, or there is no host.
+        TouchlineError: `build` cannot make the brain, there is no host, or it refuses the agent.
     """
-    runner = Runner(bus, build(ask_setup(bus, patience)), robot)
+    membership = Membership(bus, robot, launch_token)
+    setup = ask_setup(bus, patience)
+    runner = Runner(bus, build(setup), robot)
     host = HostWatch(bus)
-    bus.declare_alive(PresenceKind.AGENT, robot)
+    membership.join(setup, patience)
     gc.collect()
     gc.freeze()
     is_new_match = False
@@ -155,7 +162,9 @@ def serve(bus: Bus, build: Callable[[Setup], Brain], robot: str, patience: float
                 return 1
         elif host.is_reachable():
             if is_new_match:
-                runner.restart(build(ask_setup(bus, patience)))
+                setup = ask_setup(bus, patience)
+                runner.restart(build(setup))
+                membership.join(setup, patience)
                 is_new_match = False
         elif host.unreachable_s() >= patience:
             sys.stderr.write(f"{robot}: the host has been gone for {patience:g} s; leaving\n")

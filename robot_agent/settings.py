@@ -16,5 +16,7 @@ class AgentSettings(ClientSettings):
     """Name of the robot: cyan1, magenta3, …"""
     brain: Annotated[str, CommandLine(environment="TOUCHLINE_BRAIN")]
     """module:Class, or module:function of a plain act(sight)."""
+    launch_token: Annotated[str | None, CommandLine(environment="TOUCHLINE_LAUNCH_TOKEN")] = None
+    """Secret of the host that the agent joins; by default none."""
     patience: Annotated[float, Field(ge=0)] = 10.0
     """s of wall time to wait for a host that is not there."""

@@ -8,12 +8,13 @@ another.
 
 import asyncio
 import contextlib
+import socket
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.ports import LOOPBACK, cannot_listen
+from coach_gateway.ports import LOOPBACK, bound_socket
 from coach_gateway.refbox import DEFAULT_PORT, characters, commands
 from coach_gateway.refbox.call_generator import CallGenerator
 from coach_gateway.refbox.commands import BoxCommand
@@ -69,6 +70,7 @@ class RefBoxServer:
         log: Callable[[str], None],
         of_token: Callable[[str], Side | None] = lambda _token: None,
         addresses: Mapping[Side, str] | None = None,
+        bound: Sequence[socket.socket] = (),
     ) -> None:
         """Serves on these server addresses.
 
@@ -79,9 +81,10 @@ class RefBoxServer:
             of_token: the side whose coach has a token.
             addresses: what the sides are called in commands, unless a base station's hello asks for another address;
                 by default their names.
+            bound: the sockets of the server addresses where they are bound already.
         """
         self._live = live
-        self._server_addresses = server_addresses
+        self._server_addresses, self._bound = server_addresses, bound
         self._log = log
         self._of_token = of_token
         self._call_generator = CallGenerator()
@@ -100,8 +103,12 @@ class RefBoxServer:
             TouchlineError: a port is taken.
         """
         async with contextlib.AsyncExitStack() as stack:
-            for address in self._server_addresses:
-                server = await stack.enter_async_context(await self._open(address))
+            sockets = self._bound or [
+                bound_socket("--refbox-server", address.host, address.port, socket.SOCK_STREAM)
+                for address in self._server_addresses
+            ]
+            for address, bound in zip(self._server_addresses, sockets, strict=True):
+                server = await stack.enter_async_context(await self._open(address, bound))
                 self.ports.append(server.sockets[0].getsockname()[1])
                 whom = f"{address.side}'s base station" if address.side is not None else "base stations"
                 how = ", in characters" if address.protocol is BoxProtocol.CHARACTERS else ""
@@ -110,13 +117,8 @@ class RefBoxServer:
             for peer in self._peers:
                 peer.writer.transport.abort()
 
-    async def _open(self, address: ServerAddress) -> asyncio.Server:
-        try:
-            return await asyncio.start_server(
-                lambda r, w: self._run_connection(r, w, address), address.host, address.port
-            )
-        except OSError as error:
-            raise cannot_listen("--refbox-server", address.host, address.port, error) from None
+    async def _open(self, address: ServerAddress, bound: socket.socket) -> asyncio.Server:
+        return await asyncio.start_server(lambda r, w: self._run_connection(r, w, address), sock=bound)
 
     def send(self, calls: Sequence[Call]) -> None:
         """Send these commands to all base stations."""

@@ -1,13 +1,14 @@
 """The socket that coach programs use. No program waits for another; lost datagrams show as gaps in the numbers."""
 
 import asyncio
+import socket
 from collections.abc import Callable
 from typing import Any
 
 from coach_gateway.access.rights import sides_shown
 from coach_gateway.access.roles import Role
 from coach_gateway.match.live import LiveMatch
-from coach_gateway.ports import LOOPBACK, cannot_listen
+from coach_gateway.ports import LOOPBACK, bound_socket
 from coach_gateway.service import pause
 from coach_gateway.udp import DEFAULT_PORT
 from coach_gateway.udp.coach_programs import Address, CoachPrograms, PendingRequest
@@ -35,11 +36,15 @@ class UdpServer(asyncio.DatagramProtocol):
         log: Callable[[str], None],
         port: int = DEFAULT_PORT,
         host: str = LOOPBACK,
+        bound: socket.socket | None = None,
     ) -> None:
-        """`role_of` returns the role of a token; `log` is called with lines for people."""
+        """`role_of` returns the role of a token; `log` is called with lines for people.
+
+        `bound` is the socket where it is bound already, in place of port and host.
+        """
         self._live = live
         self._log = log
-        self._at = (host, port)
+        self._at, self._bound = (host, port), bound
         self._coaches = CoachPrograms(role_of, live.now)
         self._transport: asyncio.DatagramTransport | None = None
         self._full = False
@@ -54,14 +59,12 @@ class UdpServer(asyncio.DatagramProtocol):
         Raises:
             TouchlineError: the port is taken.
         """
+        bound = self._bound or bound_socket("--udp", *self._at, socket.SOCK_DGRAM)
         loop = asyncio.get_running_loop()
-        try:
-            transport, _ = await loop.create_datagram_endpoint(lambda: self, local_addr=self._at)
-        except OSError as error:
-            raise cannot_listen("--udp", *self._at, error) from None
+        transport, _ = await loop.create_datagram_endpoint(lambda: self, sock=bound)
         self._transport = transport
-        self.port = transport.get_extra_info("sockname")[1]
-        self._log(f"coach programs over UDP on {self._at[0]}:{self.port}")
+        host, self.port = transport.get_extra_info("sockname")[:2]
+        self._log(f"coach programs over UDP on {host}:{self.port}")
         try:
             while not await pause(stop, _POLL_S):
                 self._send_due()

@@ -3,7 +3,6 @@
 import socket
 
 from coach_gateway.web.pages import STUCK_S
-from schemas.bus.endpoint import reserve_port
 from schemas.errors import TouchlineError
 
 _ROOM_BYTES = 65_536
@@ -34,16 +33,6 @@ def listen(address: str, port: int) -> socket.socket:
             f"the page cannot be served on {address} port {port} ({why}); choose another port, or 0 for a free one"
         ) from None
     return listener
-
-
-def free_port(address: str, port: int) -> int:
-    """The port itself after a check that it can be listened on; for 0, a free port that is reserved.
-
-    Raises:
-        TouchlineError: the port cannot be listened on.
-    """
-    listen(address, port).close()
-    return port or reserve_port(address)
 
 
 def origin_of(address: str, port: int) -> str:

@@ -36,7 +36,7 @@ class Welcome(Part):
 
     kind: Literal["welcome"] = "welcome"
     role: Role
-    match: Name
+    match: Name | None
     setup: Setup | None
     """None until the host has replied; then another welcome has it."""
     live: bool

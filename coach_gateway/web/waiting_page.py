@@ -18,7 +18,8 @@ _ALIVE_S = 1.0
 class WaitingPage:
     """Serves the page before there is a match. Requests of a page get no reply: it repeats them when a match begins."""
 
-    def __init__(self, binding: PageBinding, match: str) -> None:
+    def __init__(self, binding: PageBinding, match: str | None) -> None:
+        """`match` is the name of the match that is waited for; None for any."""
         self._binding, self._match = binding, match
 
     async def serve(self, stop: asyncio.Event) -> None:

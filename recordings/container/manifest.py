@@ -89,7 +89,7 @@ class KeyCount(Part):
     late: int = 0
     """Messages received after a message that was sent later."""
     restarts: int = 0
-    """How often a sender restarted its sequence numbers."""
+    """How often a sender restarted its sequence numbers, or another sender began to count its own."""
     unstamped: int = 0
     """Messages without a sequence number, from a sender that does not use this library: their losses are unknown."""
     left_out: int = 0

@@ -39,15 +39,17 @@ class Importer(NamedTuple):
     module: str
     """Its module, with a function `import_log(log, out, profile, team_a)`."""
 
-    def import_log(self, log: list[Path], out: Path, profile: str, team_a: str | None) -> "ImportSummary":
+    def import_log(self, log: list[Path], out: Path, profile: str | None, team_a: str | None) -> "ImportSummary":
         """Convert the files of a log to the recording `out`.
 
-        `profile` is that of the pitch, `team_a` the name of team A in the log.
+        `profile` is that of the pitch, recognised if None, `team_a` the name of team A in the log.
 
         Raises:
             TouchlineError: the log cannot be read, or the recording cannot be written.
         """
-        convert: Callable[[list[Path], Path, str, str | None], ImportSummary] = import_module(self.module).import_log
+        convert: Callable[[list[Path], Path, str | None, str | None], ImportSummary] = import_module(
+            self.module
+        ).import_log
         return convert(log, out, profile, team_a)
 
 

@@ -40,4 +40,5 @@ def summary_lines(facts: RecordingFacts) -> list[tuple[str, str]]:
         "events": str(facts.events),
         "size": f"{facts.size} bytes" + ("" if facts.complete else ", cut off"),
     }
-    return [(name, value) for name, value in values.items() if value is not None]
+    facts_lines = [(name, value) for name, value in values.items() if value is not None]
+    return facts_lines + [("contradiction", sentence) for sentence in facts.contradictions]

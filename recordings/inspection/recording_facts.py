@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from recordings.container.manifest import KeyCount
+from recordings.inspection.contradictions import contradictions
 from recordings.reading.recording import Recording
 from recordings.recorder.match_progress import MatchProgress
 from recordings.recorder.sequence_tracker import SequenceTracker
@@ -77,6 +78,8 @@ class RecordingFacts:
     size: int
     """Bytes of the file."""
     keys: list[KeyFacts]
+    contradictions: list[str]
+    """Sentences on where result, manifest and attachments do not fit the messages and each other."""
 
     def to_json(self) -> dict[str, Any]:
         """The facts as plain lists, numbers and strings."""
@@ -118,6 +121,7 @@ def facts_of(recording: Recording) -> RecordingFacts:
         drawn=recording.drawn,
         size=recording.path.stat().st_size,
         keys=list(_key_facts(recording, ending.keys)),
+        contradictions=contradictions(recording),
     )
 
 

@@ -23,7 +23,7 @@ def record(settings: RecorderSettings, should_stop: Callable[[], bool] = lambda:
     selection = KeySelection(tuple(wanted.include), tuple(wanted.exclude))
     with open_client(settings.match, clock, settings.connect, settings.patience) as bus:
         loss_counts = LossCounts()
-        sink = open_sink(settings.out, clock, settings.match, loss_counts, FileLimits.of(wanted), viz=wanted.viz)
+        sink = open_sink(settings.out, clock, bus.match, loss_counts, FileLimits.of(wanted), viz=wanted.viz)
         try:
             recorder = Recorder(
                 bus,

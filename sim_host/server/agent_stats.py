@@ -17,6 +17,8 @@ class AgentStats:
     """Counts of what one agent answered, missed, sent twice, or sent invalid."""
 
     alive: bool = False
+    is_admitted: bool = True
+    """Its commands are accepted."""
     answering: bool = False
     answers: int = 0
     missed: int = 0

@@ -1,5 +1,6 @@
 """The host of one match: steps the simulation on the bus, tick by tick, at the pace of the match."""
 
+import logging
 from collections.abc import Callable
 
 from schemas.bus.batch_publisher import BatchPublisher
@@ -20,6 +21,8 @@ from sim_host.server.pace import Lockstep, Pace, Realtime
 from sim_host.server.presence_tracker import PresenceTracker
 from sim_host.server.services import Services
 
+log = logging.getLogger("sim_host")
+
 _FULL_TIME_GRACE_S = 1.5 * HEARTBEAT_S
 """Wall time that the host stays after full time for its watchers: missed messages of the end show with the bus's next
 heartbeat, half a second later, and can be fetched as long as the host is running."""
@@ -28,13 +31,17 @@ heartbeat, half a second later, and can be fetched as long as the host is runnin
 class Host:
     """Connects a simulation to agents, coaches, recorders and watchers."""
 
-    def __init__(self, config: MatchConfig, bus: Bus) -> None:
+    def __init__(self, config: MatchConfig, bus: Bus, launch_token: str | None = None) -> None:
+        """With `launch_token`, only agents that know it may play."""
         self.simulation = Simulation(config)
         self._invalid_log = InvalidLog()
         self._batches = BatchPublisher(bus, self._invalid_log.add)
         self.inbox = Inbox(bus, self.simulation.roster, self._invalid_log, self._batches)
-        self.presence = PresenceTracker(bus, self.inbox.agent_stats, config.patience.recorder)
+        self.presence = PresenceTracker(
+            bus, self.inbox.agent_stats, config.patience.recorder, self._invalid_log, launch_token
+        )
         self._manual = ManualControl(bus, self._invalid_log)
+        self._first = self.simulation.now, self.simulation.state
         self._config = config
         self._clock = bus.clock
         self._services = Services(bus, self.simulation, self._invalid_log, self._batches, self.presence.has_referee_box)
@@ -73,6 +80,7 @@ class Host:
                 return
             self.presence.update(timeout=0.02)
             self._process_requests()
+            self._report_refusals(self.simulation.now)
             self._report(self.simulation.now)
             self._batches.send_if_due()
             if self._services.actions:
@@ -81,10 +89,10 @@ class Host:
     def begin(self) -> None:
         """Publish tick 0."""
         self._look_for_sight_recorders()
-        first = self.simulation.now
+        first, state = self._first
         for robot, sight in first.sights.items():
             self._send_sight(robot, sight)
-        self._outbox.publish_tick(first, self.simulation.state)
+        self._outbox.publish_tick(first, state)
         self._batches.end_tick(first.tick)
         self.pace.begin()
 
@@ -162,6 +170,7 @@ class Host:
 
     def _update_stats(self, tick: TickResult) -> None:
         """Count refusals; publish an event when an agent falls silent or answers, and when manual control changes."""
+        self._report_refusals(tick)
         for name, count in tick.refused.items():
             self.inbox.agent_stats[name].refused += count
         for name, driven in self._manual.changes():
@@ -178,6 +187,12 @@ class Host:
             self._silent[name] = silent
             text = f"{name} does not answer, its robot stops" if silent else f"{name} answers"
             self._publish_agent_event(tick, name, "agent_silent", text)
+
+    def _report_refusals(self, tick: TickResult) -> None:
+        """Publish an event for each agent that was refused."""
+        for refusal in self.presence.pop_refusals():
+            log.warning(refusal.text)
+            self._publish_agent_event(tick, refusal.robot, "claim", refusal.text)
 
     def _publish_agent_event(self, tick: TickResult, name: str, rule: str, text: str) -> None:
         if name not in self._roster.names:

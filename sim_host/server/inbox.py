@@ -70,7 +70,10 @@ class Inbox:
         name = received.key.split("/")[1]
         stats = self.agent_stats.get(name)
         if stats is None:
-            self._count_unknown_sender(received)
+            self._count_unknown_sender(received, "no robot of this match has that name")
+            return None
+        if not stats.is_admitted:
+            self._count_unknown_sender(received, "no agent of this match's launch has claimed that robot")
             return None
         if stats.removed:
             return None  # it answers a sight from before it was removed
@@ -93,14 +96,14 @@ class Inbox:
         self._note_latency(stats, command.answers_tick, received.arrived_ns)
         return name, command
 
-    def _count_unknown_sender(self, received: ReceivedMessage) -> None:
+    def _count_unknown_sender(self, received: ReceivedMessage, reason: str) -> None:
         key = (
             received.key
             if received.key in self.unknown_senders or len(self.unknown_senders) < _MAX_UNKNOWN_SENDERS
             else "others"
         )
         self.unknown_senders[key] = self.unknown_senders.get(key, 0) + 1
-        self._invalid_log.add(received.key, "no robot of this match has that name", received.payload)
+        self._invalid_log.add(received.key, reason, received.payload)
 
     def _note_latency(self, stats: AgentStats, tick: int, arrived_ns: int) -> None:
         for sent_tick, sent_ns in reversed(self._sent_at):

@@ -9,13 +9,12 @@ from schemas.messages.health import Health, Invalid
 from schemas.side import Side
 from schemas.topics import APPLIED, BELIEF, EVENT, HEALTH, INVALID, SIGHT, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
 from sim_host.match.simulation import TickResult
+from sim_host.match.state_schedule import StateSchedule
 from sim_host.referee.game.referee_state import RefereeState
 from sim_host.snapshot import Roster
 
 _LISTENER_CHECK_TICKS = 50
 """Ticks between two checks for subscribers to single bodies."""
-_STATE_PERIOD_S = 1.0
-"""Simulated time after which the state of the game is published again."""
 
 
 class Outbox:
@@ -38,8 +37,7 @@ class Outbox:
         self._robots: dict[str, Publisher] = {}
         self._beliefs: dict[tuple[str, Side], Publisher] = {}
         self.set_roster(roster)
-        self._last_game_state: tuple[Any, ...] = ()
-        self._state_every = round(_STATE_PERIOD_S / tick_s)
+        self._state_schedule = StateSchedule(tick_s)
 
     def set_roster(self, roster: Roster) -> None:
         """Publish for these robots from now on; an existing publisher continues its sequence numbers."""
@@ -68,24 +66,8 @@ class Outbox:
         for event in tick.events:
             self._event.put(event)
         episode = tick.world["episode"]
-        game_state = (
-            state.phase,
-            state.side,
-            state.running,
-            state.half,
-            state.score,
-            state.cyan_attacks,
-            state.spot,
-            state.participation.change_key,
-            state.shoot_out,
-            state.proposal is None,
-            state.refbox_gone is None,
-            len(state.questions),
-            episode,
-        )
-        if game_state != self._last_game_state or tick.replies or tick.tick % self._state_every == 0:
+        if self._state_schedule.is_due(state, tick.tick, episode, had_actions=bool(tick.replies)):
             self._state.put(state.game_state(tick.tick, tick.time, episode))
-            self._last_game_state = game_state
         for side, robot, belief in tick.beliefs:
             self._beliefs[robot, side].put_payload(belief)
         self._world.put_fields(tick.world)

@@ -4,8 +4,11 @@ from schemas.bus.contract import Bus, Presence, PresenceKind
 from schemas.topics import RECORDER_PROGRESS
 from schemas.wire.message import BadMessageError
 from sim_host.server.agent_stats import AgentStats
+from sim_host.server.claims import Claims
+from sim_host.server.invalid_log import InvalidLog
+from sim_host.server.services.claim_handler import ClaimHandler, Refusal
 
-_REMEMBERED = (PresenceKind.AGENT, PresenceKind.REFBOX, PresenceKind.COACH)
+_REMEMBERED = (PresenceKind.REFBOX, PresenceKind.COACH)
 _MAX_NAMES = 100
 """Most names kept for each kind of process; a flood of invented names must not fill the memory."""
 
@@ -13,43 +16,72 @@ _MAX_NAMES = 100
 class PresenceTracker:
     """Follows the presence of all processes of a match, and the progress of its recorders."""
 
-    def __init__(self, bus: Bus, agent_stats: dict[str, AgentStats], patience: float) -> None:
+    def __init__(
+        self,
+        bus: Bus,
+        agent_stats: dict[str, AgentStats],
+        patience: float,
+        invalid_log: InvalidLog,
+        launch_token: str | None = None,
+    ) -> None:
         """`patience` is the wall time in s after which a recorder with a broken link is dropped."""
         self._clock = bus.clock
         self._patience = patience
         self._watch = bus.watch_alive()
         self._progress = bus.subscribe(RECORDER_PROGRESS)
         self._agent_stats = agent_stats
+        self._claims = Claims(launch_token)
+        self._claim_handler = ClaimHandler(bus, self._claims, invalid_log)
         self._known: dict[PresenceKind, dict[str, bool]] = {kind: {} for kind in _REMEMBERED}
-        """Name → whether the process is present, once it has joined; agents may be of robots that do not play yet."""
+        """Name → whether the process is present, once it has joined."""
         self.recorders: dict[str, int] = {}
         """Recorder → the newest tick it has read; a recorder with a broken link stays until it is dropped."""
         self._sight_recorders: set[str] = set()
         """Recorders that request sights."""
         self._lost: dict[str, float] = {}
         """Recorder with a broken link → wall time at which it is dropped."""
+        self.refresh_agents()
 
     def update(self, timeout: float = 0.0) -> list[Presence]:
         """Process changes, waiting up to `timeout` s for the first; returns the agents that joined or left."""
-        changed = []
+        changed: list[str] = []
+        self._claim_handler.receive()
         presence = self._watch.receive(timeout)
         while presence is not None:
             self._remember(presence)
-            stats = self._agent_stats.get(presence.name)
             if presence.kind is PresenceKind.RECORDER:
                 self._recorder(presence)
-            elif presence.kind is PresenceKind.AGENT and stats is not None:
-                stats.alive, stats.silent = presence.alive, 0
-                changed.append(presence)
+            elif presence.kind is PresenceKind.AGENT:
+                self._claims.set_unclaimed(presence.name, presence.alive)
+                changed.append(presence.name)
+            elif presence.kind is PresenceKind.SESSION:
+                robot = self._claims.set_session(presence.name, presence.alive)
+                changed += [robot] if robot is not None else []
             presence = self._watch.receive(0.0)
+        changed += self._claim_handler.decide()
         self.receive_progress(0.0)
         self._drop_lost_recorders()
-        return changed
+        return [presence for robot in changed if (presence := self._refresh(robot)) is not None]
 
     def refresh_agents(self) -> None:
         """Update the statistics after a change of the roster: an agent may have joined before its robot."""
-        for name, stats in self._agent_stats.items():
-            stats.alive = self._known[PresenceKind.AGENT].get(name, stats.alive)
+        for name in self._agent_stats:
+            self._refresh(name)
+
+    def pop_refusals(self) -> list[Refusal]:
+        """Agents that were refused since the last call."""
+        handler = self._claim_handler
+        refusals, handler.refusals = handler.refusals, []
+        return refusals
+
+    def _refresh(self, robot: str) -> Presence | None:
+        """Update the statistics of a robot's agent; None for a robot that does not take part."""
+        stats = self._agent_stats.get(robot)
+        if stats is None:
+            return None
+        alive = self._claims.is_present(robot)
+        stats.alive, stats.silent, stats.is_admitted = alive, 0, self._claims.admits(robot)
+        return Presence(PresenceKind.AGENT, robot, alive)
 
     def receive_progress(self, timeout: float) -> None:
         """Process the progress of recorders, waiting up to `timeout` s for the first message."""

@@ -16,6 +16,7 @@ from pydantic import ValidationError
 
 from coach_gateway import run
 from coach_gateway.bridges import Bridges, bridges_of
+from coach_gateway.ports import INHERITED, InheritedSockets, inheritance_of
 from coach_gateway.process import say as log
 from coach_gateway.refbox.client import BoxAddress
 from coach_gateway.refbox.framing import BoxProtocol
@@ -109,15 +110,32 @@ def test_a_taken_port_is_reported_before_there_is_a_host() -> None:
 def test_a_port_that_is_given_twice_is_reported() -> None:
     port = with_free_port("tcp/127.0.0.1:0").rpartition(":")[2]
     with pytest.raises(TouchlineError, match=rf"--refbox-server {port} cannot be listened on"):
-        asked(refbox_server=[port, f"cyan:{port}"]).try_ports()
-    asked(refbox_server=[port]).try_ports()
-    asked(refbox_server=["0", "0"]).try_ports()
+        asked(refbox_server=[port, f"cyan:{port}"]).open_ports()
+    with asked(refbox_server=[port]).open_ports().servers[0] as bound:  # the first attempt has left nothing open
+        assert bound.getsockname()[1] == int(port)
+
+
+def test_open_ports_are_taken_over_by_the_program_that_inherits_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    bridges = asked(udp=0, refbox_server=["0", "cyan:0"])
+    launcher = bridges.open_ports()
+    copies = [one.dup() for one in launcher.all]
+    monkeypatch.setenv(INHERITED, inheritance_of(copies)[INHERITED])
+    for copy in copies:
+        copy.detach()
+    inherited = InheritedSockets()
+    program = bridges.open_ports(inherited)
+    assert [one.getsockname() for one in program.all] == [one.getsockname() for one in launcher.all]
+    assert program.udp is not None and program.udp.type is socket.SOCK_DGRAM
+    assert inherited.next() is None
+    assert INHERITED not in os.environ  # of the programs that this one starts
+    for one in (*launcher.all, *program.all):
+        one.close()
 
 
 @pytest.mark.parametrize("address", ["192.0.2.1", "a..b"])
 def test_an_address_of_another_machine_is_reported(address: str) -> None:
     with pytest.raises(TouchlineError, match=f"--listen-bridges {address} is not an address of this machine"):
-        asked(udp=0, listen_bridges=address).try_ports()
+        asked(udp=0, listen_bridges=address).open_ports()
 
 
 def test_texts_from_the_network_cannot_control_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:

@@ -19,7 +19,7 @@ from schemas.protocol.page import page
 from schemas.topics import TOPICS
 from schemas.wire.message import BadMessageError, Message
 from sim_host.server import agent_stats, pace
-from touchline.launch.processes import MatchPlan, ProcessKind, processes_of
+from touchline.launch.processes import MatchPlan, ProcessKind, client_processes
 from touchline.launch.supervisor import AFTER_THE_MATCH
 
 MESSAGES = list(dict.fromkeys(kind for row in TOPICS.values() for kind in (row.message, row.reply) if kind is not None))
@@ -73,7 +73,9 @@ def test_limits_and_choices_are_described_in_words() -> None:
 def test_the_environment_is_the_one_that_a_robot_is_launched_with(text: str) -> None:
     config = load_match(None, {"teams.cyan.command": ["./robot"]})
     robot = next(
-        one for one in processes_of(MatchPlan(config, DEFAULT_ENDPOINT, Path(), None)) if one.kind is ProcessKind.AGENT
+        one
+        for one in client_processes(MatchPlan(config, DEFAULT_ENDPOINT, Path(), None, launch_token="secret"))
+        if one.kind is ProcessKind.AGENT
     )
     said = set(re.findall(r"^\| `(TOUCHLINE_\w+)` \|", text, re.MULTILINE))
     assert said == {name for name in robot.environment if name.startswith("TOUCHLINE_")}

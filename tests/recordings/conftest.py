@@ -1,6 +1,6 @@
 """Recordings of matches on the in-process bus."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Container, Iterator, Sequence
 from pathlib import Path
 from threading import Event
 from typing import Any
@@ -19,6 +19,7 @@ from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig, load_match
 from schemas.game import Phase, Score
 from schemas.messages.command import Command
+from schemas.messages.game import RefereeAction
 from schemas.messages.sight import Sight
 from schemas.process.clock import SteppedClock
 from schemas.topics import COMMAND, SETUP
@@ -104,10 +105,13 @@ def record_match(
     between: Callable[[Simulation], None] = lambda _: None,
     limits: FileLimits = ONE_FILE,
     viz: bool = True,
+    actions: Callable[[Simulation], Sequence[RefereeAction]] = lambda _: (),
+    silent: Callable[[Simulation], Container[str]] = lambda _: (),
 ) -> None:
     """Play a real match with the teams that ship, in this process and without a network, and record it.
 
-    `between` is called before each tick, for what operators do.
+    `between` is called before each tick, for what operators do, `actions` for what people request of the referee, and
+    `silent` for the robots whose agents do not answer.
     """
     medium = SharedState()
     host_bus, bus = medium.open_bus(config.name, SteppedClock()), medium.open_bus(config.name, SteppedClock())
@@ -144,7 +148,9 @@ def record_match(
         }
         for name, command in said.items():
             commands[name].put(command)
-        tick = simulation.step(said)
+        quiet = silent(simulation)
+        answers = {name: command for name, command in said.items() if name not in quiet}
+        tick = simulation.step(answers, actions(simulation), silent=quiet)
     batches.send()
     simulation.close()
     host_bus.close()

@@ -172,8 +172,8 @@ def test_a_sight_of_the_next_match_is_not_shown_to_the_brain_of_the_last(stage, 
     built = []
 
     def host_is_replaced(kind, name):
-        host.medium.count_token("friendly", ("friendly/host", "host"), -1)
-        host.medium.count_token("friendly", ("friendly/host", "host"), +1)
+        host.shared_state.count_token("friendly", ("friendly/host", "host"), -1)
+        host.shared_state.count_token("friendly", ("friendly/host", "host"), +1)
         sights.put(sight_of(0))
 
     def build(setup):

@@ -110,14 +110,14 @@ def test_wrong_input_gives_one_line_with_the_remedy_and_status_2(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_port_that_is_in_use_is_named_before_anything_is_launched() -> None:
+def test_a_host_whose_port_is_in_use_names_it() -> None:
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()
         endpoint = f"tcp/127.0.0.1:{other.getsockname()[1]}"
         result = touchline("host", "--listen", endpoint)
     assert result.exit_code == 2
-    assert f"--listen {endpoint} cannot be listened on (Address already in use)" in result.stderr
+    assert f"--listen {endpoint} is in use by another process; choose another port" in result.stderr
 
 
 @pytest.mark.parametrize("command", ["match", "host"])

@@ -145,18 +145,16 @@ def state(connection: ClientSettings, json: options.Json = False) -> None:
     from coach_gateway.match.follower import MatchFollower
     from coach_gateway.match.lines import state_line
 
-    with bus_client(connection.connect, connection.match) as bus:
+    with bus_client(connection) as bus:
         follower = MatchFollower(bus)
         found = follower.wait_for_state(PATIENCE)
     if found is None and follower.health is not None:
         there = sum(robot.alive for robot in follower.health.robots.values())
         raise MatchFailedError(
-            f'match "{connection.match}" has not begun: {there} of {len(follower.health.robots)} robots are connected'
+            f'match "{bus.match}" has not begun: {there} of {len(follower.health.robots)} robots are connected'
         )
     if found is None:
-        raise TouchlineError(
-            f'match "{connection.match}": the host publishes no state of it; name its match with --match'
-        )
+        raise TouchlineError(f'match "{bus.match}": the host publishes no state of it; is that the name of its match?')
     typer.echo(found.model_dump_json(exclude={"version"}) if json else state_line(found))
 
 
@@ -177,7 +175,7 @@ def watch(connection: ClientSettings) -> None:
 def _send(connection: ClientSettings, action: RefereeAction) -> None:
     from coach_gateway.match.host_client import HostClient
 
-    with bus_client(connection.connect, connection.match) as bus:
+    with bus_client(connection) as bus:
         reply = HostClient(bus).act(action)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")

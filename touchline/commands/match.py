@@ -16,11 +16,13 @@ from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 
 if TYPE_CHECKING:
+    import socket
+
     from coach_gateway.web.settings import WebSettings
     from schemas.bus.contract import ReceivedMessage
     from schemas.config.match_config import MatchConfig
     from schemas.process.clock import Clock
-    from touchline.launch.processes import MatchPlan
+    from touchline.launch.processes import MatchPlan, Page
     from touchline.launch.result import MatchResult
 
 
@@ -54,8 +56,7 @@ def match(
     from touchline.launch.run_folder import prepare_run
 
     teams = _teams_of(ghost) if ghost else {}
-    if bridges.wanted:
-        _try_ports(bridges)
+    sockets = _open_ports(bridges) if bridges.wanted else ()
     if web or bridges.wanted:
         played.changes.setdefault("pace", "realtime")
     if bridges.refbox is not None:
@@ -71,10 +72,11 @@ def match(
     check_teams(config)
     endpoint = played.endpoint()
     clock = WallClock()
-    served = _page_settings(page) if web else None
-    plan = replace(prepare_run(config, endpoint, record, clock, recorded=not no_record), page=served, bridges=bridges)
+    served = _open_page(page) if web else None
+    plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
+    plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets)
     if served is not None:
-        _invite(plan, served, err=json)
+        _invite(plan, served.settings, err=json)
     if bridges.wanted:
         typer.echo(f"bridges: {plan.folder / 'bridges.log'}; the coaches' tokens: {plan.tokens}", err=json)
     if plan.warning:
@@ -103,10 +105,10 @@ def _check_ghosts(config: "MatchConfig", ghosts: list[str]) -> None:
     check_ghosts(config, ghosts)
 
 
-def _page_settings(options: dict[str, Any]) -> "WebSettings":
-    from touchline.launch.page import page_settings
+def _open_page(options: dict[str, Any]) -> "Page":
+    from touchline.launch.page import open_page
 
-    return page_settings(options)
+    return open_page(options)
 
 
 def _invite(plan: "MatchPlan", page: "WebSettings", *, err: bool) -> None:
@@ -117,10 +119,10 @@ def _invite(plan: "MatchPlan", page: "WebSettings", *, err: bool) -> None:
         typer.echo(line, err=err)
 
 
-def _try_ports(bridges: BridgeOptions) -> None:
+def _open_ports(bridges: BridgeOptions) -> "tuple[socket.socket, ...]":
     from coach_gateway.bridges import bridges_of
 
-    bridges_of(bridges).try_ports()
+    return tuple(bridges_of(bridges).open_ports().all)
 
 
 def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> "MatchResult":

@@ -118,7 +118,7 @@ def _order(
 
     content = {**{key: getattr(order_options, key) for key in (field.name for field in fields(order_options))}, **more}
     from_options(CoachOrder, sequence=1, **content)
-    with bus_client(connection.connect, connection.match) as bus:
+    with bus_client(connection) as bus:
         client = HostClient(bus)
         client.orders.update()  # subscribe first, so that no status of the order is missed
         given = client.order(side, **content)

@@ -129,7 +129,7 @@ def _request(**content: object) -> "ParametersRequest":
 def _query(connection: ClientSettings, request: "ParametersRequest") -> "ParametersReply":
     from coach_gateway.match.host_client import HostClient
 
-    with bus_client(connection.connect, connection.match) as bus:
+    with bus_client(connection) as bus:
         reply = HostClient(bus).parameters(request)
     if not reply.accepted:
         raise MatchFailedError(f"refused: {reply.reason}")

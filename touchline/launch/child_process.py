@@ -7,6 +7,7 @@ import sys
 from abc import ABC, abstractmethod
 from pathlib import Path
 
+from coach_gateway.ports import inheritance_of
 from schemas.config.settings_file import write_settings
 from schemas.errors import TouchlineError
 from touchline.launch import leash
@@ -89,7 +90,8 @@ class ChildProcess(ProcessHandle):
                 stdin=subprocess.DEVNULL,
                 stdout=out,
                 stderr=subprocess.STDOUT,
-                env={**os.environ, **process.environment},
+                env={**os.environ, **process.environment, **inheritance_of(process.sockets)},
+                pass_fds=[one.fileno() for one in process.sockets],
                 process_group=0,
             )
 

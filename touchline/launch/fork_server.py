@@ -10,6 +10,7 @@ import signal
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from multiprocessing import forkserver
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from pathlib import Path
@@ -63,14 +64,25 @@ class ForkServer:
                 return robot
         return ChildProcess(process, log)
 
+    def prepare(self, environment: Mapping[str, str]) -> None:
+        """Start the server, which imports what robots need while this process goes on."""
+        if self._context is None:
+            return
+        self._context.set_forkserver_preload(list(PRELOAD))
+        try:
+            with _environment(environment):
+                forkserver.ensure_running()
+        except OSError:
+            self._context = None
+
     def _fork(self, process: Process, settings: AgentSettings, log: Path) -> ForkedRobot | None:
         """The robot; None without a fork server."""
+        self.prepare(process.environment)
         if self._context is None:
             return None
         write_settings_of(process)
         with log.open("ab") as out:
             begin = out.tell()
-        self._context.set_forkserver_preload(list(PRELOAD))
         group_ready, held = self._context.Pipe(duplex=False)
         robot = self._context.Process(target=run_forked, args=(settings, process.environment, str(log), held))
         try:

@@ -2,12 +2,15 @@
 
 import signal
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from types import FrameType, TracebackType
 from typing import Self
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import event_line
+from schemas.bus.announcement import announcement_in
 from schemas.bus.contract import Bus, BusError, ReceivedMessage
+from schemas.bus.endpoint import DEFAULT_ENDPOINT, local_endpoint
 from schemas.bus.zenoh.bus import open_client
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.messages.game import GameEvent, GameState
@@ -16,7 +19,7 @@ from schemas.process.clock import Clock
 from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle
 from touchline.launch.fork_server import ForkServer
-from touchline.launch.processes import MatchPlan, Process, processes_of
+from touchline.launch.processes import ROBOT_ENVIRONMENT, MatchPlan, Process, client_processes, host_process
 from touchline.launch.result import NOTABLE, MatchResult
 from touchline.launch.supervisor import AFTER_THE_MATCH, AT_ONCE, Supervisor
 from touchline.watch.screen import Screen
@@ -24,6 +27,8 @@ from touchline.watch.status_line import status_line
 
 _POLL = 0.05
 """Wall time between polls of processes and bus, s."""
+_LOOK = 0.01
+"""Wall time between two looks for the announcement of a host that is starting, s."""
 _LAST_MESSAGES = 5.0
 """Wall time for the host's last messages to arrive after its process has ended, s. They have all arrived when the link
 closes, and it closes with the process: only an overloaded machine takes long."""
@@ -80,7 +85,7 @@ class MatchRun:
         self._recorded = recorded
         self._robots = sum(len(plan.config.robots(side)) for side in Side)
         self._fork_server = ForkServer()
-        self._supervisor = Supervisor(processes_of(plan), self._launch, clock)
+        self._supervisor = Supervisor([host_process(plan)], self._launch, clock)
 
     def play(self) -> MatchResult:
         """Play the match.
@@ -93,7 +98,8 @@ class MatchRun:
         with StopSignals() as stop:
             try:
                 self._supervisor.start()
-                follower = self._follow(stop)
+                self._fork_server.prepare(ROBOT_ENVIRONMENT)
+                follower = self._follow(stop) if self._launch_clients(stop) else None
             except BaseException:
                 self._supervisor.end(AT_ONCE)
                 raise
@@ -106,6 +112,20 @@ class MatchRun:
 
     def _launch(self, process: Process) -> ProcessHandle:
         return self._fork_server.launch(process, self._plan.folder / f"{process.name}.log")
+
+    def _launch_clients(self, stop: StopSignals) -> bool:
+        """Launch all other processes as soon as the host listens; False if it never does."""
+        self._screen.status("waiting for the host")
+        while self._poll_processes(stop):
+            announcement = announcement_in(self._plan.announcement)
+            if announcement is not None:
+                is_unexpected = announcement.endpoint != local_endpoint(self._plan.listen or DEFAULT_ENDPOINT)
+                self._screen.event(f'match "{announcement.match}" on {announcement.endpoint}', notable=is_unexpected)
+                self._plan = replace(self._plan, listen=announcement.endpoint)
+                self._supervisor.add(client_processes(self._plan))
+                return True
+            self._clock.sleep_until(self._clock.now() + _LOOK)
+        return False
 
     def _follow(self, stop: StopSignals) -> MatchFollower | None:
         """Watch until the host has ended or a signal is received; None if the host was never reached."""

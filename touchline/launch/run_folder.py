@@ -1,5 +1,6 @@
 """The folder of a match's files under `runs/`, named after match, time and seed."""
 
+import secrets
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -13,7 +14,7 @@ RECORDING = "match.mcap"
 
 
 def prepare_run(
-    config: MatchConfig, listen: str, recording: Path | None, clock: Clock, *, recorded: bool = True
+    config: MatchConfig, listen: str | None, recording: Path | None, clock: Clock, *, recorded: bool = True
 ) -> MatchPlan:
     """Make the folder of a run.
 
@@ -34,7 +35,7 @@ def prepare_run(
         if refusal:
             refusal = f"--record {out}: {refusal}; the match is played, its recording goes to {folder / RECORDING}"
             out = folder / RECORDING
-        plan = MatchPlan(config, listen, folder, out, refusal)
+        plan = MatchPlan(config, listen, folder, out, refusal, launch_token=secrets.token_hex(16))
     except OSError as error:
         raise TouchlineError(f"{error.filename}: {error.strerror}; a match writes its logs under ./{RUNS}") from None
     return plan

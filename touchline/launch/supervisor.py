@@ -4,6 +4,7 @@ Independent of bus and screen; the clock and the launch function are parameters.
 """
 
 import signal
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -75,14 +76,20 @@ class Supervisor:
         self._launch = launch
         self._clock = clock
         self._running: dict[str, RunningProcess] = {}
-        self._restarts = dict.fromkeys(self._processes, 0)
+        self._restarts: Counter[str] = Counter()
         self.ended: dict[str, int] = {}
         """Name → exit status of the processes that ended and were not restarted."""
 
     def start(self) -> None:
-        """Launch all processes, in the order of the table."""
+        """Launch all processes, in their order."""
         for name, process in self._processes.items():
             self._running[name] = self._launch(process)
+
+    def add(self, processes: Sequence[Process]) -> None:
+        """Launch further processes, in their order."""
+        for process in processes:
+            self._processes[process.name] = process
+            self._running[process.name] = self._launch(process)
 
     def check(self) -> list[Notice]:
         """Poll all processes once; restart ended ones if the table allows it."""

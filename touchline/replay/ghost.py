@@ -124,7 +124,7 @@ def main(arguments: list[str] | None = None) -> int:
         with open_client(
             os.environ["TOUCHLINE_MATCH"], WallClock(), os.environ["TOUCHLINE_CONNECT"], _PATIENCE_S
         ) as bus:
-            return serve(bus, build, robot, _PATIENCE_S)
+            return serve(bus, build, robot, _PATIENCE_S, os.environ.get("TOUCHLINE_LAUNCH_TOKEN"))
     except TouchlineError as error:
         sys.stderr.write(f"{error}\n")
         return 2

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from statistics import median
-from typing import Any
+from typing import Any, NamedTuple
 
 from schemas.league.findings import Findings
 from schemas.league.lenient_json import REQUIRED, fields_of, items_of, number, vector
@@ -31,7 +31,35 @@ _DECODER = json.JSONDecoder(strict=False)
 RobotRow = tuple[float, float, float, float, float, float, float, float]
 """Time in ms; x, y, heading, vx, vy, omega in the league's axes, NaN if unknown; 1 with the ball, else 0."""
 BallRow = tuple[float, float, float, float, float, float, float, float]
-"""Time in ms; x, y, z, vx, vy, vz in the league's axes, NaN if unknown; the team's confidence."""
+"""Time in ms; x, y, z, vx, vy, vz in the league's axes; the team's confidence from 0 to 1. NaN if unknown."""
+_RECORD_KEYS = frozenset({"teamName", "timestamp", "gametimeMs", "worldstate"})
+_WORLD_KEYS = frozenset(REQUIRED)
+_ROBOT_KEYS = frozenset(
+    {"id", "pose", "position", "targetPose", "velocity", "intention", "batteryLevel", "ballEngaged"}
+)
+"""Keys whose values are imported, or counted by themselves."""
+_TEXT = 80
+"""Most characters of a text in a radio message."""
+
+
+class RobotReport(NamedTuple):
+    """What one robot reports in one record, in the league's axes; unknown numbers are NaN."""
+
+    epoch_ms: float
+    number: int
+    x: float
+    y: float
+    heading: float
+    vx: float
+    vy: float
+    omega: float
+    target: tuple[float, float, float] | None
+    """Pose that it drives to; None if unknown."""
+    battery: float | None
+    """Percent; None if unknown."""
+    intention: str
+    team_intention: str
+    """The intention of its team in this record."""
 
 
 @dataclass(slots=True)
@@ -47,6 +75,8 @@ class TeamLog:
     """Times of the records that were read, in ms since 1970."""
     robots: dict[int, list[RobotRow]] = field(default_factory=dict)
     balls: list[BallRow] = field(default_factory=list)
+    reports: list[RobotReport] = field(default_factory=list)
+    """By time."""
 
 
 @dataclass(slots=True)
@@ -56,10 +86,13 @@ class _Record:
     team: str
     robots: dict[int, RobotRow]
     ball: BallRow | None
+    reports: list[RobotReport]
+    left_out: list[tuple[str, int]]
+    """Data that has no place in a recording, with its number."""
 
 
-def read_team(text: str, letter: str, findings: Findings) -> TeamLog:
-    """Read the file of one team; `letter` is A or B."""
+def read_team(text: str, letter: str, findings: Findings, left_out: Findings) -> TeamLog:
+    """Read the file of one team; `letter` is A or B. Data without a place in a recording is counted in `left_out`."""
     log = TeamLog()
     found: list[_Record] = []
     for index, raw in enumerate(_raw_records(text, letter, findings), 1):
@@ -77,6 +110,10 @@ def read_team(text: str, letter: str, findings: Findings) -> TeamLog:
             log.robots.setdefault(robot, []).append(row)
         if record.ball is not None:
             log.balls.append(record.ball)
+        log.reports += record.reports
+        left_out.place = f"{letter}, record {record.number}"
+        for what, count in record.left_out:
+            left_out.note(what, count=count)
     return log
 
 
@@ -126,19 +163,58 @@ def _record(raw: Any, index: int, findings: Findings) -> _Record | None:
         if key not in world:
             findings.note(f"worldstate without {key}")
     robots: dict[int, RobotRow] = {}
+    reports: list[RobotReport] = []
+    left_out = _unknown_keys(record, _RECORD_KEYS, "record") + _unknown_keys(world, _WORLD_KEYS, "worldstate")
+    intention = _text(world.get("intention"), "intention of a team", findings)
     for one in items_of(world.get("robots")):
-        read = _robot(fields_of(one, findings), epoch_ms, findings)
+        fields = fields_of(one, findings)
+        read = _robot(fields, epoch_ms, findings)
         if read is None:
             continue
         name, row = read
         if name in robots:
             findings.note("robot twice in one record, the second left out", lost=True)
-        else:
-            robots[name] = row
+            continue
+        robots[name] = row
+        reports.append(_report(fields, name, row, intention, findings))
+        left_out += _unknown_keys(fields, _ROBOT_KEYS, "robot")
+    ball, further = _best_ball(world, epoch_ms, findings)
+    obstacles = len(items_of(world.get("obstacles")))
+    left_out += [("obstacles that a team sees", obstacles), ("further balls that a team sees", further)]
+    if number(world.get("ageMs"), "ageMs", Findings()):
+        left_out.append(("ages of records that are not 0", 1))
     team = record.get("teamName") or world.get("teamName")
     return _Record(
-        epoch_ms, index, team if isinstance(team, str) else "", robots, _best_ball(world, epoch_ms, findings)
+        epoch_ms,
+        index,
+        team if isinstance(team, str) else "",
+        robots,
+        ball,
+        reports,
+        [(what, count) for what, count in left_out if count],
     )
+
+
+def _report(fields: dict[str, Any], name: int, row: RobotRow, intention: str, findings: Findings) -> RobotReport:
+    """What a robot reports beside its pose."""
+    x, y, heading = vector(fields.get("targetPose"), 3, "targetPose", findings)
+    target = None if x is None or y is None else (x, y, _or_nan(heading))
+    battery = number(fields.get("batteryLevel"), "batteryLevel", findings)
+    own = _text(fields.get("intention"), "intention of a robot", findings)
+    return RobotReport(row[0], name, *row[1:7], target, battery, own, intention)
+
+
+def _text(value: Any, what: str, findings: Findings) -> str:
+    """A text of at most `_TEXT` characters."""
+    if not isinstance(value, str):
+        return ""
+    if len(value) > _TEXT:
+        findings.note(f"{what} longer than {_TEXT} characters: shortened")
+    return value[:_TEXT]
+
+
+def _unknown_keys(fields: dict[str, Any], known: frozenset[str], what: str) -> list[tuple[str, int]]:
+    return [(f'values of the key "{key}" of a {what}', 1) for key in fields if key not in known]
 
 
 def _robot(robot: dict[str, Any], epoch_ms: float, findings: Findings) -> tuple[int, RobotRow] | None:
@@ -172,9 +248,10 @@ def _robot(robot: dict[str, Any], epoch_ms: float, findings: Findings) -> tuple[
     return int(name), (epoch_ms, x, y, rest[0], rest[1], rest[2], rest[3], float((has_ball or 0.0) > 0.5))
 
 
-def _best_ball(world: dict[str, Any], epoch_ms: float, findings: Findings) -> BallRow | None:
-    """The ball with the team's highest confidence."""
+def _best_ball(world: dict[str, Any], epoch_ms: float, findings: Findings) -> tuple[BallRow | None, int]:
+    """The ball with the team's highest confidence, and the number of further balls."""
     best: BallRow | None = None
+    count = 0
     for one in items_of(world.get("balls")):
         ball = fields_of(one, findings)
         x, y, z = vector(ball.get("position"), 3, "position of a ball", findings)
@@ -189,15 +266,15 @@ def _best_ball(world: dict[str, Any], epoch_ms: float, findings: Findings) -> Ba
             findings.note("ball without a velocity: derived from its positions")
         confidence = number(ball.get("confidence"), "confidence", findings)
         if confidence is None:
-            findings.note("ball without a confidence: it counts as 1")
-            confidence = 1.0
-        if not 0 <= confidence <= 1:
-            findings.note("confidence outside 0 to 1: limited to that range")
-            confidence = min(1.0, max(0.0, confidence))
-        if best is None or confidence > best[-1]:
+            findings.note("ball without a confidence: it is unknown")
+        elif not 0 <= confidence <= 1:
+            findings.note("confidence outside 0 to 1: it is unknown")
+            confidence = None
+        count += 1
+        if best is None or (confidence is not None and not confidence <= best[-1]):
             vx, vy, vz = (_or_nan(value) for value in velocity)
-            best = (epoch_ms, x, y, _or_nan(z), vx, vy, vz, confidence)
-    return best
+            best = (epoch_ms, x, y, _or_nan(z), vx, vy, vz, _or_nan(confidence))
+    return best, max(0, count - 1)
 
 
 def _or_nan(value: float | None) -> float:

@@ -12,6 +12,9 @@ from sim_host.server.services.action_handler import ActionHandler
 from sim_host.server.services.order_handler import OrderHandler
 from sim_host.server.services.query_handler import QueryHandler
 
+_CLAIMS = {"claims": True}
+"""`PresenceTracker` serves the agents' claims."""
+
 
 class Services:
     """All services of a host, processed between two ticks."""
@@ -26,7 +29,7 @@ class Services:
     ) -> None:
         """`has_referee_box` returns whether a league's referee box is connected, which then officiates alone."""
         self._batches = batches
-        self._setup = QueryHandler(bus, SETUP, lambda _: simulation.setup(), invalid_log)
+        self._setup = QueryHandler(bus, SETUP, lambda _: simulation.setup().model_copy(update=_CLAIMS), invalid_log)
         self._parameters = QueryHandler(bus, PARAMETERS, simulation.handle_parameters, invalid_log)
         self._scene = QueryHandler(bus, SCENE, simulation.handle_scene, invalid_log)
         self._orders = OrderHandler(bus, simulation.orders, lambda: simulation.profile.field, invalid_log, batches)

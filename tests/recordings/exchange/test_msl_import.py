@@ -19,45 +19,7 @@ from schemas.league.findings import Findings
 from schemas.messages.game import GameState
 from schemas.messages.world import World
 from schemas.topics import STATE, WORLD
-
-START_MS = 1467540000000
-
-
-def robot(number: Any = 2, pose: Any = (1.0, -2.0, 0.5), **more: Any) -> dict[str, Any]:
-    fields = {"velocity": [0.5, 0.0, 0.0], "intention": "", "batteryLevel": 90.0, "ballEngaged": 0}
-    return {"id": number, "pose": pose, "targetPose": pose, **fields, **more}
-
-
-def record(after_ms: float = 0, robots: Any = None, balls: Any = None, **more: Any) -> dict[str, Any]:
-    state = {
-        "type": "worldstate",
-        "teamName": "Reds",
-        "intention": "",
-        "robots": [robot()] if robots is None else robots,
-        "balls": [{"position": [0.0, 3.0, 0.2], "velocity": [0, 0, 0], "confidence": 0.9}] if balls is None else balls,
-        "obstacles": [],
-        "ageMs": 0,
-    }
-    return {"teamName": "Reds", "timestamp": START_MS + after_ms, "gametimeMs": 0, "worldstate": state | more}
-
-
-class Log:
-    """A log's files, written and imported."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder / "20160703_120000"
-        self.folder.mkdir()
-
-    def write(self, letter: str, records: list[Any] | str) -> None:
-        text = records if isinstance(records, str) else json.dumps(records)
-        (self.folder / f"20160703_120000.{letter}.msl").write_text(text, encoding="utf-8")
-
-    def events(self, *lines: str) -> None:
-        (self.folder / "20160703_120000.msl").write_text("\n".join(lines))
-
-    def read(self, **options: Any) -> tuple[ImportSummary, Recording]:
-        imported = import_log([self.folder], self.folder.with_suffix(".mcap"), **options)
-        return imported, open_recording(imported.out)
+from support.msl_log import START_MS, Log, record, robot
 
 
 @pytest.fixture
@@ -233,7 +195,7 @@ def test_no_cut_and_no_flipped_bit_is_ever_worse_than_counted() -> None:
         flipped[chance.randrange(len(whole))] ^= 1 << chance.randrange(8)
         for damaged in (cut, bytes(flipped)):
             findings = Findings()
-            log = read_team(damaged.decode("utf-8", errors="replace"), "A", findings)
+            log = read_team(damaged.decode("utf-8", errors="replace"), "A", findings, Findings())
             assert log.read <= log.records <= 10
             assert log.read >= 9 or findings.lost or len(damaged) < len(whole)
 
@@ -284,7 +246,11 @@ def test_signals_of_either_kind_tell_the_same_game(kind: str, log: Log) -> None:
     assert told[-1].phase is Phase.FULL_TIME
     assert (told[-1].score, told[-1].half, told[-1].cyan_attacks) == (Score(magenta=1), 2, -1)
     assert told[-1].clock == pytest.approx(2.5) and told[-1].effective == pytest.approx(2.0)
-    assert found(imported) == {"line that is not a signal": 1, "unknown signal": 1}
+    assert found(imported) == {
+        "signal before the first record: moved to the beginning": 1,
+        "line that is not a signal": 1,
+        "unknown signal": 1,
+    }
     by_time = {round(world.time, 2): world for world in worlds(recording)}
     assert by_time[1.76].robots["cyan2"].x == pytest.approx(-2.0)
     assert by_time[1.84].robots["cyan2"].x == pytest.approx(2.0), "the second half begins with its kick-off"

@@ -7,6 +7,7 @@ from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
+from schemas.bus.settings import ClientSettings
 from schemas.game import ActionName, Phase, Score
 from schemas.messages.game import ActionReply, GameState, RefereeAction
 from schemas.messages.health import Health, RobotHealth
@@ -49,10 +50,10 @@ def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[Host]:
     there = Host()
 
     @contextmanager
-    def seat(connect: str, match: str) -> Iterator[Bus]:
+    def seat(connection: ClientSettings) -> Iterator[Bus]:
         clock = TalkingClock()
         clock.host = there
-        with there.medium.open_bus(match, clock) as bus:
+        with there.medium.open_bus(connection.match or "friendly", clock) as bus:
             yield bus
 
     monkeypatch.setattr(coach, "bus_client", seat)

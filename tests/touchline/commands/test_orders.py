@@ -9,6 +9,7 @@ from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
+from schemas.bus.settings import ClientSettings
 from schemas.game import Point
 from schemas.messages.coach import CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import KickMode
@@ -44,8 +45,8 @@ def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[Host]:
     there = Host()
 
     @contextmanager
-    def seat(connect: str, match: str) -> Iterator[Bus]:
-        with there.medium.open_bus(match, SteppedClock()) as bus:
+    def seat(connection: ClientSettings) -> Iterator[Bus]:
+        with there.medium.open_bus(connection.match or "friendly", SteppedClock()) as bus:
             yield bus
 
     monkeypatch.setattr(orders, "bus_client", seat)

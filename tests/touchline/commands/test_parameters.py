@@ -10,6 +10,7 @@ from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
+from schemas.bus.settings import ClientSettings
 from schemas.config.match_config import MatchConfig
 from schemas.errors import TouchlineError
 from schemas.messages.parameters import ParametersReply
@@ -39,8 +40,8 @@ def host(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
                 query.reply(ParametersReply(accepted=False, reason=str(error)))
 
     @contextmanager
-    def seat(connect: str, match: str) -> Iterator[Bus]:
-        with medium.open_bus(match, SteppedClock()) as client:
+    def seat(connection: ClientSettings) -> Iterator[Bus]:
+        with medium.open_bus(connection.match or "friendly", SteppedClock()) as client:
             yield client
 
     monkeypatch.setattr(parameters, "bus_client", seat)

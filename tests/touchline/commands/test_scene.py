@@ -12,6 +12,7 @@ from typer.testing import CliRunner, Result
 
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState
+from schemas.bus.settings import ClientSettings
 from schemas.config.match_config import load_match
 from schemas.config.scene import shipped_scenes
 from schemas.process.clock import SteppedClock
@@ -36,8 +37,8 @@ def simulation(monkeypatch: pytest.MonkeyPatch) -> Iterator[Simulation]:
             query.reply(simulation.handle_scene(query.message()))
 
     @contextmanager
-    def seat(connect: str, match: str) -> Iterator[Bus]:
-        with medium.open_bus(match, SteppedClock()) as client:
+    def seat(connection: ClientSettings) -> Iterator[Bus]:
+        with medium.open_bus(connection.match or "friendly", SteppedClock()) as client:
             yield client
 
     monkeypatch.setattr(scene, "bus_client", seat)

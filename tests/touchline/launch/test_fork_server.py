@@ -22,7 +22,7 @@ from schemas.process.clock import WallClock
 from schemas.topics import SETUP
 from touchline.launch.child_process import ChildProcess, ProcessHandle
 from touchline.launch.fork_server import ForkedRobot, ForkServer
-from touchline.launch.processes import MatchPlan, Process, ProcessKind, processes_of
+from touchline.launch.processes import MatchPlan, Process, ProcessKind, client_processes
 
 pytestmark = [
     pytest.mark.processes,
@@ -165,7 +165,9 @@ def test_forked_or_not_a_robot_has_the_same_environment_module_path_and_order_of
     (tmp_path / "mind.py").write_text(BRAIN)
     monkeypatch.chdir(tmp_path)
     endpoint = with_free_port("tcp/127.0.0.1:0")
-    process = processes_of(MatchPlan(load_match(None, {"teams.cyan.brain": "mind:Brain"}), endpoint, tmp_path, None))[1]
+    process = client_processes(
+        MatchPlan(load_match(None, {"teams.cyan.brain": "mind:Brain"}), endpoint, tmp_path, None)
+    )[0]
     said = []
     with open_host("friendly", WallClock(), endpoint) as host:
         server = host.serve(SETUP)
@@ -195,7 +197,7 @@ SUPERVISOR = """
 import os, signal, sys
 from pathlib import Path
 from touchline.launch.fork_server import ForkServer
-from touchline.launch.processes import ProcessKind, MatchPlan, Process, processes_of
+from touchline.launch.processes import ProcessKind, MatchPlan, Process, client_processes
 from robot_agent.settings import AgentSettings
 folder, server = Path(sys.argv[1]), ForkServer()
 for name in sys.argv[2:]:
@@ -244,3 +246,40 @@ def test_the_fork_server_s_own_function_is_imported_without_anything_heavy() -> 
     code = "import sys, touchline.launch.fork_server; print(*{'zenoh', 'pybullet', 'mcap', 'numpy'} & set(sys.modules))"
     printed = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, check=True, text=True).stdout
     assert printed.split() == []
+
+
+UNDER_NOHUP = """
+import signal, sys, time
+from pathlib import Path
+from robot_agent.settings import AgentSettings
+from touchline.launch.child_process import ChildProcess
+from touchline.launch.fork_server import ForkServer
+from touchline.launch.processes import Process, ProcessKind
+for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):
+    signal.signal(number, signal.SIG_IGN)
+folder = Path(sys.argv[1])
+settings = AgentSettings(connect="tcp/127.0.0.1:1", match="m", robot="cyan1", brain="no:Brain", patience=600)
+robot = Process("cyan1", ProcessKind.AGENT, ("none",), {}, 3, settings, folder / "cyan1.json")
+code = "import signal; print('rests', flush=True); signal.pause()"
+host = Process("host", ProcessKind.HOST, (sys.executable, "-c", code), {})
+for number in (signal.SIGINT, signal.SIGTERM):
+    forked, program = ForkServer().launch(robot, folder / "cyan1.log"), ChildProcess(host, folder / "host.log")
+    while Path(f"/proc/{forked.pid}/comm").read_text().strip() != "cyan1" or not program.last_lines():
+        time.sleep(0.01)
+    for child in (forked, program):
+        child.send(signal.SIGHUP)
+        assert child.status() is None
+        child.send(number)
+        while child.status() is None:
+            time.sleep(0.01)
+        print(number.name, type(child).__name__)
+"""
+
+
+def test_processes_are_ended_by_signals_that_their_launcher_ignores(tmp_path: Path) -> None:
+    """Shells start background jobs with SIGINT ignored; what `nohup` ignores, SIGHUP, stays ignored."""
+    command = [sys.executable, "-c", UNDER_NOHUP, str(tmp_path)]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=_LIMIT_S, check=False)
+    assert ended.stdout.splitlines() == [
+        f"{number} {kind}" for number in ("SIGINT", "SIGTERM") for kind in ("ForkedRobot", "ChildProcess")
+    ], ended.stderr

@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 from schemas.bus.contract import ReceivedMessage, Stamp
-from schemas.bus.endpoint import with_free_port
 from schemas.config.match_config import load_match
 from schemas.errors import MatchFailedError, TouchlineError
 from schemas.game import EventKind, Phase, Score
@@ -26,15 +25,19 @@ pytestmark = pytest.mark.processes
 
 HOST = """
 import os, pathlib, signal, sys
+from schemas.bus.announcement import Announcement, announced
 from schemas.bus.zenoh.bus import open_host
 from schemas.process.clock import WallClock
 from schemas.game import EventKind, Phase, Score
 from schemas.messages.game import GameEvent, GameState
 from schemas.topics import EVENT, STATE
 
-def play(listen, seen, phase):
+def play(announcement, seen, phase):
     clock = WallClock()
-    with open_host("friendly", clock, listen) as bus:
+    with (
+        open_host("friendly", clock, "tcp/127.0.0.1:0") as bus,
+        announced(Announcement(endpoint=bus.endpoint, match="friendly", pid=1, folder="."), pathlib.Path(announcement)),
+    ):
         states, events = bus.publisher(STATE), bus.publisher(EVENT)
         while not pathlib.Path(seen).exists():
             states.put(GameState(tick=1, time=0.02, phase=Phase.PLAY, clock=0.02))
@@ -76,21 +79,22 @@ class Stage:
 
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch, host: str, agent: str, recorder: str) -> None:
         recording = folder / "match.mcap" if recorder else None
-        self.plan = MatchPlan(load_match(None), with_free_port("tcp/127.0.0.1:0"), folder, recording)
+        self.plan = MatchPlan(load_match(None), None, folder, recording)
         self.words = io.StringIO()
         programs = {
-            "host": (ProcessKind.HOST, host, (self.plan.listen, str(folder / "seen"))),
+            "host": (ProcessKind.HOST, host, (str(self.plan.announcement), str(folder / "seen"))),
             "cyan1": (ProcessKind.AGENT, agent, ()),
             "recorder": (ProcessKind.RECORDER, recorder, (str(recording),)),
         }
-        processes = [
+        host, *clients = [
             Process(
                 name, kind, (sys.executable, "-c", code, *words), {}, restarts=3 if kind is ProcessKind.AGENT else 0
             )
             for name, (kind, code, words) in programs.items()
             if code
         ]
-        monkeypatch.setattr(match_run, "processes_of", lambda plan: processes)
+        monkeypatch.setattr(match_run, "host_process", lambda plan: host)
+        monkeypatch.setattr(match_run, "client_processes", lambda plan: clients)
 
     def play(self, awaited: str = "", recorded: Sequence[ReceivedMessage] = ()) -> MatchResult:
         clock = WallClock()

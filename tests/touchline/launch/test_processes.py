@@ -1,4 +1,5 @@
 import re
+import socket
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -19,26 +20,30 @@ from sim_host.server.settings import HostSettings
 from touchline.launch.processes import (
     PROCESSES,
     MatchPlan,
+    Page,
     Process,
     ProcessKind,
     check_robot_names,
-    processes_of,
+    client_processes,
+    host_process,
 )
 from touchline.launch.run_folder import prepare_run
+
+JOINED = {"connect": "tcp/127.0.0.1:7447", "match": "friendly"}
 
 
 def plan(
     recording: Path | None = Path("match.mcap"), listen: str = "tcp/127.0.0.1:7447", **overrides: object
 ) -> MatchPlan:
-    return MatchPlan(load_match(None, overrides), listen, Path("runs/one"), recording)
+    return MatchPlan(load_match(None, overrides), listen, Path("runs/one"), recording, launch_token="secret")
 
 
 def by_name(plan: MatchPlan) -> dict[str, Process]:
-    return {process.name: process for process in processes_of(plan)}
+    return {process.name: process for process in (host_process(plan), *client_processes(plan))}
 
 
 def test_a_friendly_has_a_host_a_recorder_and_ten_agents() -> None:
-    names = [process.name for process in processes_of(plan())]
+    names = [process.name for process in (host_process(plan()), *client_processes(plan()))]
     assert names == ["host", "recorder", *(f"{side}{n}" for side in ("cyan", "magenta") for n in range(1, 6))]
 
 
@@ -61,13 +66,16 @@ def test_the_settings_of_a_host_are_its_match_and_its_endpoint() -> None:
     host = by_name(plan(seed=7))["host"].settings
     assert isinstance(host, HostSettings)
     assert (host.config.seed, host.listen, host.insecure) == (7, "tcp/127.0.0.1:7447", False)
+    assert (host.launch_token, host.announcement) == ("secret", Path("runs/one/endpoint.json"))
     open_host = by_name(plan(listen="tcp/0.0.0.0:7447"))["host"].settings
     assert isinstance(open_host, HostSettings) and open_host.insecure
 
 
 def test_the_settings_of_an_agent_are_its_match_its_robot_and_its_brain() -> None:
     agent = by_name(plan())["magenta2"]
-    assert agent.settings == AgentSettings(robot="magenta2", brain="robot_agent.teams.nubot:NuBot")
+    assert agent.settings == AgentSettings(
+        **JOINED, robot="magenta2", brain="robot_agent.teams.nubot:NuBot", launch_token="secret"
+    )
     assert agent.environment["TOUCHLINE_SIDE"] == "magenta"
     assert agent.environment["PYTHONHASHSEED"] == "0"
     assert agent.restarts == PROCESSES[ProcessKind.AGENT].restarts == 3
@@ -77,19 +85,24 @@ def test_a_team_with_a_command_gets_its_robot_in_environment_variables() -> None
     agent = by_name(plan(**{"teams.cyan.command": ["./robot", "--fast"], "teams.cyan.size": 1}))["cyan1"]
     assert agent.command == ("./robot", "--fast")
     assert agent.settings is None
-    assert {key: agent.environment[f"TOUCHLINE_{key}"] for key in ("CONNECT", "MATCH", "ROBOT", "SIDE")} == {
+    assert {
+        key: agent.environment[f"TOUCHLINE_{key}"] for key in ("CONNECT", "MATCH", "ROBOT", "SIDE", "LAUNCH_TOKEN")
+    } == {
         "CONNECT": "tcp/127.0.0.1:7447",
         "MATCH": "friendly",
         "ROBOT": "cyan1",
         "SIDE": "cyan",
+        "LAUNCH_TOKEN": "secret",
     }
 
 
 def test_a_page_is_launched_where_one_is_wanted_with_its_tokens_in_a_file() -> None:
     assert "page" not in by_name(plan())
     web = WebSettings(port=8081)
-    page = by_name(replace(plan(), page=web))["page"]
-    assert page.settings == GatewaySettings(tokens=Path("runs/one/tokens.json"), web=web)
+    with socket.socket() as listener:
+        page = by_name(replace(plan(), page=Page(web, listener)))["page"]
+    assert page.sockets == (listener,)
+    assert page.settings == GatewaySettings(**JOINED, tokens=Path("runs/one/tokens.json"), web=web)
     assert page.restarts == 3
 
 
@@ -97,7 +110,7 @@ def test_bridges_are_launched_where_they_are_wanted_with_the_options_that_were_g
     assert "bridges" not in by_name(plan())
     options = BridgeOptions(udp=28090, refbox_server=["cyan:28097"], refbox="10.0.0.2", team=[Side.MAGENTA])
     bridges = by_name(replace(plan(), bridges=options))["bridges"]
-    assert bridges.settings == GatewaySettings(tokens=Path("runs/one/tokens.json"), bridges=options)
+    assert bridges.settings == GatewaySettings(**JOINED, tokens=Path("runs/one/tokens.json"), bridges=options)
     assert bridges.restarts == 3
 
 

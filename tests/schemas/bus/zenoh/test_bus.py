@@ -9,8 +9,9 @@ import time
 
 import pytest
 
-from schemas.bus.contract import BusError
+from schemas.bus.contract import BusError, PresenceKind
 from schemas.bus.endpoint import is_loopback, parse_endpoint, with_free_port
+from schemas.bus.zenoh import session
 from schemas.bus.zenoh.bus import open_client, open_host
 from schemas.bus.zenoh.reader import ZenohReader
 from schemas.messages.command import Command
@@ -25,6 +26,51 @@ def test_a_port_in_use_is_one_line_with_the_remedy() -> None:
         open_host("test", WallClock(), endpoint)
     assert str(error.value).startswith(f"--listen {endpoint} is in use by another process; choose another port")
     assert "\n" not in str(error.value)
+
+
+def test_a_host_on_a_free_port_knows_where_it_listens() -> None:
+    with (
+        open_host("test", WallClock(), "tcp/127.0.0.1:0") as host,
+        open_host("test", WallClock(), "tcp/127.0.0.1:0") as other,
+        open_client("test", WallClock(), host.endpoint) as client,
+    ):
+        assert host.endpoint != other.endpoint
+        assert (client.endpoint, client.connected()) == (host.endpoint, True)
+
+
+def test_a_host_without_an_endpoint_takes_the_default_one_or_a_free_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    default = with_free_port("tcp/127.0.0.1:0")
+    monkeypatch.setattr(session, "DEFAULT_ENDPOINT", default)
+    with open_host("test", WallClock()) as first, open_host("test", WallClock()) as second:
+        assert first.endpoint == default
+        assert second.endpoint.startswith("tcp/127.0.0.1:") and second.endpoint != default
+
+
+def test_an_address_of_another_machine_is_one_line_with_the_remedy() -> None:
+    with pytest.raises(
+        BusError, match=r"^--listen tcp/192\.0\.2\.1:0 cannot be listened on \(.*\); choose another address$"
+    ):
+        open_host("test", WallClock(), "tcp/192.0.2.1:0")
+
+
+def test_a_protocol_without_connections_has_no_free_port() -> None:
+    with pytest.raises(BusError, match="udp has no free port to take; name a port, or use tcp"):
+        open_host("test", WallClock(), "udp/127.0.0.1:0")
+
+
+def test_a_client_without_a_name_joins_the_match_that_its_host_plays() -> None:
+    with open_host("cup", WallClock(), "tcp/127.0.0.1:0") as host:
+        host.declare_alive(PresenceKind.HOST, "host")
+        with open_client(None, WallClock(), host.endpoint) as client:
+            assert client.match == "cup"
+
+
+def test_an_endpoint_where_no_match_is_played_is_one_line_with_the_remedy() -> None:
+    with open_host("cup", WallClock(), "tcp/127.0.0.1:0") as host, pytest.raises(BusError) as error:
+        open_client(None, WallClock(), host.endpoint, patience=0.0)
+    assert str(error.value) == (
+        f"--connect {host.endpoint}: no match is played there; start one with `touchline match`"
+    )
 
 
 def test_a_client_without_a_host_reports_it_after_its_patience() -> None:
