@@ -9,7 +9,7 @@ from collections.abc import Callable
 from coach_gateway.access.tokens import Tokens, tokens_of
 from coach_gateway.bridges import bridges_of, services_of
 from coach_gateway.match.change_log import log_changes
-from coach_gateway.match.lines import printable
+from coach_gateway.match.team_names import printable
 from coach_gateway.ports import InheritedSockets
 from coach_gateway.service import Service
 from coach_gateway.service import run as run_services

@@ -2,11 +2,12 @@
 
 import gc
 import sys
-import traceback
 from collections.abc import Callable
 
+from robot_agent.brain_error import BrainError
 from robot_agent.claim import Membership
 from robot_agent.contract import Brain
+from robot_agent.settings import FIRST_SIGHT_FAILED
 from schemas.bus.contract import Bus, NoReplyError
 from schemas.bus.host_watch import HostWatch
 from schemas.errors import TouchlineError
@@ -20,19 +21,6 @@ _IDLE = 0.25
 """s without a sight after which the host is looked for."""
 _ASK = 1.0
 """s that one query for the setup stays open."""
-
-
-class BrainError(Exception):
-    """The brain raised, or returned something that is not a command; the cause has the traceback."""
-
-    def report(self) -> str:
-        """The traceback of the brain, with the tick and the exception in the last line."""
-        cause = self.__cause__
-        if cause is None:
-            return f"{self}\n"
-        frames = cause.__traceback__.tb_next if cause.__traceback__ is not None else None
-        where = "".join(traceback.format_exception(type(cause), cause, frames))
-        return f"{where}{self}: {type(cause).__name__}: {' '.join(str(cause).split())}\n"
 
 
 class Runner:
@@ -97,10 +85,10 @@ class Runner:
     def _think(self, sight: Sight) -> bytes:
         try:
             command = self.brain.act(sight)
-        except Exception as error:
-            raise BrainError(f"act raised at tick {sight.tick}") from error
+        except (Exception, SystemExit) as error:
+            raise BrainError(sight.tick, self.brain.act) from error
         if not isinstance(command, Command):
-            raise BrainError(f"act returned {command!r} at tick {sight.tick}; return a Command")
+            raise BrainError(sight.tick, self.brain.act, command)
         return command.encode()
 
     def _count_invalid(self, error: BadMessageError) -> None:
@@ -138,6 +126,8 @@ def serve(
 
     `launch_token` is the secret of the launch that the agent belongs to; None without one.
 
+    The status is 0 if the host has gone, 1 if the brain failed, and `FIRST_SIGHT_FAILED` if it did so at once.
+
     A host that has left and is back plays another match: the brain is built again before its first sight of it.
 
     Raises:
@@ -159,7 +149,7 @@ def serve(
                 runner.answer(sight)
             except BrainError as error:
                 sys.stderr.write(error.report())
-                return 1
+                return 1 if runner.answered else FIRST_SIGHT_FAILED
         elif host.is_reachable():
             if is_new_match:
                 setup = ask_setup(bus, patience)

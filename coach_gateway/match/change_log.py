@@ -4,7 +4,9 @@ import threading
 from collections.abc import Callable
 
 from coach_gateway.match.follower import MatchFollower
+from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.lines import event_line, state_line
+from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.errors import TouchlineError
 from schemas.messages.game import GameEvent, GameState
@@ -24,12 +26,13 @@ def log_changes(bus: Bus, log: Callable[[str], None], stop: threading.Event, pat
     bus.declare_alive(PresenceKind.COACH, "watch")
     if not follower.host.wait(patience):
         raise TouchlineError(f'match "{bus.match}": no host plays it there; name the match with --match')
+    names = HostClient(bus, patience).team_names()
     before: GameState | None = None
     going = True
     while going:
         going = not stop.is_set()
         for message in follower.update().messages:
-            line = change_line(before, message)
+            line = change_line(before, message, names)
             before = message if isinstance(message, GameState) else before
             if line is not None:
                 log(line)
@@ -38,15 +41,16 @@ def log_changes(bus: Bus, log: Callable[[str], None], stop: threading.Event, pat
             bus.clock.sleep_until(bus.clock.now() + _POLL_S)
 
 
-def change_line(before: GameState | None, message: GameEvent | GameState | Health) -> str | None:
+def change_line(
+    before: GameState | None, message: GameEvent | GameState | Health, names: TeamNames = SIDES_ALONE
+) -> str | None:
     """The line for a message; None when people see nothing new in it."""
     match message:
         case GameEvent():
-            return event_line(message)
+            return event_line(message, names)
         case GameState():
-            return (
-                state_line(message) if before is None or _comparison_key(before) != _comparison_key(message) else None
-            )
+            is_news = before is None or _comparison_key(before) != _comparison_key(message)
+            return state_line(message, names) if is_news else None
         case Health():
             return None
 

@@ -3,6 +3,7 @@
 from typing import Any
 
 from coach_gateway.match.orders import OrderFollower, Receipt
+from coach_gateway.match.team_names import SIDES_ALONE, TeamNames
 from schemas.bus.contract import Bus, NoReplyError, Publisher
 from schemas.errors import TouchlineError, did_you_mean
 from schemas.messages.coach import CoachOrder
@@ -41,6 +42,13 @@ class HostClient:
         """
         setup: Setup = self._ask(SETUP, SetupRequest())
         return setup
+
+    def team_names(self) -> TeamNames:
+        """The teams' names; of a host that publishes no setup, the sides."""
+        try:
+            return TeamNames.of_setup(self.setup())
+        except TouchlineError:
+            return SIDES_ALONE
 
     def act(self, action: RefereeAction) -> ActionReply:
         """Ask the referee for an action; the reply has whether it was accepted, and why not.

@@ -19,6 +19,10 @@ from schemas.wire.message import VERSION, Name, Part
 MANIFEST = "manifest"
 RESULT = "result"
 """Names of the two metadata records."""
+RECOVERED = "recovered"
+"""Name of the metadata record that a repair adds."""
+DAMAGED_RECORDS = "damaged_records"
+"""Field of that record: the number of damaged records that were left out."""
 
 
 class Manifest(Part):
@@ -94,6 +98,10 @@ class KeyCount(Part):
     """Messages without a sequence number, from a sender that does not use this library: their losses are unknown."""
     left_out: int = 0
     """Messages received while the recorder was paused."""
+
+    def plus(self, other: "KeyCount") -> "KeyCount":
+        """The counts of both."""
+        return KeyCount(**{name: getattr(self, name) + getattr(other, name) for name in KeyCount.model_fields})
 
     def since(self, before: "KeyCount") -> Self:
         """The counts since `before`. None of them is negative, although a late message reduces the losses."""

@@ -61,7 +61,7 @@ def record_faults(recording: Recording) -> list[str]:
             tracker = trackers[recorded.key] = SequenceTracker()
         tracker.add(recorded.stamp, len(recorded.payload))
     result = recording.result
-    if result is None or _was_paused(result):
+    if result is None or not result.keys or _was_paused(result):
         return found
     for key in sorted({*trackers, *result.keys}):
         count = trackers[key].count() if key in trackers else KeyCount()
@@ -133,8 +133,8 @@ def _profile(recording: Recording) -> Profile:
 
 def _of_counts(result: Result, recording: Recording) -> Iterator[str]:
     """The counts in the result, and those of the file."""
-    if _was_paused(result) or recording.manifest.latched_count:
-        return  # latched messages at the beginning of the file, or after a pause, are in no count
+    if not result.keys or _was_paused(result) or recording.manifest.latched_count:
+        return  # of a repaired file, or with latched messages at its beginning or after a pause, which are in no count
     there = {channel.key: channel.messages for channel in recording.channels if channel.messages}
     for key in sorted({*there, *result.keys}):
         sealed = result.keys.get(key, KeyCount()).messages

@@ -3,9 +3,10 @@
 import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
-from recordings.container.manifest import KeyCount
+from recordings.container.manifest import EndReason, KeyCount
 from recordings.inspection.contradictions import contradictions
 from recordings.reading.recording import Recording
 from recordings.recorder.match_progress import MatchProgress
@@ -49,9 +50,15 @@ class RecordingFacts:
     started: str
     """Wall time, ISO 8601, UTC."""
     duration: float
-    """Simulated time in s."""
+    """Simulated time from the first to the last message, in s."""
+    start: float
+    """Simulated time of the first message, in s, without latched messages repeated at the beginning."""
+    end: float
+    """Simulated time of the last message, in s."""
     tick: int
-    """The last tick whose inputs were recorded."""
+    """The last tick whose inputs were recorded, before the recording was filtered; −1 if there is none."""
+    time: float
+    """Simulated time of that tick, in s."""
     phase: str | None
     score: dict[str, int] | None
     ended: str
@@ -90,6 +97,7 @@ def facts_of(recording: Recording) -> RecordingFacts:
     """The facts of a recording; those of a truncated file are collected from its messages."""
     manifest, setup, config = recording.manifest, recording.manifest.setup, recording.manifest.config
     ending = _ending(recording)
+    start, end = _extent(recording)
     described = setup or config
     teams = {side.value: team.name for side, team in setup.teams.items()} if setup is not None else {}
     return RecordingFacts(
@@ -102,8 +110,11 @@ def facts_of(recording: Recording) -> RecordingFacts:
         seed=config.seed if config is not None else None,
         teams=teams,
         started=manifest.started,
-        duration=ending.time,
+        duration=end - start,
+        start=start,
+        end=end,
         tick=ending.tick,
+        time=ending.time,
         phase=ending.phase.value if ending.phase is not None else None,
         score=ending.score.model_dump() if ending.score is not None else None,
         ended=ending.ended,
@@ -119,10 +130,20 @@ def facts_of(recording: Recording) -> RecordingFacts:
         exclude=manifest.exclude,
         damaged=recording.damaged,
         drawn=recording.drawn,
-        size=recording.path.stat().st_size,
+        size=recording.mcap_file.size,
         keys=list(_key_facts(recording, ending.keys)),
         contradictions=contradictions(recording),
     )
+
+
+def _extent(recording: Recording) -> tuple[float, float]:
+    """Simulated times of the first and the last message, in s."""
+    channels = [channel for channel in recording.channels if channel.messages]
+    start = min((channel.start for channel in channels), default=0.0)
+    latched_count = recording.manifest.latched_count
+    if latched_count:
+        start = next((recorded.time for recorded in islice(recording.messages(), latched_count, None)), start)
+    return start, max(start, max((channel.end for channel in channels), default=0.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +158,7 @@ class _Ending:
 
 def _ending(recording: Recording) -> _Ending:
     result = recording.result
-    if result is not None:
+    if result is not None and result.keys:
         return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, result.keys)
     progress = MatchProgress()
     trackers: dict[str, SequenceTracker] = {}
@@ -147,14 +168,17 @@ def _ending(recording: Recording) -> _Ending:
         if number >= recording.manifest.latched_count:
             trackers.setdefault(recorded.key, SequenceTracker()).add(recorded.stamp, len(recorded.payload))
     progress.catch_up()
+    keys = {key: tracker.count() for key, tracker in trackers.items()}
+    if result is not None:  # of a repaired file, whose recorder counted messages that are lost
+        return _Ending(result.ended.value, result.phase, result.score, result.tick, result.time, keys)
     state, applied = progress.state, progress.applied
     return _Ending(
-        ended=CUT_OFF,
+        ended=EndReason.FULL_TIME.value if progress.finished else CUT_OFF,
         phase=state.phase if state is not None else None,
         score=state.score if state is not None else None,
         tick=applied.tick if applied is not None else -1,
         time=applied.time if applied is not None else 0.0,
-        keys={key: tracker.count() for key, tracker in trackers.items()},
+        keys=keys,
     )
 
 

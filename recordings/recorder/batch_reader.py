@@ -26,9 +26,10 @@ QUIET_S = 0.5
 class BatchReader:
     """Subscribes when it is constructed. Wall time in which the process was suspended does not count."""
 
-    def __init__(self, bus: Bus) -> None:
+    def __init__(self, bus: Bus, since_ns: int | None = None) -> None:
+        """Batches published before `since_ns`, the host's wall time, are not read; by default before now."""
         self._bus = bus
-        self._sequence = BatchSequence(bus.clock.unix_ns())
+        self._sequence = BatchSequence(bus.clock.unix_ns() if since_ns is None else since_ns)
         self._subscription = bus.subscribe(RECORD_BATCH)
         self._active = ActiveClock(bus.clock.now())
         self._pending: PendingReply | None = None

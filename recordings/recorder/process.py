@@ -6,7 +6,7 @@ import sys
 import threading
 
 from recordings.recorder.record import record
-from recordings.recorder.recorder import RecordingSummary
+from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.settings import RecorderSettings
 from schemas.process.scheduling import use_batch_scheduling
 
@@ -15,7 +15,7 @@ _GC_THRESHOLD = 100_000
 
 
 def run(settings: RecorderSettings) -> int:
-    """Record until the host leaves, or until SIGINT or SIGTERM; returns the exit status.
+    """Record until the host leaves, or until SIGINT or SIGTERM; returns the exit status, 1 without a recording.
 
     Raises:
         TouchlineError: no host answers, or the file cannot be written.
@@ -26,8 +26,17 @@ def run(settings: RecorderSettings) -> int:
     stop = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stop.set())
-    sys.stdout.write(_sentence(record(settings, stop.is_set)) + "\n")
+    summary = record(settings, stop.is_set, _report)
+    if summary is None:
+        _report("stopped before there was a host; nothing is recorded")
+        return 1
+    sys.stdout.write(_sentence(summary) + "\n")
     return 0
+
+
+def _report(line: str) -> None:
+    sys.stderr.write(f"{line}\n")
+    sys.stderr.flush()
 
 
 def _sentence(summary: RecordingSummary) -> str:

@@ -4,8 +4,6 @@ It needs a bus and a sink, no process: `recordings.recorder.record` opens both.
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from pathlib import Path
 
 from recordings.container.attachments import make_attachments
 from recordings.container.key_selection import EVERYTHING, KeySelection
@@ -13,9 +11,10 @@ from recordings.container.manifest import EndReason, Manifest, Result, make_mani
 from recordings.recorder.batch_reader import BatchReader
 from recordings.recorder.control_service import ControlService
 from recordings.recorder.latched_messages import LoggedMessage
+from recordings.recorder.leftover import Leftover, message_id
 from recordings.recorder.loss_counts import LossCounts
-from recordings.recorder.match_progress import MatchProgress
 from recordings.recorder.poll_interval import PollInterval
+from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.roster_metadata import RosterMetadata
 from recordings.recorder.setup_query import SetupQuery
 from recordings.recorder.sink import Sink
@@ -43,18 +42,6 @@ _DRAIN_S = 10.0
 """Most wall time for reading the last messages after the host has left: a host that continues would never end it."""
 
 
-@dataclass(frozen=True, slots=True)
-class RecordingSummary:
-    """What was recorded."""
-
-    files: list[Path]
-    """The files that were kept, the oldest first."""
-    size: int
-    """Bytes of all files."""
-    result: Result
-    """The result of the last file, or, with snapshots, of the whole recording."""
-
-
 class Recorder:
     """Records one match. It subscribes when it is constructed."""
 
@@ -68,12 +55,20 @@ class Recorder:
         sights: bool = False,
         selection: KeySelection = EVERYTHING,
         config: MatchConfig | None = None,
+        leftover: Leftover | None = None,
     ) -> None:
-        """`loss_counts` are updated by `sink`; keys that `selection` leaves out are read and not written."""
+        """`loss_counts` are updated by `sink`; keys that `selection` leaves out are read and not written.
+
+        With a `leftover`, the recording of a killed recorder is continued with all that the host still keeps.
+        """
         self._bus, self._clock, self._sink, self._loss_counts = bus, bus.clock, sink, loss_counts
         self._name, self._sights, self._selection, self._config = name, sights, selection, config
-        self._batches = BatchReader(bus)
-        self._unbatcher = Unbatcher(sights=sights)
+        left = leftover or Leftover()
+        self._batches = BatchReader(bus, left.host_ns if leftover is not None else None)
+        self._unbatcher = Unbatcher(sights=sights, log_ns=max(0, left.last_ns))
+        self._leftover: Leftover | None = leftover
+        self._written = frozenset(left.newest)
+        """Messages that the killed recorder has written, among the newest."""
         self._waiting: list[LoggedMessage] = []
         """Messages that are not written yet, in order."""
         self._tick = -1
@@ -83,8 +78,8 @@ class Recorder:
         self._roster = RosterMetadata()
         self._setup: Setup | None = None
         self._begun = False
-        self._messages = 0
-        self._match = MatchProgress()
+        self._messages = left.messages
+        self._match = left.match
         self._synced_goals = 0
         self._progress = bus.publisher(RECORDER_PROGRESS, name=name)
         self._reported_tick, self._reported_at = -2, self._clock.now()
@@ -196,6 +191,8 @@ class Recorder:
             except BadMessageError:
                 self._match.unreadable[RECORD_BATCH.key] += 1
                 continue
+            if self._written:
+                logged = [one for one in logged if message_id(one[1]) not in self._written]
             self._match.update(received for _, received in logged)
             if self._selection:
                 logged = [one for one in logged if self._includes(one[1].key)]
@@ -254,6 +251,9 @@ class Recorder:
     def _begin(self, setup: Setup | None) -> None:
         self._begun, self._setup, self._roster = True, setup, RosterMetadata(setup)
         self._match.on_roster_change(self._roster.update)
+        if self._leftover is not None:
+            self._match.update(received for _, received in self._leftover.latched.messages())
+            self._match.catch_up()
         self._sink.begin(self._make_header, self._make_result, self._roster)
         self._bus.declare_alive(PresenceKind.RECORDER, self._name)  # from now on a lockstep host waits for it
         if self._sights:

@@ -12,6 +12,11 @@ class RosterMetadata:
         self._lineup = Lineup.of(setup)
         self._teams = {side.value: team.name for side, team in setup.teams.items()} if setup is not None else {}
 
+    @property
+    def robots(self) -> list[str]:
+        """The names of all robots that take part or did, in the order of the roster."""
+        return list(self._lineup.robots)
+
     def update(self, roster: list[RosterEntry]) -> None:
         """Replace the roster. Robots that have left are kept, because the file has messages of them."""
         self._lineup = self._lineup.changed(roster)

@@ -17,6 +17,8 @@ class RecorderSettings(ClientSettings):
     """The file, *.mcap."""
     name: str = "recorder"
     """Name of this recorder; the recorders of a match have different names."""
+    resume: bool = False
+    """Continue the recording that a recorder of this match has left unfinished, and fill the gap from the host."""
     record: RecordOptions = RecordOptions()
     """What is recorded, and into which files."""
     patience: Annotated[float, Field(ge=0)] = 30.0

@@ -25,10 +25,10 @@ class Unbatcher:
     backward.
     """
 
-    def __init__(self, *, sights: bool = False) -> None:
-        """Without `sights`, sights are skipped."""
+    def __init__(self, *, sights: bool = False, log_ns: int = 0) -> None:
+        """Without `sights`, sights are skipped. No log time is before `log_ns`."""
         self._sights = sights
-        self._log_ns = 0
+        self._log_ns = log_ns
 
     def messages_of(self, batch: Batch) -> list[LoggedMessage]:
         """The messages of a batch, in order; keys of no recorded topic are skipped.

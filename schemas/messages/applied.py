@@ -76,14 +76,15 @@ class Applied(Message):
     """Actions of people, coaches and the referee box that the referee judged in this tick, with those it refused."""
     silent: list[Name] = Field(default_factory=list)
     """Robots that the referee knew to be without a responding agent in this tick."""
-    changes: list[OperatorChange] = Field(default_factory=list)
-    """The operators' changes before this tick, in their order; the chain does not cover these sentences."""
     referee: str = ""
     """At a checkpoint, the complete state of the referee before it judged this tick, as JSON; otherwise empty."""
     refbox: bool = False
     """A league's referee box was connected in this tick."""
+    changes: list[OperatorChange] = Field(default_factory=list)
+    """The operators' changes before this tick, in their order; the chain does not cover these sentences."""
     chain: str
-    """blake2b over the state of this tick and all other fields of this message, keyed with the chain before it; hex."""
+    """blake2b over the state of this tick and all other fields of this message but `changes`, keyed with the chain
+    before it; hex."""
 
 
 def chained_part(applied: Mapping[str, Any]) -> bytes:

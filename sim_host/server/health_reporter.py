@@ -50,7 +50,7 @@ class HealthReporter:
             real_time_factor=round((until - then) / (now - began), 3) if now > began else 0.0,
             late_ticks=late,
             worst_tick_ms=round(max((took for _, took in self._tick_times), default=0.0) * 1e3, 3),
-            robots={name: stats.health() for name, stats in inbox.agent_stats.items()},
+            robots={name: stats.health(tick) for name, stats in inbox.agent_stats.items()},
             strangers=dict(inbox.unknown_senders),
             recorders=presence.recorder_lags(tick),
         )

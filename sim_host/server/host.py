@@ -4,7 +4,7 @@ import logging
 from collections.abc import Callable
 
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import HEARTBEAT_S, Bus, PresenceKind
+from schemas.bus.contract import HEARTBEAT_S, Bus, PresenceKind, ReceivedMessage
 from schemas.config.match_config import MatchConfig
 from schemas.config.profile import Profile
 from schemas.game import EventKind
@@ -71,6 +71,10 @@ class Host:
         """End the match after the tick that is under way, so that the recording of its last tick is complete."""
         self.stopping = True
         self.pace.stop_waiting()
+
+    def outcome(self) -> list[ReceivedMessage]:
+        """All events so far, and the newest state of the game."""
+        return self._outbox.outcome()
 
     def wait_for_all(self) -> None:
         """Wait until every robot has an agent, until patience runs out, or until a referee action is requested."""
@@ -185,8 +189,9 @@ class Host:
             if silent == was_silent:
                 continue
             self._silent[name] = silent
-            text = f"{name} does not answer, its robot stops" if silent else f"{name} answers"
-            self._publish_agent_event(tick, name, "agent_silent", text)
+            fault = stats.fault(tick.tick) if stats.alive else ""
+            text = f"{name} does not answer, its robot stops{f': {fault}' if fault else ''}"
+            self._publish_agent_event(tick, name, "agent_silent", text if silent else f"{name} answers")
 
     def _report_refusals(self, tick: TickResult) -> None:
         """Publish an event for each agent that was refused."""

@@ -82,17 +82,13 @@ class Inbox:
             if command.answers_tick > tick:
                 raise BadMessageError(f"Command: answers_tick is {command.answers_tick}, the newest sight is {tick}")
         except BadMessageError as error:
-            stats.invalid += 1
+            stats.add_invalid(str(error))
             self._invalid_log.add(received.key, str(error), received.payload)
             return None
-        stats.mark_received()
-        if command.answers_tick <= stats.newest:
-            stats.duplicates += 1
+        if not stats.add_answer(command.answers_tick, tick):
             return None
-        stats.newest = command.answers_tick
         stats.acknowledged = command.acknowledges_order
         stats.refused_order = command.refuses_order
-        stats.answers += 1
         self._note_latency(stats, command.answers_tick, received.arrived_ns)
         return name, command
 

@@ -3,8 +3,8 @@
 from typing import Any
 
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Publisher
-from schemas.messages.game import GameEvent
+from schemas.bus.contract import Publisher, ReceivedMessage, Stamp
+from schemas.messages.game import GameEvent, GameState
 from schemas.messages.health import Health, Invalid
 from schemas.side import Side
 from schemas.topics import APPLIED, BELIEF, EVENT, HEALTH, INVALID, SIGHT, STATE, WORLD, WORLD_BALL, WORLD_ROBOT
@@ -31,6 +31,8 @@ class Outbox:
         self._health = batches.publisher(HEALTH)
         self._invalid = batches.publisher(INVALID)
         self._ball = batches.publisher(WORLD_BALL)
+        self._events: list[tuple[GameEvent, Stamp]] = []
+        self._newest_state: tuple[GameState, Stamp] | None = None
         self._last_sights: dict[str, bytes] = {}
         self._listeners: list[tuple[Publisher, str | None]] = []
         self._sights: dict[str, Publisher] = {}
@@ -64,10 +66,11 @@ class Outbox:
     def publish_tick(self, tick: TickResult, state: RefereeState) -> None:
         """Publish world, inputs, beliefs and events; the game's state on a change, after an action, and each second."""
         for event in tick.events:
-            self._event.put(event)
+            self.publish_event(event)
         episode = tick.world["episode"]
         if self._state_schedule.is_due(state, tick.tick, episode, had_actions=bool(tick.replies)):
-            self._state.put(state.game_state(tick.tick, tick.time, episode))
+            published = state.game_state(tick.tick, tick.time, episode)
+            self._newest_state = (published, self._state.put(published))
         for side, robot, belief in tick.beliefs:
             self._beliefs[robot, side].put_payload(belief)
         self._world.put_fields(tick.world)
@@ -75,8 +78,16 @@ class Outbox:
         self._publish_bodies(tick)
 
     def publish_event(self, event: GameEvent) -> None:
-        """Publish an event that is not the referee's."""
-        self._event.put(event)
+        """Publish an event, which need not be the referee's."""
+        self._events.append((event, self._event.put(event)))
+
+    def outcome(self) -> list[ReceivedMessage]:
+        """All events so far, and the newest state of the game, as they were published."""
+        messages = [ReceivedMessage(EVENT, EVENT.key, event.encode(), stamp) for event, stamp in self._events]
+        if self._newest_state is not None:
+            state, stamp = self._newest_state
+            messages.append(ReceivedMessage(STATE, STATE.key, state.encode(), stamp))
+        return messages
 
     def publish_health(self, health: Health) -> None:
         """Publish the health of the host."""

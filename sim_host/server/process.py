@@ -4,15 +4,19 @@ import importlib.util
 import logging
 import signal
 import sys
+from collections.abc import Sequence
 from contextlib import ExitStack
 from types import FrameType
 
 from schemas.bus.announcement import Announcement, announced, announced_to_user
+from schemas.bus.contract import ReceivedMessage
 from schemas.bus.endpoint import is_loopback
+from schemas.bus.outcome_file import write_outcome
 from schemas.bus.zenoh.bus import open_host
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
 from schemas.process.scheduling import use_batch_scheduling
+from sim_host.missing_engine import missing_engine_text
 from sim_host.server.settings import HostSettings
 
 log = logging.getLogger("sim_host")
@@ -35,7 +39,7 @@ def run(settings: HostSettings) -> int:
 
 def _serve(settings: HostSettings) -> None:
     if importlib.util.find_spec("pybullet") is None:
-        raise TouchlineError("PyBullet is not installed; on this machine that takes: pip install 'touchline[sim]'")
+        raise TouchlineError(missing_engine_text())
     config, listen = settings.config, settings.listen
     if listen is not None and not settings.insecure and not is_loopback(listen):
         raise TouchlineError(f"--listen {listen} can be reached by others; say --insecure if that is what you want")
@@ -49,8 +53,18 @@ def _serve(settings: HostSettings) -> None:
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, lambda *_: host.stop())
         host.run()
+        _leave_outcome(settings, host.outcome())
         how = "stopped before the match was over," if host.stopping else "match over"
         log.info("%s at tick %d", how, host.simulation.now.tick)
+
+
+def _leave_outcome(settings: HostSettings, messages: Sequence[ReceivedMessage]) -> None:
+    if settings.outcome is None:
+        return
+    try:
+        write_outcome(settings.outcome, messages)
+    except OSError as error:
+        log.warning("%s: %s; the result was published on the bus only", settings.outcome, error.strerror)
 
 
 def _announce(settings: HostSettings, endpoint: str, announcements: ExitStack) -> None:

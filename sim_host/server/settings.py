@@ -15,6 +15,8 @@ class HostSettings(ListenSettings):
 
     config: MatchConfig = Field(default_factory=MatchConfig)
     """The match."""
+    outcome: Path | None = None
+    """File for the result at the end, for the program that launched the host."""
     launch_token: Annotated[str | None, CommandLine(environment="TOUCHLINE_LAUNCH_TOKEN")] = None
     """Secret that an agent must know to play; by default every agent may."""
     announcement: Path | None = None

@@ -15,7 +15,7 @@ from coach_gateway.udp.coach_record import TEST_MODES, MatchMode
 from coach_gateway.web.protocol import PAGE_REQUEST
 from schemas.messages.coach import REQUIRED_FIELDS
 from schemas.wire.message import Part
-from touchline.__main__ import app
+from touchline.command_line import app
 
 
 @pytest.fixture(scope="module")

@@ -78,7 +78,7 @@ class Story:
         self.at_bad_messages = self.heard.tick
 
     def crashes(self):
-        self.program.wait_for_error("cyan2 ended with status 1; not started again")
+        self.program.wait_for_error("cyan2 failed at its first sight; not started again")
         self.program.wait_for_error("silent: cyan2")
 
     def killed(self):
@@ -212,13 +212,15 @@ def test_bad_messages_are_counted_and_ignored(story, inputs):
 
 def test_a_crashing_agent_is_started_again_three_times_and_reported_with_its_error(story):
     lines = story.program.err.splitlines()
-    for outcome in ("started again (1 of 3)", "started again (2 of 3)", "started again (3 of 3)", "not started again"):
-        place = lines.index(f"cyan2 ended with status 1; {outcome}")
+    endings = ["ended with status 1; started again (1 of 3)"]
+    endings += [f"failed at its first sight; started again ({number} of 3)" for number in (2, 3)]
+    for ending in (*endings, "failed at its first sight; not started again"):
+        place = lines.index(f"cyan2 {ending}")
         log = "\n".join(lines[place + 1 : place + 6])
         assert "mind.py" in log
         assert "ZeroDivisionError: float division by zero" in log
         assert "act raised at tick" in log
-    assert lines.count("cyan2 ended with status 1; not started again") == 1
+    assert lines.count("cyan2 failed at its first sight; not started again") == 1
 
 
 def test_the_robot_of_a_crashed_agent_rests_from_then_on(inputs, worlds, story):

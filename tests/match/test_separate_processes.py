@@ -33,7 +33,7 @@ class Marked:
         return Command(answers_tick=sight.tick, drive=Drive(vx=1.0, omega=1.0))
 """
 WITHOUT = """
-import touchline.__main__, coach_gateway.process, robot_agent.process
+import touchline.command_line, coach_gateway.process, robot_agent.process
 import recordings.recorder.process, sim_host.server.process
 try:
     import pybullet

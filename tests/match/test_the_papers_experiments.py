@@ -16,7 +16,8 @@ from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
 from coach_gateway.match.team_obstacles import team_obstacles
-from robot_agent.contract import Briefing, load_brain
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Briefing
 from robot_agent.runner import Runner
 from robot_agent.teams.nubot import NuBot
 from robot_agent.teams.nubot.machine import State

@@ -9,10 +9,10 @@ import pytest
 
 from recordings.container.key_selection import EVERYTHING, KeySelection
 from recordings.reading.recording import Recording
+from recordings.recorder.file_limits import ONE_FILE, FileLimits
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
-from recordings.recorder.sink import ONE_FILE, FileLimits
 from schemas.bus.batch_publisher import BatchPublisher
 from schemas.bus.contract import Bus
 from schemas.bus.in_process_bus import SharedState

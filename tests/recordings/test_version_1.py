@@ -20,7 +20,7 @@ from schemas.messages.setup import Setup, SetupRequest
 from schemas.process.clock import SteppedClock
 from schemas.topics import BELIEF, COMMAND, EVENT, SETUP, STATE, WORLD
 from schemas.wire.message import VERSION, BadMessageError
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.verify.resimulate import verify
 
 FILE = Path(__file__).parent / "data" / "version_1.mcap"

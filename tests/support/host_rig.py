@@ -4,7 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from robot_agent.contract import Brain, Briefing, load_brain
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Brain, Briefing
 from robot_agent.runner import Runner
 from schemas.bus.contract import Bus, ReceivedMessage
 from schemas.config.match_config import MatchConfig
@@ -36,6 +37,17 @@ class Forward:
 
     def act(self, sight: Sight) -> Command:
         return Command(answers_tick=sight.tick, drive=Drive(vx=1.0))
+
+
+class _SeatClock(SteppedClock):
+    """The clock of another process on the host's machine: it has the same wall time, and its own simulated time."""
+
+    def __init__(self, wall: SteppedClock) -> None:
+        super().__init__()
+        self._wall = wall
+
+    def unix_ns(self) -> int:
+        return self._wall.unix_ns()
 
 
 @dataclass
@@ -113,7 +125,7 @@ class HostRig:
             self.host.pace.step_agents = self._wait
 
     def seat(self) -> Bus:
-        return self.medium.open_bus(self.config.name, SteppedClock())
+        return self.medium.open_bus(self.config.name, _SeatClock(self.clock))
 
     def listen(self, topic: Topic) -> Listener:
         return Listener(self.outside.subscribe(topic).receive)

@@ -5,7 +5,8 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from robot_agent.contract import Briefing, load_brain
+from robot_agent.brain_loader import load_brain
+from robot_agent.contract import Briefing
 from robot_agent.runner import Runner
 from schemas.bus.in_process_bus import SharedState
 from schemas.config.match_config import MatchConfig

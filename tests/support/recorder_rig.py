@@ -5,10 +5,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from recordings.reading.recording import Recording, open_recording
-from recordings.recorder.recorder import Recorder, RecordingSummary
+from recordings.recorder.recorder import Recorder
+from recordings.recorder.recording_summary import RecordingSummary
 from recordings.recorder.sink import Sink
 from schemas.bus.batch_publisher import BatchPublisher
-from schemas.bus.contract import Bus, Publisher, Server
+from schemas.bus.contract import Bus, Publisher, ReceivedMessage, Server
 from schemas.bus.in_process_bus import InProcessBus, SharedState
 from schemas.config.match_config import load_match
 from schemas.config.profile import load_profile
@@ -34,7 +35,7 @@ def make_setup(match: str = "friendly") -> Setup:
     return Setup.of(load_match(None, {"name": match, **teams}), load_profile("msl"), load_rule_book("friendly"))
 
 
-def make_world(tick: int) -> World:
+def make_world(tick: int, names: tuple[str, ...] = ROBOTS) -> World:
     time = tick * TICK
     robots = {
         name: RobotTruth(
@@ -47,7 +48,7 @@ def make_world(tick: int) -> World:
             omega=0.0,
             holding=False,
         )
-        for number, name in enumerate(ROBOTS)
+        for number, name in enumerate(names)
     }
     ball = BallTruth(x=6 * math.sin(time), y=3 * math.cos(time), z=0.11, vx=0.0, vy=0.0, vz=0.0)
     return World(tick=tick, time=time, robots=robots, ball=ball, clock=time)
@@ -79,6 +80,7 @@ class FakeHost:
     writers: dict[str, Publisher] = field(default_factory=dict)
     is_prompt: bool = True
     """It publishes a batch for each tick at once."""
+    _arrivals: int = 0
 
     def __post_init__(self) -> None:
         self.server = self.bus.serve(SETUP)
@@ -98,15 +100,20 @@ class FakeHost:
         for _ in range(count):
             self.direct[key].put_payload(b"{}")
 
+    def add_unstamped(self, key: str, payload: bytes) -> None:
+        """A message of a program that does not use this library has come."""
+        self._arrivals += 1
+        self.batches.add_received(ReceivedMessage(COMMAND, key, payload, None, arrived_ns=self._arrivals))
+
     def answer(self) -> None:
         while (query := self.server.receive()) is not None:
             query.reply(self.setup)
         self.batches.process()
 
-    def play(self, tick: int) -> None:
-        """One tick: world, inputs, and the commands of the robots."""
+    def play(self, tick: int, guests: tuple[str, ...] = ()) -> None:
+        """One tick: world, inputs, and the commands of the robots; `guests` are robots that joined."""
         self.bus.clock.sim_ns = self.robots.clock.sim_ns = round(tick * TICK * 1e9)
-        self.writers["world"].put(make_world(tick))
+        self.writers["world"].put(make_world(tick, (*ROBOTS, *guests)))
         inputs = {name: AppliedInput(drive=Drive(vx=1.0), dribble=False, answers_tick=tick) for name in ROBOTS}
         self.writers["host/applied"].put(Applied(tick=tick, time=tick * TICK, inputs=inputs, chain=f"{tick:016x}"))
         for name in ROBOTS:
@@ -131,10 +138,12 @@ class FakeHost:
         self.batches.send()
 
     def goal(self, tick: int) -> None:
+        self.event(tick, "goal by cyan2")
+
+    def event(self, tick: int, text: str) -> None:
+        """A goal, in these words."""
         self.writers["game/event"].put(
-            GameEvent(
-                tick=tick, time=tick * TICK, clock=tick * TICK, kind=EventKind.GOAL, rule="goal", text="goal by cyan2"
-            )
+            GameEvent(tick=tick, time=tick * TICK, clock=tick * TICK, kind=EventKind.GOAL, rule="goal", text=text)
         )
 
 
@@ -147,6 +156,8 @@ class RecorderRig:
     recorder_bus: Bus
     sink: Sink
     path: Path
+    played: int = 0
+    """The next tick, where a test counts them."""
 
     def begin(self) -> None:
         self.recorder.pump()

@@ -1,4 +1,5 @@
 import json
+import re
 import socket
 import subprocess
 import sys
@@ -9,13 +10,14 @@ from typer.testing import CliRunner, Result
 
 from recordings.exchange.formats import EXPORTERS
 from schemas.topics import TOPICS
-from touchline.__main__ import app
+from touchline.command_line import app
 
 COMMANDS = (
     "match",
     "host",
     "agent",
     "coach",
+    "referee",
     "record",
     "recorder",
     "recover",
@@ -51,6 +53,32 @@ def test_every_command_has_help_with_an_example(command: str) -> None:
     result = touchline(command, "--help")
     assert result.exit_code == 0
     assert f"Example: touchline {command}" in result.stdout
+
+
+def test_the_help_has_each_command_in_one_of_six_groups() -> None:
+    (groups, places) = ([], {})
+    for line in touchline("--help").stdout.splitlines():
+        if line.startswith("╭─ "):
+            groups.append(line.strip("╭╮─ "))
+        elif line.startswith("│ ") and not line.startswith("│  ") and groups[-1] != "Options":
+            places.setdefault(line.split()[1], []).append(groups[-1])
+    assert groups == [
+        "Options",
+        "Play",
+        "Watch",
+        "Operate a running match",
+        "Processes on several machines",
+        "Recordings",
+        "Protocol",
+    ]
+    assert [command for command in COMMANDS if len(places[command]) != 1] == []
+    assert places["coach"] == places["referee"] == ["Operate a running match"]
+
+
+def test_the_version_is_printed_with_those_of_what_it_depends_on() -> None:
+    result = touchline("--version")
+    assert result.exit_code == 0
+    assert re.fullmatch(r"touchline \d+\.\d+\.\d+, protocol 2\.0, Python 3\.\d+\.\d+, PyBullet [\d.]+\n", result.stdout)
 
 
 WRONG: dict[str, tuple[list[str], str]] = {
@@ -130,7 +158,7 @@ def test_without_pybullet_the_pip_line_that_brings_it_is_named(command: str, mon
 
 def test_the_command_line_loads_nothing_heavy() -> None:
     heavy = {"zenoh", "pybullet", "mcap", "numpy", "matplotlib"}
-    code = f"import sys, touchline.__main__; print(*{heavy} & set(sys.modules))"
+    code = f"import sys, touchline.command_line; print(*{heavy} & set(sys.modules))"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.split() == []
 

@@ -18,6 +18,7 @@ from schemas.config.rule_book import SHIPPED as RULE_BOOKS
 from schemas.config.rule_book import load_rule_book
 from schemas.errors import TouchlineError
 from schemas.side import Side
+from sim_host.missing_engine import missing_engine_text
 from touchline.cli.option_groups import FieldsOf
 
 if TYPE_CHECKING:
@@ -36,12 +37,12 @@ Include = Annotated[
     typer.Option(help="Include these keys only, such as robot/*/command or team/**; repeatable."),
 ]
 Exclude = Annotated[list[str] | None, typer.Option(help="Leave these keys out; repeatable.")]
+From = Annotated[float | None, typer.Option("--from", help="Start, simulated s.")]
+To = Annotated[float | None, typer.Option("--to", help="End, simulated s, exclusive.")]
 Web = Annotated[bool, typer.Option("--web", help="Serve a page to watch and command from, and print its address.")]
 PageOptions = Annotated[dict[str, Any], FieldsOf(WebSettings, "listen_web", port="web_port")]
 ForSide = Annotated[Side, typer.Argument(help="cyan or magenta")]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")]
-
-NO_PYBULLET = "the simulation needs PyBullet, which is not installed; pip install 'touchline[sim]'"
 
 
 @dataclass(frozen=True)
@@ -102,7 +103,7 @@ def need_pybullet() -> None:
         TouchlineError: a package is missing; the message has the command that installs it.
     """
     if importlib.util.find_spec("pybullet") is None:
-        raise TouchlineError(NO_PYBULLET)
+        raise TouchlineError(missing_engine_text())
 
 
 def selection(include: list[str] | None, exclude: list[str] | None) -> "KeySelection":
@@ -114,6 +115,16 @@ def selection(include: list[str] | None, exclude: list[str] | None) -> "KeySelec
     from recordings.container.key_selection import KeySelection
 
     return KeySelection(tuple(include or ()), tuple(exclude or ()))
+
+
+def check_span(start: float | None, end: float | None) -> None:
+    """Check that a span of simulated time has a length.
+
+    Raises:
+        TouchlineError: it ends before it begins.
+    """
+    if start is not None and end is not None and start >= end:
+        raise TouchlineError(f"--from is {start:g} and --to is {end:g}; give a --to that is greater than --from")
 
 
 def endpoint_of(settings: ListenSettings) -> str | None:

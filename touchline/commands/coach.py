@@ -1,4 +1,4 @@
-"""`touchline coach`: the referee box and the coach's bench of a running match."""
+"""`touchline coach` and `touchline referee`: the referee box and the coach's bench of a running match."""
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
@@ -23,6 +23,11 @@ app = typer.Typer(
     no_args_is_help=True,
     help="Send requests to the referee of a running match, order a side, or watch.\n\n"
     "Example: touchline coach kickoff magenta",
+)
+referee = typer.Typer(
+    no_args_is_help=True,
+    help="Send requests to the referee of a running match; `touchline coach` has the same commands.\n\n"
+    "Example: touchline referee kickoff magenta",
 )
 
 
@@ -123,12 +128,13 @@ def _command(row: RefereeCommand) -> Callable[..., None]:
     return with_option_groups(command)
 
 
-for _word, _row in REFEREE_COMMANDS.items():
-    app.command(
-        _word,
-        help=f"{_row.help}\n\nExample: touchline coach {_word} {_row.example}".rstrip(),
-        context_settings={"ignore_unknown_options": _row.target is PlaceTarget},  # a negative number is no option
-    )(_command(_row))
+for _group, _name in ((app, "coach"), (referee, "referee")):
+    for _word, _row in REFEREE_COMMANDS.items():
+        _group.command(
+            _word,
+            help=f"{_row.help}\n\nExample: touchline {_name} {_word} {_row.example}".rstrip(),
+            context_settings={"ignore_unknown_options": _row.target is PlaceTarget},  # a negative number is no option
+        )(_command(_row))
 
 
 app.command("order")(orders.order)
@@ -143,11 +149,13 @@ def state(connection: ClientSettings, json: options.Json = False) -> None:
     Example: touchline coach state --json | jq .score
     """
     from coach_gateway.match.follower import MatchFollower
+    from coach_gateway.match.host_client import HostClient
     from coach_gateway.match.lines import state_line
 
     with bus_client(connection) as bus:
         follower = MatchFollower(bus)
         found = follower.wait_for_state(PATIENCE)
+        names = HostClient(bus).team_names()
     if found is None and follower.health is not None:
         there = sum(robot.alive for robot in follower.health.robots.values())
         raise MatchFailedError(
@@ -155,7 +163,7 @@ def state(connection: ClientSettings, json: options.Json = False) -> None:
         )
     if found is None:
         raise TouchlineError(f'match "{bus.match}": the host publishes no state of it; is that the name of its match?')
-    typer.echo(found.model_dump_json(exclude={"version"}) if json else state_line(found))
+    typer.echo(found.model_dump_json(exclude={"version"}) if json else state_line(found, names))
 
 
 app.command("serve")(serve)

@@ -1,6 +1,7 @@
 """`touchline export`: a recording in another format."""
 
 import json as json_text
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
@@ -35,11 +36,12 @@ def export(
         typer.echo(f"{file}: truncated; exporting the messages before the end", err=True)
     exported = exporter.export(recording, out or file.with_name(file.stem + exporter.suffix))
     if json:
-        fields = {"out": str(exported.out), "written": exported.written, "unreadable": exported.unreadable}
-        typer.echo(json_text.dumps(fields))
+        typer.echo(json_text.dumps({**asdict(exported), "out": str(exported.out)}))
         return
     for name, count in exported.written.items():
         typer.echo(f"{count:>9}  {name}")
     for key, count in exported.unreadable.items():
         typer.echo(f"{count:>9}  invalid messages of {key} were left out")
+    for key, count in exported.omitted.items():
+        typer.echo(f"{count:>9}  messages of {key} have no place in this format")
     typer.echo(str(exported.out))

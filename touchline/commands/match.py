@@ -3,7 +3,6 @@
 import sys
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,6 +11,7 @@ import typer
 
 from coach_gateway.settings import BridgeOptions
 from schemas.config.settings import RecordOptions
+from schemas.errors import MatchFailedError
 from touchline.cli import options
 from touchline.cli.option_groups import FieldsOf, with_option_groups
 
@@ -69,12 +69,15 @@ def match(
     if ghost:
         _check_ghosts(config, ghost)
     check_robot_names(config)
-    check_teams(config)
+    brain_folder = played.file.parent if played.file is not None else None
+    check_teams(config, brain_folder, lambda line: typer.echo(line, err=True))
     endpoint = played.endpoint()
     clock = WallClock()
     served = _open_page(page) if web else None
     plan = prepare_run(config, endpoint, record, clock, recorded=not no_record)
     plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets)
+    if brain_folder is not None:
+        plan = replace(plan, brain_folder=brain_folder.resolve())
     if served is not None:
         _invite(plan, served.settings, err=json)
     if bridges.wanted:
@@ -88,6 +91,8 @@ def match(
         from touchline.cli.console import console
 
         console().print(result.render())
+    if result.recording.fault:
+        raise MatchFailedError(result.recording.fault)
 
 
 # Modules that a plain match does not need are imported on use: no process is launched before the imports are done.
@@ -132,24 +137,18 @@ def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> "MatchResult":
 
     try:
         with screen_for(sys.stderr if quiet else sys.stdout, clock) as screen:
-            return MatchRun(plan, screen, clock, _losses, _recorded).play()
+            return MatchRun(plan, screen, clock, _losses, _published).play()
     except InterruptedMatchError as stopped:
         left = plan.recording is not None and plan.recording.exists()
         typer.echo(f"touchline: match interrupted; see {plan.recording if left else plan.folder}", err=True)
         raise typer.Exit(128 + stopped.number) from None
 
 
-def _recorded(plan: "MatchPlan") -> "Iterator[ReceivedMessage]":
-    """Recorded events and states of the game; empty if the recording is lost or consists of snapshots."""
-    if plan.config.record.snapshot is not None:
-        return
-    from recordings.reading.recording import open_recording
-    from schemas.errors import TouchlineError
-    from schemas.topics import EVENT, STATE
+def _published(plan: "MatchPlan") -> "Iterator[ReceivedMessage]":
+    """Events and the last state of the game, as the host has left them."""
+    from schemas.bus.outcome_file import read_outcome
 
-    for file in plan.recording_files:
-        with suppress(TouchlineError):  # an unreadable recording yields no more messages
-            yield from (recorded.received() for recorded in open_recording(file).messages(EVENT.key, STATE.key))
+    return read_outcome(plan.outcome)
 
 
 def _losses(plan: "MatchPlan") -> dict[str, int]:

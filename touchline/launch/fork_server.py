@@ -10,15 +10,16 @@ import signal
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from multiprocessing import forkserver
+from multiprocessing import forkserver, resource_tracker
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from pathlib import Path
 
-from robot_agent.forked import PRELOAD, run_forked
+from robot_agent.forked import PRELOAD, SAFE_PATH, run_forked
 from robot_agent.settings import AgentSettings
 from touchline.launch.child_process import ChildProcess, ProcessHandle, write_settings_of
 from touchline.launch.processes import Process
+from touchline.launch.python_process import module_path_environment
 
 _PATIENCE_S = 2.0
 """Wall time for a forked robot to lead its process group; normally a few milliseconds."""
@@ -69,8 +70,10 @@ class ForkServer:
         if self._context is None:
             return
         self._context.set_forkserver_preload(list(PRELOAD))
+        safe = {**environment, **module_path_environment(), SAFE_PATH: "1"}
         try:
-            with _environment(environment):
+            resource_tracker.ensure_running()  # it would unblock the signal again
+            with _environment(safe), _blocked(signal.SIGINT):
                 forkserver.ensure_running()
         except OSError:
             self._context = None
@@ -86,12 +89,22 @@ class ForkServer:
         group_ready, held = self._context.Pipe(duplex=False)
         robot = self._context.Process(target=run_forked, args=(settings, process.environment, str(log), held))
         try:
-            with held, _environment(process.environment):
+            with held:
                 robot.start()
         except (OSError, EOFError):
             self._context = None
             return None
         return ForkedRobot(process, log, begin, robot, group_ready)
+
+
+@contextmanager
+def _blocked(number: signal.Signals) -> Iterator[None]:
+    """Block a signal within the block: the fork server would end with a traceback while it starts."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {number})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager

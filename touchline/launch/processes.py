@@ -1,12 +1,12 @@
 """The processes of a match: the table of kinds, and the programs to launch for a match file."""
 
 import socket
-import sys
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 from coach_gateway.settings import NO_BRIDGES, BridgeOptions, GatewaySettings
 from coach_gateway.web.settings import WebSettings
@@ -18,6 +18,7 @@ from schemas.config.settings import Settings
 from schemas.errors import TouchlineError
 from schemas.side import Side
 from sim_host.server.settings import HostSettings
+from touchline.launch.python_process import PYTHON, module_path_environment
 
 
 class ProcessKind(StrEnum):
@@ -37,20 +38,24 @@ class ProcessRow:
     """One kind of process."""
 
     module: str
-    """Started as `python -m MODULE --settings FILE`."""
+    """Started as `python -P -m MODULE --settings FILE`."""
     restarts: int = 0
     """Maximum number of restarts after crashes."""
+    on_restart: Mapping[str, Any] = field(default_factory=dict)
+    """Settings of a restarted process that differ from those of the first."""
 
 
 PROCESSES: dict[ProcessKind, ProcessRow] = {
     ProcessKind.HOST: ProcessRow("sim_host"),
-    ProcessKind.RECORDER: ProcessRow("recordings"),
+    ProcessKind.RECORDER: ProcessRow("recordings", restarts=3, on_restart={"resume": True}),
     ProcessKind.AGENT: ProcessRow("robot_agent", restarts=3),
     ProcessKind.PAGE: ProcessRow("coach_gateway", restarts=3),
     ProcessKind.BRIDGES: ProcessRow("coach_gateway", restarts=3),
 }
 """ProcessKind → its row, in the order they are launched."""
 
+OUTCOME = "outcome.json"
+"""The file of a match's result, in the folder of its run."""
 ANNOUNCEMENT = "endpoint.json"
 """The file in which the host of a run announces its endpoint, in the run's folder."""
 TOKENS = "tokens.json"
@@ -86,6 +91,11 @@ class Process:
     sockets: tuple[socket.socket, ...] = ()
     """Bound sockets that it inherits, also when it is started again."""
 
+    def restarted(self) -> "Process":
+        """The process as it is launched after a crash."""
+        changes = PROCESSES[self.kind].on_restart
+        return replace(self, settings=self.settings.model_copy(update=dict(changes))) if self.settings else self
+
 
 @dataclass(frozen=True, slots=True)
 class Page:
@@ -114,6 +124,8 @@ class MatchPlan:
     """The match's page; None for no page."""
     bridges: BridgeOptions = NO_BRIDGES
     """The bridges beside the page."""
+    brain_folder: Path | None = None
+    """Folder in which brains are looked for before the current directory: that of the match file."""
     bridge_sockets: tuple[socket.socket, ...] = ()
     """The bound sockets of the bridges, in the order in which they are inherited."""
     launch_token: str | None = None
@@ -136,6 +148,18 @@ class MatchPlan:
         from recordings.container.numbering import files_at
 
         return files_at(self.recording) if self.recording is not None else []
+
+    @property
+    def unfinished_recordings(self) -> list[Path]:
+        """The files of the recording that its recorder has not finished."""
+        from recordings.container.numbering import unfinished_at
+
+        return unfinished_at(self.recording) if self.recording is not None else []
+
+    @property
+    def outcome(self) -> Path:
+        """The file in which the host leaves the result."""
+        return self.folder / OUTCOME
 
     @property
     def tokens(self) -> Path:
@@ -164,6 +188,7 @@ def host_process(plan: MatchPlan) -> Process:
         insecure=plan.listen is not None and not is_loopback(plan.listen),
         launch_token=plan.launch_token,
         announcement=plan.announcement,
+        outcome=plan.outcome,
     )
     return _process("host", ProcessKind.HOST, host, plan.folder)
 
@@ -215,6 +240,7 @@ def _robot_process(robot: str, side: Side, plan: MatchPlan) -> Process:
         match=plan.config.name,
         robot=robot,
         brain=team.brain or "",
+        brain_folder=plan.brain_folder,
         launch_token=plan.launch_token,
     )
     return _process(robot, ProcessKind.AGENT, settings, plan.folder, environment)
@@ -229,5 +255,6 @@ def _process(
     sockets: tuple[socket.socket, ...] = (),
 ) -> Process:
     row, file = PROCESSES[kind], folder / f"{name}.json"
-    command = (sys.executable, "-m", row.module, "--settings", str(file))
-    return Process(name, kind, command, {**COMMON_ENVIRONMENT, **environment}, row.restarts, settings, file, sockets)
+    command = (*PYTHON, "-m", row.module, "--settings", str(file))
+    whole = {**COMMON_ENVIRONMENT, **module_path_environment(), **environment}
+    return Process(name, kind, command, whole, row.restarts, settings, file, sockets)

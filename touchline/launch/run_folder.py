@@ -33,7 +33,7 @@ def prepare_run(
         out = (recording or folder / RECORDING) if recorded else None
         refusal = _why_not_writable(out) if out is not None else ""
         if refusal:
-            refusal = f"--record {out}: {refusal}; the match is played, its recording goes to {folder / RECORDING}"
+            refusal = f"--record {out}: {refusal}. The match is played, its recording goes to {folder / RECORDING}"
             out = folder / RECORDING
         plan = MatchPlan(config, listen, folder, out, refusal, launch_token=secrets.token_hex(16))
     except OSError as error:
@@ -42,15 +42,15 @@ def prepare_run(
 
 
 def _why_not_writable(out: Path) -> str:
-    """The reason why the file cannot be written; empty if it can."""
+    """The reason why the file cannot be written, with the remedy; empty if it can."""
     from recordings.container.partial_file import NotWritableError, PartialFile
 
     try:
         PartialFile(out).discard()
     except NotWritableError as error:
-        return error.reason
+        return f"{error.reason}; {error.remedy}"
     except OSError as error:
-        return error.strerror or "cannot be written"
+        return f"{error.strerror or 'cannot be written'}; give a path that can be written"
     return ""
 
 

@@ -80,7 +80,7 @@ def teams_of(ghosts: Iterable[str]) -> dict[str, dict[str, Any]]:
         team = setup.teams[Side(word)]
         teams[word] = {
             "name": f"{team.name}, recorded",
-            "command": [sys.executable, "-m", "touchline.replay.ghost", str(Path(file).resolve())],
+            "command": [sys.executable, "-P", "-m", "touchline.replay.ghost", str(Path(file).resolve())],
             "size": max(1, len(team.robots)),
             "robots": team.robots,
             "types": team.types,

@@ -11,15 +11,17 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 
+from recordings.container.manifest import KeyCount
 from recordings.inspection.contradictions import contradictions, record_faults
 from recordings.reading.recording import Recording, open_recording
 from recordings.reading.tick_index import Segment, TickIndex, tick_index_of
 from schemas.errors import TouchlineError
 from schemas.process.clock import WallClock
+from schemas.topics import WORLD
 from sim_host.match.referee_resimulation import OfficiatingSettings
 from sim_host.physics.fingerprint import fingerprint
 from sim_host.referee.fingerprint import referee_fingerprint
-from touchline.verify.recorded_keys import not_checked
+from touchline.verify.recorded_keys import is_recorded, not_checked
 from touchline.verify.segment_check import SegmentResult, resimulate_segment
 from touchline.verify.verdict import Verdict
 
@@ -70,6 +72,7 @@ def verify(path: Path, from_kick_off: int | None = None, processes: int = 1, ref
         verdict.difference = result.difference
         if verdict.difference is not None:
             break
+    verdict.contradictions += _missing_worlds(recording, verdict.without_world)
     verdict.took = clock.now() - began
     return verdict
 
@@ -83,6 +86,16 @@ def _since(path: Path, index: TickIndex, from_kick_off: int | None) -> int:
     there = len(index.kick_offs)
     choice = f"{path} has {there} to start from, counted from 1" if there else f"{path} has none to start from"
     raise TouchlineError(f"--from-kickoff is {from_kick_off}; {choice}")
+
+
+def _missing_worlds(recording: Recording, missing: int) -> list[str]:
+    """A sentence if more worlds are missing than were lost: a batch that is lost has no other message of its ticks."""
+    result = recording.result
+    if result is None or not is_recorded(recording, WORLD.key):
+        return []
+    count = result.keys.get(WORLD.key, KeyCount())
+    explained = count.lost + count.left_out
+    return [f"{missing} ticks have no world, and {explained} were lost"] if missing > explained else []
 
 
 def _why_no_referee(recording: Recording, segments: list[Segment]) -> str:

@@ -11,10 +11,10 @@ from recordings.container.partial_file import PartialFile
 from recordings.editing.filtering import filter_recording
 from recordings.editing.recovery import recover
 from recordings.reading.recording import open_recording
-from recordings.recorder.sink import FileLimits
+from recordings.recorder.file_limits import FileLimits
 from schemas.errors import TouchlineError
 
-REFUSED = r"match\.mcap: is being written by another recorder; give another --out"
+REFUSED = r"match\.mcap: is being written by another recorder; name another file"
 
 HOLDER = """
 import sys

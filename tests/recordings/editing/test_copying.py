@@ -8,7 +8,7 @@ from recordings.editing.merging import merge_recordings
 from recordings.inspection.difference import compare
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.recording import open_recording
-from recordings.recorder.sink import FileLimits
+from recordings.recorder.file_limits import FileLimits
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score
 from schemas.messages.command import Command, Drive
@@ -167,3 +167,52 @@ def test_a_truncated_file_can_be_filtered_and_is_reported_as_truncated(run, tmp_
     filter_recording(open_recording(cut), tmp_path / "part.mcap", KeySelection(("world",)))
     facts = facts_of(open_recording(tmp_path / "part.mcap"))
     assert (facts.ended, facts.lost) == ("cut_off", 0)
+
+
+def test_the_name_of_a_split_recording_stands_for_all_its_files(run, tmp_path):
+    (whole,) = run("whole")
+    files = run("split", limits=FileLimits(duration=0.5))
+    assert len(files) > 3
+    split = open_recording(tmp_path / "split.mcap", whole=True)
+    assert told(split) == told(whole)
+    assert told_between(split, 0.7, 1.3) == told_between(whole, 0.7, 1.3)
+    assert split.result.keys == whole.result.keys
+    assert compare(split, whole).identical
+    facts, expected = facts_of(split), facts_of(whole)
+    assert (facts.messages, facts.lost, facts.tick, facts.duration) == (721, 0, expected.tick, expected.duration)
+    assert [(key.key, key.messages, key.rate) for key in facts.keys] == [
+        (key.key, key.messages, key.rate) for key in expected.keys
+    ]
+    assert facts.size == sum(file.path.stat().st_size for file in files)
+    copied = merge_recordings([split], tmp_path / "copy.mcap")
+    assert told(open_recording(copied.path)) == told(whole)
+
+
+def told_between(recording, start: float, end: float) -> list[tuple[str, int]]:
+    return [(one.key, one.log_ns) for one in recording.messages(start=start, end=end)]
+
+
+def test_a_recording_that_is_still_unfinished_is_named_where_its_name_is_given(make_rig, tmp_path):
+    make_rig(path=tmp_path / "match.mcap")
+    with pytest.raises(
+        TouchlineError, match=r"match\.mcap: No such file or directory, but .*match\.mcap\.part is there"
+    ):
+        open_recording(tmp_path / "match.mcap")
+
+
+@pytest.mark.parametrize("removed", range(3))
+def test_an_event_that_is_missing_among_others_of_its_tick_is_called_missing(make_rig, tmp_path, removed):
+    recordings = []
+    for name, left_out in (("a", -1), ("b", removed)):
+        rig = make_rig(path=tmp_path / f"{name}.mcap")
+        rig.begin()
+        rig.play(range(10))
+        for number in range(3):
+            if number != left_out:
+                rig.host.event(10, f"event {number}")
+        rig.play(range(10, 80))
+        rig.leave()
+        recordings.append(open_recording(rig.path))
+    for first, second, lacking in ((0, 1, "second"), (1, 0, "first")):
+        found = compare(recordings[first], recordings[second]).first
+        assert (found.key, found.number, found.missing_in, found.fields) == ("game/event", removed, lacking, [])

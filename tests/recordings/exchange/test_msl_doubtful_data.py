@@ -12,7 +12,7 @@ from recordings.reading.recording import Recording, open_recording
 from recordings.stats.match_statistics import figures_of_recording
 from schemas.game import EventKind, GameStage, Phase, Score
 from support.msl_log import START_MS, Log, record, robot
-from touchline.__main__ import app
+from touchline.command_line import app
 
 PERIOD_MS = 40
 

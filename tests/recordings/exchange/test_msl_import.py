@@ -315,6 +315,7 @@ def test_files_that_are_no_log_get_one_plain_sentence(tmp_path: Path) -> None:
     with ZipFile(packed, "w") as archive:
         archive.writestr("x.A.msl", json.dumps([record(time) for time in range(0, 4000, 40)]))
     content = bytearray(packed.read_bytes())
+    assert "truncated zip, its table of contents is missing" in said(bytes(content[:-100]), "cut.zip")
     content[80] ^= 0xFF
     assert "damaged zip" in said(bytes(content), "flipped.zip")
     with pytest.raises(TouchlineError, match="No such file"):

@@ -8,7 +8,7 @@ import pytest
 from recordings.container.numbering import numbered
 from recordings.reading.recording import RecordedMessage, open_recording
 from recordings.reading.split_cursor import SplitCursor
-from recordings.recorder.sink import FileLimits
+from recordings.recorder.file_limits import FileLimits
 from recordings.replay.player import is_latched
 from recordings.replay.replay import Replay, ReplaySettings
 from recordings.replay.seek_targets import SeekTarget

@@ -8,7 +8,7 @@ from recordings.container.manifest import EndReason
 from recordings.container.numbering import files_at
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.recording import open_recording
-from recordings.recorder.sink import FileLimits
+from recordings.recorder.file_limits import FileLimits
 from schemas.config.settings import RecordOptions
 from schemas.errors import TouchlineError
 from schemas.game import Phase, Score

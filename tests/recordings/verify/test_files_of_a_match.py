@@ -17,7 +17,7 @@ from schemas.config.scene import load_scene
 from schemas.errors import TouchlineError
 from schemas.process.clock import SteppedClock
 from schemas.side import Side
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.verify.compare_brain import compare_brain
 from touchline.verify.resimulate import verify
 

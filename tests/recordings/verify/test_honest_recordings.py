@@ -8,9 +8,12 @@ import pytest
 
 from recordings.container.key_selection import KeySelection
 from recordings.editing.filtering import filter_recording
+from recordings.editing.merging import merge_recordings
+from recordings.editing.recovery import recover
 from recordings.inspection.contradictions import contradictions, record_faults
 from recordings.reading.recording import Recording, open_recording
 from recordings.reading.tick_index import tick_index_of
+from recordings.recorder.sink import FileLimits
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
 from schemas.game import REFBOX, ActionName, OffField
@@ -187,3 +190,38 @@ def test_the_recording_under_a_referee_box_has_its_questions_and_its_end(
     states = [state for _, state in recording.decoded("game/state")]
     assert any(question.default == "cyan2" for state in states for question in state.questions)
     assert [applied.refbox for _, applied in recording.decoded("host/applied")].count(True) == 700
+
+
+@pytest.fixture(scope="module")
+def parts(tmp_path_factory: pytest.TempPathFactory, match_recorder: Callable[..., None]) -> list[Path]:
+    """A match of 9 s in files of 3 s."""
+    path = tmp_path_factory.mktemp("parts") / "match.mcap"
+    config = load_match(None, {"seed": 4, "rules": "msl", "duration": 12.0, **TWO_A_SIDE})
+    match_recorder(path, config, until=9.0, limits=FileLimits(duration=3.0))
+    return sorted(path.parent.glob("*.mcap"))
+
+
+def test_each_file_of_a_split_recording_fits_itself(parts: list[Path]) -> None:
+    assert len(parts) >= 3
+    for path in parts:
+        part = open_recording(path)
+        assert contradictions(part) == record_faults(part) == []
+        if list(tick_index_of(part).segments(0, 0)):
+            assert verify(path).difference is None
+
+
+def test_the_merged_files_are_identical(parts: list[Path], tmp_path: Path) -> None:
+    merge_recordings([open_recording(path) for path in parts], tmp_path / "whole.mcap")
+    verdict = verify(tmp_path / "whole.mcap")
+    assert verdict.identical and verdict.referee and verdict.ticks == 451
+
+
+def test_a_recovered_recording_is_identical_up_to_its_end(honest: Path, tmp_path: Path) -> None:
+    content = honest.read_bytes()
+    path = tmp_path / "cut.mcap"
+    path.write_bytes(content[: len(content) * 3 // 4])
+    recover(path)
+    recording = open_recording(path)
+    assert contradictions(recording) == record_faults(recording) == []
+    verdict = verify(path)
+    assert verdict.difference is None and verdict.identical and verdict.referee

@@ -8,10 +8,10 @@ from typer.testing import CliRunner, Result
 
 from recordings.reading.recording import open_recording
 from recordings.reading.tick_index import SkipReason, tick_index_of
-from recordings.recorder.sink import FileLimits
+from recordings.recorder.file_limits import FileLimits
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.verify import resimulate, segment_check
 from touchline.verify.resimulate import verify
 from touchline.verify.verdict import Verdict

@@ -16,7 +16,7 @@ from recordings.inspection.facts_table import summary_lines
 from recordings.inspection.recording_facts import facts_of
 from recordings.reading.cursor import Cursor
 from recordings.reading.recording import open_recording
-from recordings.recorder.sink import FileLimits
+from recordings.recorder.file_limits import FileLimits
 from recordings.stats.match_statistics import figures_of_recording
 from recordings.viz.drawing import BALL, EVENTS, FIELD, GAME, ROBOTS, SCHEMAS, TF
 from schemas.config.match_config import load_match

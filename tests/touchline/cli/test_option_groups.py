@@ -20,8 +20,8 @@ from schemas.config.settings import CommandLine, RecordOptions, Settings
 from schemas.errors import TouchlineError
 from schemas.wire.field_docstrings import field_docstrings
 from sim_host.server.settings import HostSettings
-from touchline.__main__ import app as touchline
 from touchline.cli.option_groups import FieldsOf, from_options, with_option_groups
+from touchline.command_line import app as touchline
 
 COMMANDS: dict[str, tuple[type[Settings], ...]] = {
     "host": (HostSettings,),

@@ -15,7 +15,7 @@ from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import ACTION, HEALTH, STATE
 from support.fake_host import FakeHost
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.commands import coach
 
 
@@ -94,6 +94,13 @@ def test_every_word_of_the_referee_box_asks_for_its_own_action(host: Host, word:
     assert (asked.place is not None) == (deed.target is coach.PlaceTarget)
 
 
+def test_the_referees_commands_can_be_given_to_the_referee(host: Host) -> None:
+    result = CliRunner().invoke(app, ["referee", "corner", "magenta"], prog_name="touchline")
+    assert (result.exit_code, result.stdout) == (0, "corner accepted\n")
+    assert [(action.action, action.side) for action in host.asked] == [(ActionName.CORNER, Side.MAGENTA)]
+    assert [command.name for command in coach.referee.registered_commands] == list(coach.REFEREE_COMMANDS)
+
+
 def test_every_action_has_one_word() -> None:
     assert len(coach.REFEREE_COMMANDS) == len(ActionName)
     assert {deed.action for deed in coach.REFEREE_COMMANDS.values()} == set(ActionName)
@@ -113,7 +120,7 @@ def test_an_action_in_a_match_without_a_host_is_wrong_input(host: Host) -> None:
 
 def test_the_state_is_shown_once_in_words_and_as_json(host: Host) -> None:
     host.says = [GameState(tick=5, time=61.0, clock=61.0, phase=Phase.PLAY, score=Score(cyan=2))]
-    assert touchline("state").stdout == " 1:01.0  half 1  cyan 2 : 0 magenta  play\n"
+    assert touchline("state").stdout == " 1:01.0  half 1  Simple 2 : 0 NuBot  play\n"
     shown = json.loads(touchline("state", "--json").stdout)
     assert (shown["phase"], shown["score"]) == ("play", {"cyan": 2, "magenta": 0})
 

@@ -17,7 +17,7 @@ from schemas.messages.setup import Setup
 from schemas.process.clock import SteppedClock
 from schemas.topics import SETUP
 from support.fake_host import FakeHost
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.commands import orders
 
 

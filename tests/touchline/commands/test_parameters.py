@@ -17,7 +17,7 @@ from schemas.messages.parameters import ParametersReply
 from schemas.process.clock import SteppedClock
 from schemas.topics import PARAMETERS
 from sim_host.match.live_parameters import LiveParameters
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.commands import parameters
 
 

@@ -19,7 +19,7 @@ from schemas.process.clock import SteppedClock
 from schemas.side import Side
 from schemas.topics import SCENE
 from sim_host.match.simulation import Simulation
-from touchline.__main__ import app
+from touchline.command_line import app
 from touchline.commands import scene
 from touchline.play import InProcessMatch, play_match
 

@@ -20,7 +20,7 @@ from schemas.messages.setup import Setup
 from schemas.messages.world import BallTruth, RobotTruth, World
 from schemas.process.clock import SteppedClock
 from schemas.topics import STATE, WORLD
-from touchline.__main__ import app
+from touchline.command_line import app
 
 ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 """How the compressed records of a chunk begin."""

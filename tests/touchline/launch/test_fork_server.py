@@ -150,8 +150,9 @@ class Brain:
     def __init__(self, briefing):
         words = list({"one", "two", "three", "four", "five"})
         print(os.environ["TOUCHLINE_SIDE"], os.environ["OMP_NUM_THREADS"], sys.flags.hash_randomization, *words)
-        print("numpy" in sys.modules, sys.path[0], os.getcwd())
-        raise SystemExit(7)
+        print("numpy" in sys.modules, sys.path[-1], os.getcwd(), "PYTHONSAFEPATH" in os.environ)
+        sys.stdout.flush()
+        os._exit(7)
 
     def act(self, sight):
         pass
@@ -181,7 +182,7 @@ def test_forked_or_not_a_robot_has_the_same_environment_module_path_and_order_of
             said.append(launched.last_lines())
     assert said[0] == said[1]
     assert said[0][0].startswith("cyan 1 0 ")
-    assert said[0][1] == f"False {tmp_path} {tmp_path}"
+    assert said[0][1] == f"False {tmp_path} {tmp_path} False"
 
 
 def test_other_programs_are_launched_by_their_command_lines(

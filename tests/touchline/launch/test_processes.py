@@ -58,7 +58,7 @@ def test_no_robot_is_called_as_another_process_of_the_match(name: str) -> None:
 def test_every_process_is_launched_with_a_settings_file_of_its_own_in_the_run_s_folder() -> None:
     for name, process in by_name(plan()).items():
         module = PROCESSES[process.kind].module
-        assert process.command == (sys.executable, "-m", module, "--settings", f"runs/one/{name}.json")
+        assert process.command == (sys.executable, "-P", "-m", module, "--settings", f"runs/one/{name}.json")
         assert process.settings_file == Path(f"runs/one/{name}.json")
 
 
@@ -153,11 +153,24 @@ def test_two_runs_of_one_second_get_different_folders(tmp_path: Path, monkeypatc
     assert first.recording == first.folder / "match.mcap"
 
 
-def test_a_recording_elsewhere_gets_its_folder_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_recording_goes_into_a_folder_that_exists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
+    Path("finals").mkdir()
     run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", Path("finals/a.mcap"), SteppedClock())
-    assert run.recording == Path("finals/a.mcap")
-    assert Path("finals").is_dir()
+    assert (run.recording, run.warning) == (Path("finals/a.mcap"), "")
+
+
+def test_a_folder_that_does_not_exist_is_not_made_for_a_recording_but_the_command_that_makes_it_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", Path("final/s/a.mcap"), SteppedClock())
+    assert run.recording == run.folder / "match.mcap"
+    assert run.warning == (
+        "--record final/s/a.mcap: the folder final/s does not exist; make it with: mkdir -p final/s. "
+        f"The match is played, its recording goes to {run.recording}"
+    )
+    assert not Path("final").exists()
 
 
 def test_a_recording_that_cannot_be_written_goes_into_the_folder_of_the_run_with_a_warning(
@@ -165,10 +178,14 @@ def test_a_recording_that_cannot_be_written_goes_into_the_folder_of_the_run_with
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("file").write_text("")
+    played = "give a path that can be written. The match is played, its recording goes to runs/"
     for path, why in ((Path("file/a.mcap"), "File exists|Not a directory"), (tmp_path, "is a folder")):
         run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", path, SteppedClock())
         assert run.recording == run.folder / "match.mcap"
-        assert re.search(rf"--record .*: ({why}); the match is played, its recording goes to runs/", run.warning)
+        assert re.search(
+            rf"--record .*: ({why}); {played}",
+            run.warning,
+        )
 
 
 def test_a_recording_that_another_recorder_writes_is_left_to_it(
@@ -180,7 +197,10 @@ def test_a_recording_that_another_recorder_writes_is_left_to_it(
     other.file.flush()
     run = prepare_run(load_match(None), "tcp/127.0.0.1:7447", Path("a.mcap"), SteppedClock())
     assert run.recording == run.folder / "match.mcap"
-    assert "--record a.mcap: is being written by another recorder; the match is played" in run.warning
+    assert (
+        "--record a.mcap: is being written by another recorder; name another file, or end that one. The match is"
+        in run.warning
+    )
     assert other.path.read_bytes() == b"its first bytes"
     other.close()
 

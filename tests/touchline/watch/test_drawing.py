@@ -118,7 +118,7 @@ def test_a_picture_has_score_phase_events_and_the_health_of_the_host(setup: Setu
     host.publisher(BELIEF, side="cyan", robot="cyan2").put(Belief(tick=5, time=0.1, robot="cyan2", radio=word))
     seen.update()
     text = "\n".join(row.plain for row in draw_match(seen, setup, 140, 40))
-    for words in ("Simple  2 : 1  NuBot", "1:01.0", "throw in, magenta", "goal for cyan by cyan3", "×1.98 x2  late 3"):
+    for words in ("Simple  2 : 1  NuBot", "1:01.0", "throw in, NuBot", "goal for Simple by cyan3", "×1.98 x2  late 3"):
         assert words in text
     assert "striker: shoot" in text
 

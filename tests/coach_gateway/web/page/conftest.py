@@ -9,10 +9,10 @@ import pytest
 from playwright.sync_api import Browser
 
 from coach_gateway.web.settings import WebSettings
+from recordings.recorder.file_limits import ONE_FILE
 from recordings.recorder.loss_counts import LossCounts
 from recordings.recorder.record import open_sink
 from recordings.recorder.recorder import Recorder
-from recordings.recorder.sink import ONE_FILE
 from recordings.replay.host import ReplayHost
 from recordings.replay.replay import Replay, ReplaySettings
 from schemas.bus.in_process_bus import SharedState
