@@ -176,7 +176,7 @@ def test_an_order_that_robots_refuse_is_shown_with_them_and_the_reason() -> None
 def test_a_robot_that_a_side_has_to_name_is_asked_for_above_the_pitch(setup: Setup) -> None:
     asked = RobotQuestion(action="yellow_card", side=Side.CYAN, left=8.0, robots=["cyan1", "cyan2"], default="cyan2")
     line = head(setup, GameState(tick=1, time=0.0, phase=Phase.STOPPED, questions=[asked])).plain
-    assert line.endswith("  cyan names the robot for: yellow card, else cyan2")
+    assert line.endswith("  Simple names the robot for: yellow card, else cyan2")
 
 
 class HostOfTicks(SteppedClock):
