@@ -50,5 +50,8 @@ class GatewaySettings(ClientSettings):
     """File of the tokens, made when it is not there; without one they last as long as the process."""
     web: WebSettings | None = None
     """The page."""
+    result: Path | None = None
+    """Folder in which the result of the match will be written; with one, the page's server ends after the match, once
+    no page is open any more."""
     bridges: BridgeOptions = NO_BRIDGES
     """What takes part beside the page."""

@@ -63,5 +63,6 @@ def state_line(state: GameState, names: TeamNames = SIDES_ALONE) -> str:
 
 
 def event_line(event: GameEvent, names: TeamNames = SIDES_ALONE) -> str:
-    """Clock, kind and sentence of an event."""
-    return f"{clock_text(event.clock):>7}  {event.kind.value.replace('_', ' ')}: {names.in_text(event.text)}"
+    """Clock, kind and sentence of an event; a sentence that begins with the kind does not repeat it."""
+    kind = event.kind.value.replace("_", " ")
+    return f"{clock_text(event.clock):>7}  {kind}: {names.in_text(event.text.removeprefix(f'{kind}, '))}"

@@ -5,6 +5,7 @@ import asyncio
 from coach_gateway.access import rights
 from coach_gateway.access.roles import Role
 from coach_gateway.web.frame_pace import FramePace
+from coach_gateway.web.match_result import ResultReader
 from coach_gateway.web.page_feed import PageFeed
 from coach_gateway.web.pages import Page, Pages
 from coach_gateway.web.protocol import (
@@ -29,8 +30,12 @@ _POLL_S = 0.01
 """s of wall time between two looks at the bus."""
 _STATUS_S = 0.2
 """s of wall time between two queries of a replay's status."""
-_SWEEP_S = 1.0
+_SWEEP_S = 0.5
 """s of wall time between two checks for pages that do not read, and between two signs of life to each page."""
+_RESULT_S = 0.2
+"""s of wall time between two looks for a result."""
+_RELOAD_S = 3.0
+"""s of wall time in which a page that was closed may come again, as a page that is loaded anew does."""
 _BEGINNING_S = 1.0
 """s of simulated time from a recording's start in which its first tick is looked for."""
 _AGAIN_S = 0.5
@@ -40,7 +45,15 @@ _AGAIN_S = 0.5
 class PageBroadcaster:
     """Sends one match to all pages."""
 
-    def __init__(self, bus: Bus, pages: Pages, requests: RequestHandler, beliefs: BeliefsFor | None) -> None:
+    def __init__(
+        self,
+        bus: Bus,
+        pages: Pages,
+        requests: RequestHandler,
+        beliefs: BeliefsFor | None,
+        result: ResultReader | None = None,
+    ) -> None:
+        self._result = result or ResultReader(None)
         self._bus, self._pages, self._requests = bus, pages, requests
         self._beliefs = beliefs
         self._pace = FramePace()
@@ -48,8 +61,8 @@ class PageBroadcaster:
         self.feed = PageFeed(bus)
 
     async def follow(self, stop: asyncio.Event) -> None:
-        """Send all pages what is new until `stop` is set."""
-        works = (self._broadcast(), self._follow_hosts(), self._follow_replay(), self._sweep())
+        """Send all pages what is new until `stop` is set, or until the match has a result and its pages are closed."""
+        works = (self._broadcast(), self._follow_hosts(), self._follow_replay(), self._sweep(), self._follow_result())
         tasks = [asyncio.create_task(work) for work in works]
         stopped = asyncio.create_task(stop.wait())
         try:
@@ -77,6 +90,8 @@ class PageBroadcaster:
         page.queue.restart(welcome.model_dump_json())
         for text in feed.snapshot():
             page.queue.put(text)
+        if self._result.result is not None:
+            page.queue.put(self._result.result.model_dump_json())
         page.queue.put(feed.orders(self._orders_of(role)))
         frame = feed.frame(self._beliefs_of(role))
         if frame is not None:
@@ -203,6 +218,18 @@ class PageBroadcaster:
         if status.paused and not self.feed.has_picture and status.time <= status.start + _BEGINNING_S:
             return self._requests.client.replay(ReplayRequest(operation=ReplayOperation.STEP))
         return status
+
+    async def _follow_result(self) -> None:
+        """Send all pages the result of the match; returns when it is known and its pages have been closed."""
+        clock, seen_at = self._bus.clock, -_RELOAD_S
+        while True:
+            if len(self._pages):
+                seen_at = clock.now()
+            if self._result.update() and self._result.result is not None:
+                self._pages.send(self._result.result.model_dump_json())
+            if self._result.result is not None and clock.now() - seen_at > _RELOAD_S:
+                return
+            await asyncio.sleep(_RESULT_S)
 
     async def _sweep(self) -> None:
         """Drop pages that do not read, and send a sign of life to the others."""

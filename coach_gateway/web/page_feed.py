@@ -1,12 +1,14 @@
 """What is new of a match as messages of the page: the newest state, health and frame, and every event.
 
-Payloads are validated by the follower and handed on as they came, and a frame is put together once for all pages.
+Payloads are validated by the follower. State and health are handed on as they came; the numbers of a frame are rounded,
+and it is put together once for all pages that see the same.
 """
 
 from collections.abc import Iterable
 
 from coach_gateway.match.follower import MatchFollower, MatchNews
 from coach_gateway.web.protocol import EventUpdate, OrdersUpdate, RefBoxUpdate, SideOrders
+from coach_gateway.web.rounding import rounded_json
 from schemas.bus.contract import Bus
 from schemas.messages.game import GameEvent
 from schemas.messages.setup import Setup
@@ -27,7 +29,8 @@ class PageFeed:
         self._events_sent: dict[str, None] = {}
         self._world: World | None = None
         self._roster: tuple[int | str, ...] | None = None
-        self._beliefs: dict[Side, dict[str, str]] = {side: {} for side in Side}
+        self._world_text: tuple[World, str] | None = None
+        self._beliefs: dict[Side, dict[str, bytes | str]] = {side: {} for side in Side}
         self.setup: Setup | None = None
         """How the match is set up; set by `begin`."""
         self.live = True
@@ -84,8 +87,9 @@ class PageFeed:
         """The newest tick with the beliefs of the robots of these sides; None before the setup is known."""
         if self._world is None or self.setup is None:
             return None
-        tick, time, world = self._world.tick, self._world.time, self._match.payloads[WORLD.key].decode()
-        shown = ",".join(text for side in beliefs for text in self._beliefs[side].values())
+        tick, time = self._world.tick, round(self._world.time, 3)
+        shown = ",".join(text for side in beliefs for text in self._belief_texts(side))
+        world = self._text_of(self._world)
         return f'{{"kind":"frame","tick":{tick},"time":{time!r},"world":{world},"beliefs":{{{shown}}}}}'
 
     def orders(self, sides: Iterable[Side]) -> str:
@@ -129,7 +133,21 @@ class PageFeed:
             payload, chunks = self._match.payloads.get(key), BELIEF.match(key) or {}
             if payload is not None and chunks["side"] in self._beliefs:
                 robot = chunks["robot"]
-                self._beliefs[Side(chunks["side"])][robot] = f'"{robot}":{payload.decode()}'
+                self._beliefs[Side(chunks["side"])][robot] = payload
+
+    def _text_of(self, world: World) -> str:
+        """The newest tick as JSON, rounded once for all roles."""
+        if self._world_text is None or self._world_text[0] is not world:
+            self._world_text = world, rounded_json(self._match.payloads[WORLD.key])
+        return self._world_text[1]
+
+    def _belief_texts(self, side: Side) -> list[str]:
+        """The newest belief of each robot of a side; most are replaced before a frame shows them."""
+        beliefs = self._beliefs[side]
+        for robot, belief in beliefs.items():
+            if isinstance(belief, bytes):
+                beliefs[robot] = f'"{robot}":{rounded_json(belief)}'
+        return [str(text) for text in beliefs.values()]
 
     def _watch_roster(self, world: World) -> None:
         """Have the host queried again where a scene or an operator has let other robots take part in a match."""

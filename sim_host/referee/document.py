@@ -40,7 +40,7 @@ PROCEDURES = (periods, penalties, restart, positions, discipline, authority, ref
 """The procedures around the rules; the docstrings of these modules have the same labels as a rule's."""
 
 DECIDED_BY_PEOPLE = (
-    ("Advantage", "The referee stops the game at every foul. People may undo the last decision."),
+    ("Advantage", "The referee stops the game at every foul. People may undo decisions, the newest first."),
     ("Intent", "Intent is not judged: a robot that moves an opponent has pushed it, a kick from afar is a shot."),
     (
         "Goal crash",

@@ -6,6 +6,7 @@ import re
 import signal
 import socket
 import time
+import urllib.request
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -106,6 +107,13 @@ def is_served(address: str) -> bool:
     port = int(address.split(":")[2].split("/")[0])
     with socket.socket() as probe:
         return probe.connect_ex(("127.0.0.1", port)) == 0
+
+
+def fetched(address: str, path: str = "") -> str:
+    """A file of the page's server."""
+    origin = address.partition("#")[0]
+    with urllib.request.urlopen(f"{origin}{path}", timeout=LIMIT) as answer:
+        return str(answer.read().decode())
 
 
 @pytest.fixture
@@ -267,7 +275,9 @@ def test_without_the_extra_a_warning_names_the_remedy_and_the_match_continues(
 def test_a_person_runs_a_whole_match_from_the_page(start: Callable[..., Any], config: Path, tmp_path: Path) -> None:
     words = ("--referee", "manual", "--web", "--web-port", "0", "--listen", with_free_port("tcp/127.0.0.1:0"), "--json")
     match = start("touchline", "match", str(config), *words, folder=tmp_path)
-    with page_at(said_address(match)) as page:
+    address = said_address(match)
+    assert "<title>" in fetched(address)  # at once: it is served when it is printed
+    with page_at(address) as page:
         page.hear("frame")
         for action in (
             {"action": "kick_off", "side": "cyan"},
@@ -281,6 +291,12 @@ def test_a_person_runs_a_whole_match_from_the_page(start: Callable[..., Any], co
             {"action": "end_game"},
         ):
             page.until_accepted("action", action=action)
+        kept = page.hear("result")
+        assert "--web" in kept["replay"] and kept["statistics"] is None  # they take a while
+        kept = page.hear("result")
+        assert ["goals", "1", "0"] in kept["figures"]
+        assert 'id="match">{"title":' in fetched(address, kept["statistics"])
+        assert match.popen.poll() is None  # the page is still open
     assert match.status() == 0
     result = json.loads(match.out)
     assert result["score"] == {"cyan": 1, "magenta": 0}

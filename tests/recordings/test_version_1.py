@@ -42,7 +42,8 @@ def test_info_has_its_facts() -> None:
     facts = {line[:13].strip(): line[13:].strip() for line in lines if line}
     assert facts["match"] == "version_one"
     assert facts["score"] == "1 : 0"
-    assert facts["duration"] == "16.18 s simulated, 810 ticks"
+    assert facts["duration"] == "16.18 s simulated, from 0.00 to 16.18 s"
+    assert facts["last tick"] == "809 at 16.18 s"
     assert facts["messages"] == "5553, 0 lost, 0 sent before it began"
 
 

@@ -30,11 +30,14 @@ def tokens_in(folder: Path) -> Path:
 class Gateway:
     """The page's server in a thread of its own; without `medium` it waits for a host in vain."""
 
-    def __init__(self, medium: SharedState | None, settings: WebSettings, tokens: Path | None) -> None:
+    def __init__(
+        self, medium: SharedState | None, settings: WebSettings, tokens: Path | None, result: Path | None = None
+    ) -> None:
         self.logged: list[str] = []
         self.binding = bind_page(settings, tokens_of(tokens), tokens)
         self.origin = self.binding.origin
         self.bus = medium.open_bus("friendly", WallClock()) if medium is not None else None
+        self._result = result
         self._stop = asyncio.Event()
         self._thread = threading.Thread(
             target=self._run,
@@ -47,7 +50,7 @@ class Gateway:
         async def main() -> None:
             self._loop = asyncio.get_running_loop()
             if self.bus is not None:
-                self.server = WebServer(self.bus, self.binding, self.logged.append)
+                self.server = WebServer(self.bus, self.binding, self.logged.append, self._result)
             waiting = WaitingPage(self.binding, "friendly")
             self._ready.set()
             await (waiting if self.bus is None else self.server).serve(self._stop)
@@ -57,6 +60,16 @@ class Gateway:
     @property
     def port(self) -> int:
         return int(self.origin.rpartition(":")[2])
+
+    @property
+    def runs(self) -> bool:
+        """It has not ended by itself."""
+        return self._thread.is_alive()
+
+    def wait(self) -> bool:
+        """Wait until it has ended by itself; whether it has."""
+        self._thread.join(SOON)
+        return not self.runs
 
     def close(self) -> None:
         if not self._thread.is_alive():

@@ -47,7 +47,15 @@ class Tab:
         return self.page.evaluate(what)
 
     def open(self, tab: str) -> None:
-        self.page.locator(f"#to-{tab}").click()
+        """Open a tab; with the referee's token it may be on the operator's page."""
+        opener = self.page.locator(f"#to-{tab}")
+        if not opener.is_visible():
+            self.swap_seat()
+        opener.click()
+
+    def swap_seat(self) -> None:
+        """From the referee's page to the operator's, or back."""
+        self.page.evaluate("document.getElementById('seat').click()")
 
     def button(self, action: str, side: str = "") -> Locator:
         return self.page.locator(f'[data-action="{action}"][data-side="{side}"]')

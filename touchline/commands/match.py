@@ -18,7 +18,6 @@ from touchline.cli.option_groups import FieldsOf, with_option_groups
 if TYPE_CHECKING:
     import socket
 
-    from coach_gateway.web.settings import WebSettings
     from schemas.bus.contract import ReceivedMessage
     from schemas.config.match_config import MatchConfig
     from schemas.process.clock import Clock
@@ -78,21 +77,11 @@ def match(
     plan = replace(plan, page=served, bridges=bridges, bridge_sockets=sockets)
     if brain_folder is not None:
         plan = replace(plan, brain_folder=brain_folder.resolve())
-    if served is not None:
-        _invite(plan, served.settings, err=json)
     if bridges.wanted:
         typer.echo(f"bridges: {plan.folder / 'bridges.log'}; the coaches' tokens: {plan.tokens}", err=json)
     if plan.warning:
         typer.echo(f"touchline: {plan.warning}", err=True)
-    result = _play(plan, clock, quiet=json)
-    if json:
-        typer.echo(result.json())
-    else:
-        from touchline.cli.console import console
-
-        console().print(result.render())
-    if result.recording.fault:
-        raise MatchFailedError(result.recording.fault)
+    _play(plan, clock, quiet=json)
 
 
 # Modules that a plain match does not need are imported on use: no process is launched before the imports are done.
@@ -116,32 +105,44 @@ def _open_page(options: dict[str, Any]) -> "Page":
     return open_page(options)
 
 
-def _invite(plan: "MatchPlan", page: "WebSettings", *, err: bool) -> None:
-    """Print where the page is."""
-    from touchline.launch.page import address_lines
-
-    for line in address_lines(page, plan.tokens):
-        typer.echo(line, err=err)
-
-
 def _open_ports(bridges: BridgeOptions) -> "tuple[socket.socket, ...]":
     from coach_gateway.bridges import bridges_of
 
     return tuple(bridges_of(bridges).open_ports().all)
 
 
-def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> "MatchResult":
-    """Play the match on a screen for the output; with `quiet` stdout is reserved for the JSON result."""
+def _play(plan: "MatchPlan", clock: "Clock", *, quiet: bool) -> None:
+    """Play the match on a screen for the output, and print its result; with `quiet` stdout has the JSON result alone.
+
+    With a page it returns when the page with the result is closed.
+    """
     from touchline.launch.match_run import InterruptedMatchError, MatchRun
     from touchline.watch.screen import screen_for
 
     try:
         with screen_for(sys.stderr if quiet else sys.stdout, clock) as screen:
-            return MatchRun(plan, screen, clock, _losses, _published).play()
+            run = MatchRun(plan, screen, clock, _losses, _published)
+            result = run.play()
     except InterruptedMatchError as stopped:
         left = plan.recording is not None and plan.recording.exists()
         typer.echo(f"touchline: match interrupted; see {plan.recording if left else plan.folder}", err=True)
         raise typer.Exit(128 + stopped.number) from None
+    _print_result(result, json=quiet)
+    if plan.page is not None:
+        from touchline.launch.match_page import result_parts
+
+        run.stay(result_parts(plan))
+    if result.recording.fault:
+        raise MatchFailedError(result.recording.fault)
+
+
+def _print_result(result: "MatchResult", *, json: bool) -> None:
+    if json:
+        typer.echo(result.json())
+        return
+    from touchline.cli.console import console
+
+    console().print(result.render())
 
 
 def _published(plan: "MatchPlan") -> "Iterator[ReceivedMessage]":

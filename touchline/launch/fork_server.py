@@ -72,9 +72,10 @@ class ForkServer:
         self._context.set_forkserver_preload(list(PRELOAD))
         safe = {**environment, **module_path_environment(), SAFE_PATH: "1"}
         try:
-            resource_tracker.ensure_running()  # it would unblock the signal again
-            with _environment(safe), _blocked(signal.SIGINT):
-                forkserver.ensure_running()
+            with _environment(safe):
+                resource_tracker.ensure_running()  # when it starts, it unblocks the signal
+                with _blocked(signal.SIGINT):
+                    forkserver.ensure_running()
         except OSError:
             self._context = None
 

@@ -5,9 +5,10 @@ import signal
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from types import FrameType, TracebackType
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.lines import clock_text, event_line
@@ -24,7 +25,16 @@ from schemas.side import Side
 from touchline.launch.child_process import ProcessHandle
 from touchline.launch.fork_server import ForkServer
 from touchline.launch.log_limit import LogLimit
-from touchline.launch.processes import ROBOT_ENVIRONMENT, MatchPlan, Process, client_processes, host_process
+from touchline.launch.page import address_lines
+from touchline.launch.page_probe import AddressLines
+from touchline.launch.processes import (
+    ROBOT_ENVIRONMENT,
+    MatchPlan,
+    Process,
+    ProcessKind,
+    client_processes,
+    host_process,
+)
 from touchline.launch.recording_outcome import (
     NO_RECORDING,
     RecordingOutcome,
@@ -37,6 +47,9 @@ from touchline.watch.agent_faults import SlowAgents
 from touchline.watch.screen import Screen
 from touchline.watch.status_line import status_line
 
+if TYPE_CHECKING:
+    from coach_gateway.web.protocol import ResultUpdate
+
 _POLL = 0.05
 """Wall time between polls of processes and bus, s."""
 _LOOK = 0.01
@@ -45,6 +58,11 @@ _LAST_MESSAGES = 5.0
 """Wall time for the host's last messages to arrive after its process has ended, s. They have all arrived when the link
 closes, and it closes with the process: only an overloaded machine takes long."""
 _WRONG_INPUT = 2
+_AFTER_THE_RESULT = frozenset({ProcessKind.PAGE})
+"""Processes that go on after the match, until the page with its result is closed."""
+_NONE: frozenset[ProcessKind] = frozenset()
+_FIRST_LOOK = 1.0
+"""Wall time in which a page's server that has the result ends if no page is open, s."""
 
 
 class InterruptedMatchError(Exception):
@@ -103,6 +121,10 @@ class MatchRun:
         self._log_limit = LogLimit()
         self._fork_server = ForkServer()
         self._supervisor = Supervisor([host_process(plan)], self._launch, clock)
+        self._address: AddressLines | None = None
+        if plan.page is not None:
+            lines = partial(address_lines, plan.page.settings, plan.tokens)
+            self._address = AddressLines(plan.page.settings, lines, partial(screen.event, notable=False))
 
     def play(self) -> MatchResult:
         """Play the match.
@@ -112,8 +134,6 @@ class MatchRun:
             MatchFailedError: the host ended before full time, or a team has no robot left.
             TouchlineError: the host could not start; the message is the host's.
         """
-        if self._names != SIDES_ALONE:
-            self._screen.event(str(self._names), notable=True)
         with StopSignals() as stop:
             try:
                 self._supervisor.start()
@@ -124,14 +144,42 @@ class MatchRun:
                 self._supervisor.end(AT_ONCE)
                 raise
             if follower is not None:  # without a host there is no match to record
-                steps = AFTER_THE_MATCH if self._supervisor.host_status is not None else ABANDONED
-                self._supervisor.end(steps, should_abort=lambda: stop.received is not None)
-            self._supervisor.end(AT_ONCE)  # the remaining processes, after an interrupt
+                is_over = self._supervisor.host_status is not None
+                steps, keep = (AFTER_THE_MATCH, _AFTER_THE_RESULT) if is_over else (ABANDONED, _NONE)
+                self._supervisor.end(steps, should_abort=lambda: stop.received is not None, keep=keep)
+            if follower is None or empty is not None or stop.received is not None:
+                self._supervisor.end(AT_ONCE)  # the remaining processes
         if stop.received is not None:
             raise InterruptedMatchError(stop.received)
-        if empty is not None:
-            raise MatchFailedError(self._abandonment(empty, follower))
-        return self._outcome(follower)
+        try:
+            if empty is not None:
+                raise MatchFailedError(self._abandonment(empty, follower))
+            return self._outcome(follower)
+        except BaseException:
+            self._supervisor.end(AT_ONCE)
+            raise
+
+    def stay(self, result: "Iterable[ResultUpdate]") -> None:
+        """Keep the page with the result of the match until it is closed everywhere, or until SIGINT or SIGTERM.
+
+        `result` is what the page is given, one piece after another while the page is open.
+        """
+        from coach_gateway.web.match_result import write_result
+
+        with StopSignals() as stop:
+            for part in result:
+                write_result(self._plan.result_folder, part)
+                if not self._page_is_open(stop, _FIRST_LOOK):
+                    break
+            while self._page_is_open(stop, _POLL):
+                pass
+            self._supervisor.end(AT_ONCE)
+
+    def _page_is_open(self, stop: StopSignals, seconds: float) -> bool:
+        """Wait; whether the page's server runs on: it ends when no page is open."""
+        self._clock.sleep_until(self._clock.now() + seconds)
+        self._supervisor.check()
+        return stop.received is None and "page" not in self._supervisor.ended
 
     def _launch(self, process: Process) -> ProcessHandle:
         log = self._plan.folder / f"{process.name}.log"
@@ -145,6 +193,8 @@ class MatchRun:
             if announcement is not None:
                 is_unexpected = announcement.endpoint != local_endpoint(self._plan.listen or DEFAULT_ENDPOINT)
                 self._screen.event(f'match "{announcement.match}" on {announcement.endpoint}', notable=is_unexpected)
+                if self._names != SIDES_ALONE:
+                    self._screen.event(str(self._names), notable=True)
                 self._plan = replace(self._plan, listen=announcement.endpoint)
                 self._supervisor.add(client_processes(self._plan))
                 self._has_clients = True
@@ -186,6 +236,8 @@ class MatchRun:
             self._screen.warn(notice.sentence)
             for line in notice.log:
                 self._screen.warn(f"  {notice.name}: {line}")
+        if self._address is not None:
+            self._address.update()
         return self._supervisor.host_status is None and self._empty_side() is None
 
     def _is_ending(self, stop: StopSignals) -> bool:

@@ -3,6 +3,7 @@
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from coach_gateway.web.settings import WebSettings, need_web
 from schemas.process.clock import Clock
 from touchline.cli.option_groups import from_options
 from touchline.launch.child_process import ChildProcess
+from touchline.launch.page_probe import AddressLines
 from touchline.launch.processes import TOKENS, Page, page_process
 from touchline.launch.supervisor import AT_ONCE, Notice, Supervisor
 
@@ -56,10 +58,14 @@ def serve_page_beside(
         settings = GatewaySettings(connect=connect, match=match, tokens=tokens, web=page.settings)
         process = page_process(settings, page.listener, folder)
         supervisor = Supervisor([process], lambda process: ChildProcess(process, folder / "page.log"), clock)
-        for line in address_lines(page.settings, tokens):
-            log(line)
+        address = AddressLines(page.settings, partial(address_lines, page.settings, tokens), log)
         supervisor.start()
+
+        def check() -> list[Notice]:
+            address.update()
+            return supervisor.check()
+
         try:
-            yield supervisor.check
+            yield check
         finally:
             supervisor.end(AT_ONCE)

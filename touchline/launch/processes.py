@@ -166,6 +166,11 @@ class MatchPlan:
         """The file of the tokens for both page and coach programs."""
         return self.folder / TOKENS
 
+    @property
+    def result_folder(self) -> Path:
+        """The folder with what the match's page shows after the match."""
+        return self.folder / "result"
+
 
 def check_robot_names(config: MatchConfig) -> None:
     """Check that no robot has the name of another process of the match: log files have these names.
@@ -207,7 +212,7 @@ def client_processes(plan: MatchPlan) -> list[Process]:
         processes += [_robot_process(robot, side, plan) for robot in config.robots(side)]
     gateway = GatewaySettings(connect=connect, match=match, tokens=plan.tokens)
     if plan.page is not None:
-        settings = gateway.model_copy(update={"web": plan.page.settings})
+        settings = gateway.model_copy(update={"web": plan.page.settings, "result": plan.result_folder})
         processes.append(page_process(settings, plan.page.listener, folder))
     if plan.bridges.wanted:
         bridges = gateway.model_copy(update={"bridges": plan.bridges})

@@ -135,20 +135,28 @@ class Supervisor:
         """The last lines of a process's log."""
         return self._running[name].last_lines() if name in self._running else []
 
-    def end(self, steps: Sequence[EndStep], should_abort: Callable[[], bool] = lambda: False) -> None:
-        """End all processes by these steps; returns when all have ended, or as soon as `should_abort()` is true."""
+    def end(
+        self,
+        steps: Sequence[EndStep],
+        should_abort: Callable[[], bool] = lambda: False,
+        keep: frozenset[ProcessKind] = frozenset(),
+    ) -> None:
+        """End all processes by these steps; returns when all have ended, or as soon as `should_abort()` is true.
+
+        Processes of the kinds `keep` go on.
+        """
         began = self._clock.now()
         waiting = list(steps)
-        while self._still_running() and not should_abort():
+        while self._still_running(keep) and not should_abort():
             elapsed = self._clock.now() - began
             while waiting and waiting[0].after <= elapsed:
-                self._signal(waiting.pop(0))
+                self._signal(waiting.pop(0), keep)
             self._clock.sleep_until(self._clock.now() + _POLL)
 
-    def _still_running(self) -> bool:
+    def _still_running(self, keep: frozenset[ProcessKind]) -> bool:
         for name in self._running:
             self._reap(name)
-        return len(self.ended) < len(self._running)
+        return any(name not in self.ended and self._processes[name].kind not in keep for name in self._running)
 
     def _reap(self, name: str) -> None:
         if name in self._running and name not in self.ended:
@@ -156,9 +164,9 @@ class Supervisor:
             if status is not None:
                 self.ended[name] = status
 
-    def _signal(self, step: EndStep) -> None:
+    def _signal(self, step: EndStep, keep: frozenset[ProcessKind]) -> None:
         for name, running in self._running.items():
-            if name not in self.ended and self._processes[name].kind in step.kinds:
+            if name not in self.ended and self._processes[name].kind in step.kinds - keep:
                 running.send(step.number)
 
     def _crashed(self, process: Process, status: int) -> Notice:

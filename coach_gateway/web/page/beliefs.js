@@ -1,7 +1,8 @@
 // What robots believe beside the truth: their own pose, the ball and obstacles, as sent on the radio, and passes.
 
 import { bodyPath, drawnRadius } from "./shared/bodies.js";
-import { SIDES, circle, line, write } from "./shared/shapes.js";
+import { SIDES } from "./shared/palette.js";
+import { circle, line, write } from "./shared/shapes.js";
 import { numberOf } from "./text.js";
 
 /** Turns a body from the frame of a side into that of the field. */

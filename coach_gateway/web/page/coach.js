@@ -75,6 +75,11 @@ export class Coach {
       const value = row.hidden ? null : read();
       if (value !== null) order[key] = value;
     }
+    const missing = order.mode === "test" ? TESTS[order.test][2].filter((key) => !(key in order)).map((key) => FIELDS[key][0]) : [];
+    if (missing.length) {
+      const reason = `${TESTS[order.test][0]} needs ${new Intl.ListFormat("en").format(missing)}`;
+      return this.requests.show(byId("order-give"), `Test ${readable(order.test)}, ${this.side}`, { accepted: false, reason });
+    }
     const words = order.mode === "test" ? `Test ${readable(order.test)}` : capitalized(order.mode);
     return this.requests.ask(byId("order-give"), `${words}, ${this.side}`, "order", { side: this.side, order });
   }

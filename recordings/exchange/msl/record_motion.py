@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from recordings.exchange.msl.team_log import GAP_S, BallRow, RobotRow
+from recordings.exchange.msl.record_values import BallRow, RobotRow
+from recordings.exchange.msl.team_log import GAP_S
 from schemas.league.findings import Findings
 
 Array = npt.NDArray[np.float64]
@@ -66,10 +67,10 @@ def body_records(rows: list[RobotRow] | list[BallRow], what: str, limits: Limits
     derived = _slopes(seconds, table[:, [_X, _Y]], jumps)
     wrong, missing = _contradicted(seconds, table, derived), np.isnan(table[:, [_VX, _VY]]).any(axis=1)
     if wrong.any():
-        told, moved = _mean_speed(table[wrong][:, [_VX, _VY]]), _mean_speed(derived[wrong])
+        stated, moved = _mean_speed(table[wrong][:, [_VX, _VY]]), _mean_speed(derived[wrong])
         findings.note(
-            f"velocity of {what} contradicts its positions, {told:.1f} m/s where it moves {moved:.1f} m/s on average: "
-            "derived from the positions",
+            f"velocity of {what} contradicts its positions, {stated:.1f} m/s where it moves {moved:.1f} m/s on average"
+            ": derived from the positions",
             count=int(wrong.sum()),
         )
     replaced = wrong | missing
@@ -128,9 +129,9 @@ def _sums(values: npt.NDArray[np.longdouble], low: npt.NDArray[np.int64], high: 
 def _contradicted(seconds: Array, table: Array, derived: Array) -> Mask:
     """Per record: whether its velocity is recorded and wrong."""
     recorded = table[:, [_VX, _VY]]
-    told, moved = np.hypot(*recorded.T), np.hypot(*derived.T)
-    known: Mask = ~np.isnan(told)
-    faster = np.fmax(told, moved)
+    stated, moved = np.hypot(*recorded.T), np.hypot(*derived.T)
+    known: Mask = ~np.isnan(stated)
+    faster = np.fmax(stated, moved)
     moves = known & (faster > _MOVES_MPS)
     wrong = moves & (np.hypot(*(recorded - derived).T) > 0.5 * faster)
     if moves.sum() >= _ENOUGH and wrong.sum() > 0.5 * moves.sum():
@@ -138,7 +139,7 @@ def _contradicted(seconds: Array, table: Array, derived: Array) -> Mask:
     # a body that stops or starts is at rest on one side of the record
     steps = np.hypot(np.diff(table[:, _X]), np.diff(table[:, _Y])) > _MOVES_MPS * np.diff(seconds)
     passes: Mask = np.concatenate([[False], steps]) & np.concatenate([steps, [False]])
-    stands: Mask = known & (told == 0.0) & (moved > _MOVES_MPS) & passes
+    stands: Mask = known & (stated == 0.0) & (moved > _MOVES_MPS) & passes
     return stands
 
 

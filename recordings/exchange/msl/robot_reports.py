@@ -5,7 +5,8 @@ from collections.abc import Iterator
 
 from recordings.editing.compose import TimedMessage
 from recordings.exchange.msl import LOG_PERIOD
-from recordings.exchange.msl.team_log import RobotReport, TeamLog
+from recordings.exchange.msl.record_values import RobotReport
+from recordings.exchange.msl.team_log import TeamLog
 from schemas.league.axes import vector_to_field
 from schemas.messages.radio import Belief, Motion, Radio
 from schemas.side import Side

@@ -10,17 +10,26 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from statistics import median
-from typing import Any, NamedTuple
+from typing import Any
 
+from recordings.exchange.msl.record_values import (
+    ROBOT_KEYS,
+    BallRow,
+    RobotReport,
+    RobotRow,
+    best_ball,
+    robot_report,
+    robot_row,
+    short_text,
+    unknown_keys,
+)
 from schemas.league.findings import Findings
-from schemas.league.lenient_json import REQUIRED, fields_of, items_of, number, vector
+from schemas.league.lenient_json import REQUIRED, fields_of, items_of, number
 
 GAP_S = 1.0
 """s without a record after which a team has a gap. Chosen here: ten times the longest period the league allows."""
 _BURST_S = 0.01
 """s between two records below which they are a burst. Chosen here: no team's program runs at 100 Hz."""
-_MAX_COORDINATE_M = 40.0
-"""m; a larger coordinate is an error. Chosen here: the league's longest pitch has 22 m, so goal lines at 11 m."""
 _MAX_OFFSET_MS = 6 * 3600 * 1000
 """ms from the median record; a record farther away has a wrong clock. Chosen here: no match lasts longer."""
 _RECORD = re.compile(r'\{\s*"(?:team|time|game|world)\w*"\s*:', re.IGNORECASE)
@@ -28,38 +37,9 @@ _RECORD = re.compile(r'\{\s*"(?:team|time|game|world)\w*"\s*:', re.IGNORECASE)
 _BETWEEN = re.compile(r"[\s,\[\]\x00]*")
 _DECODER = json.JSONDecoder(strict=False)
 
-RobotRow = tuple[float, float, float, float, float, float, float, float]
-"""Time in ms; x, y, heading, vx, vy, omega in the league's axes, NaN if unknown; 1 with the ball, else 0."""
-BallRow = tuple[float, float, float, float, float, float, float, float]
-"""Time in ms; x, y, z, vx, vy, vz in the league's axes; the team's confidence from 0 to 1. NaN if unknown."""
 _RECORD_KEYS = frozenset({"teamName", "timestamp", "gametimeMs", "worldstate"})
 _WORLD_KEYS = frozenset(REQUIRED)
-_ROBOT_KEYS = frozenset(
-    {"id", "pose", "position", "targetPose", "velocity", "intention", "batteryLevel", "ballEngaged"}
-)
 """Keys whose values are imported, or counted by themselves."""
-_TEXT = 80
-"""Most characters of a text in a radio message."""
-
-
-class RobotReport(NamedTuple):
-    """What one robot reports in one record, in the league's axes; unknown numbers are NaN."""
-
-    epoch_ms: float
-    number: int
-    x: float
-    y: float
-    heading: float
-    vx: float
-    vy: float
-    omega: float
-    target: tuple[float, float, float] | None
-    """Pose that it drives to; None if unknown."""
-    battery: float | None
-    """Percent; None if unknown."""
-    intention: str
-    team_intention: str
-    """The intention of its team in this record."""
 
 
 @dataclass(slots=True)
@@ -164,11 +144,11 @@ def _record(raw: Any, index: int, findings: Findings) -> _Record | None:
             findings.note(f"worldstate without {key}")
     robots: dict[int, RobotRow] = {}
     reports: list[RobotReport] = []
-    left_out = _unknown_keys(record, _RECORD_KEYS, "record") + _unknown_keys(world, _WORLD_KEYS, "worldstate")
-    intention = _text(world.get("intention"), "intention of a team", findings)
+    left_out = unknown_keys(record, _RECORD_KEYS, "record") + unknown_keys(world, _WORLD_KEYS, "worldstate")
+    intention = short_text(world.get("intention"), "intention of a team", findings)
     for one in items_of(world.get("robots")):
         fields = fields_of(one, findings)
-        read = _robot(fields, epoch_ms, findings)
+        read = robot_row(fields, epoch_ms, findings)
         if read is None:
             continue
         name, row = read
@@ -176,9 +156,9 @@ def _record(raw: Any, index: int, findings: Findings) -> _Record | None:
             findings.note("robot twice in one record, the second left out", lost=True)
             continue
         robots[name] = row
-        reports.append(_report(fields, name, row, intention, findings))
-        left_out += _unknown_keys(fields, _ROBOT_KEYS, "robot")
-    ball, further = _best_ball(world, epoch_ms, findings)
+        reports.append(robot_report(fields, name, row, intention, findings))
+        left_out += unknown_keys(fields, ROBOT_KEYS, "robot")
+    ball, further = best_ball(world, epoch_ms, findings)
     obstacles = len(items_of(world.get("obstacles")))
     left_out += [("obstacles that a team sees", obstacles), ("further balls that a team sees", further)]
     if number(world.get("ageMs"), "ageMs", Findings()):
@@ -193,92 +173,6 @@ def _record(raw: Any, index: int, findings: Findings) -> _Record | None:
         reports,
         [(what, count) for what, count in left_out if count],
     )
-
-
-def _report(fields: dict[str, Any], name: int, row: RobotRow, intention: str, findings: Findings) -> RobotReport:
-    """What a robot reports beside its pose."""
-    x, y, heading = vector(fields.get("targetPose"), 3, "targetPose", findings)
-    target = None if x is None or y is None else (x, y, _or_nan(heading))
-    battery = number(fields.get("batteryLevel"), "batteryLevel", findings)
-    own = _text(fields.get("intention"), "intention of a robot", findings)
-    return RobotReport(row[0], name, *row[1:7], target, battery, own, intention)
-
-
-def _text(value: Any, what: str, findings: Findings) -> str:
-    """A text of at most `_TEXT` characters."""
-    if not isinstance(value, str):
-        return ""
-    if len(value) > _TEXT:
-        findings.note(f"{what} longer than {_TEXT} characters: shortened")
-    return value[:_TEXT]
-
-
-def _unknown_keys(fields: dict[str, Any], known: frozenset[str], what: str) -> list[tuple[str, int]]:
-    return [(f'values of the key "{key}" of a {what}', 1) for key in fields if key not in known]
-
-
-def _robot(robot: dict[str, Any], epoch_ms: float, findings: Findings) -> tuple[int, RobotRow] | None:
-    given = robot.get("id")
-    name = number(given, "id of a robot", findings)
-    if name is None or name != int(name) or not 0 <= name < 1000:
-        findings.note("robot without a number", lost=True)
-        return None
-    if isinstance(given, float):
-        findings.note("id of a robot written as 1.0")
-    pose = robot["pose"] if "pose" in robot else robot.get("position")
-    x, y, heading = vector(pose, 3, "pose", findings)
-    if x is None or y is None:
-        findings.note("robot without a position", lost=True)
-        return None
-    if max(abs(x), abs(y)) > _MAX_COORDINATE_M:
-        findings.note(f"robot more than {_MAX_COORDINATE_M:g} m from the centre", lost=True)
-        return None
-    if heading is None:
-        findings.note("robot without a heading: its last one is used")
-    velocity = vector(robot.get("velocity"), 3, "velocity of a robot", findings)
-    if velocity[0] is None or velocity[1] is None:
-        findings.note("robot without a velocity: derived from its positions")
-    engaged = robot.get("ballEngaged")
-    if isinstance(engaged, bool):
-        findings.note("ballEngaged is true or false, not 1 or 0")
-    has_ball = number(engaged, "ballEngaged", findings)
-    if has_ball is None:
-        findings.note("robot without ballEngaged: it counts as 0")
-    rest = [_or_nan(value) for value in (heading, *velocity)]
-    return int(name), (epoch_ms, x, y, rest[0], rest[1], rest[2], rest[3], float((has_ball or 0.0) > 0.5))
-
-
-def _best_ball(world: dict[str, Any], epoch_ms: float, findings: Findings) -> tuple[BallRow | None, int]:
-    """The ball with the team's highest confidence, and the number of further balls."""
-    best: BallRow | None = None
-    count = 0
-    for one in items_of(world.get("balls")):
-        ball = fields_of(one, findings)
-        x, y, z = vector(ball.get("position"), 3, "position of a ball", findings)
-        if x is None or y is None:
-            findings.note("ball without a position", lost=True)
-            continue
-        if max(abs(x), abs(y)) > _MAX_COORDINATE_M:
-            findings.note(f"ball more than {_MAX_COORDINATE_M:g} m from the centre", lost=True)
-            continue
-        velocity = vector(ball.get("velocity"), 3, "velocity of a ball", findings)
-        if velocity[0] is None or velocity[1] is None:
-            findings.note("ball without a velocity: derived from its positions")
-        confidence = number(ball.get("confidence"), "confidence", findings)
-        if confidence is None:
-            findings.note("ball without a confidence: it is unknown")
-        elif not 0 <= confidence <= 1:
-            findings.note("confidence outside 0 to 1: it is unknown")
-            confidence = None
-        count += 1
-        if best is None or (confidence is not None and not confidence <= best[-1]):
-            vx, vy, vz = (_or_nan(value) for value in velocity)
-            best = (epoch_ms, x, y, _or_nan(z), vx, vy, vz, _or_nan(confidence))
-    return best, max(0, count - 1)
-
-
-def _or_nan(value: float | None) -> float:
-    return math.nan if value is None else value
 
 
 def _in_order(found: list[_Record], letter: str, findings: Findings) -> list[_Record]:

@@ -42,8 +42,9 @@ class RefereeState(NamedTuple):
     shoot_out: ShootOut | None = None
     proposal: Proposal | None = None
     """In mixed officiating, the decision that people may overrule."""
-    before: "RefereeState | None" = None
-    """The state before the last decision, for `undo`."""
+    history: "tuple[RefereeState, ...]" = ()
+    """The states before the last decisions of this half, the newest last, each without a history of its own: for
+    `undo`."""
     still: float = 0.0
     """s for which the ball in play has not moved."""
     ball: tuple[float, float, float] | None = None

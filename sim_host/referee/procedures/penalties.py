@@ -22,7 +22,7 @@ def begin(draft: RulingDraft) -> None:
     """Signal the first penalty, for the side that would have kicked off."""
     state = draft.state
     out = ShootOut(state.kick_off.opponent)
-    draft.state = state._replace(stage=GameStage.SHOOT_OUT, shoot_out=out, before=None)
+    draft.state = state._replace(stage=GameStage.SHOOT_OUT, shoot_out=out, history=())
     restart.signal(draft, penalty_for(draft, out.next_side()))
 
 

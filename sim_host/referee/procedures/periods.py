@@ -114,7 +114,7 @@ def _change_sides(draft: RulingDraft, stage: GameStage) -> None:
         kick_off=state.kick_off.opponent,
         cyan_attacks=-state.cyan_attacks,
         participation=discipline.for_next_half(state.participation, draft.book.discipline),
-        before=None,
+        history=(),
     )
     _place_at_start_poses(draft)
     begin_half(draft)

@@ -85,8 +85,8 @@ def host(host_of: Callable[..., FakeHost]) -> FakeHost:
 def gateway_of(medium: SharedState, tokens: Path) -> Iterator[Callable[..., Gateway]]:
     made: list[Gateway] = []
 
-    def make(tokens_file: Path | None = tokens, **words: Any) -> Gateway:
-        made.append(Gateway(medium, WebSettings(**{"port": 0, **words}), tokens_file))
+    def make(tokens_file: Path | None = tokens, result: Path | None = None, **words: Any) -> Gateway:
+        made.append(Gateway(medium, WebSettings(**{"port": 0, **words}), tokens_file, result))
         return made[-1]
 
     yield make

@@ -56,7 +56,7 @@ GARBAGE = [
     ("[]", "it is []; an object"),
     ('{"id": 4}', "deed is missing"),
     ('{"id": 4, "deed": "rule the world"}', "deed is 'rule the world'; one of action, order"),
-    ('{"id": -1, "deed": "token"}', "token.id is -1; at least 0"),
+    ('{"id": -1, "deed": "token"}', "id is -1; at least 0"),
     ('{"id": 4, "deed": "token", "more": 1}', "more is not known"),
     (
         '{"id": 4, "deed": "drive", "robot": "cyan1", "manual": {"drive": {"vx": NaN}}}',

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from recordings.container.numbering import numbered_files
 from recordings.recorder.file_limits import FileLimits
 from schemas.config.match_config import load_match
-from touchline.__main__ import app
+from touchline.command_line import app
 
 
 @pytest.fixture(scope="module")

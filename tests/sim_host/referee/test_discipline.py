@@ -278,3 +278,16 @@ def test_robots_off_the_field_block_no_robot_before_a_restart(rig):
     signalled = rig.until(lambda state: state.phase is Phase.FREE_KICK).events[-1].time
     rig.until(lambda state: state.running)
     assert rig.events[-1].time - signalled == pytest.approx(rig.book.restarts.signal_to_start)
+
+
+def test_a_robot_that_is_being_substituted_is_not_substituted_again(new_rig):
+    rig = new_rig()
+    rig.playing()
+    rig.ask("stop")
+    assert rig.ask("substitute", robot="cyan2").replies[0].accepted
+    rig.run(1.0)
+    left = rig.state.participation.absences["cyan2"].left
+    (reply,) = rig.ask("substitute", robot="cyan2").replies
+    assert not reply.accepted and "cyan2 is being substituted already" in reply.reason
+    assert rig.state.participation.absences["cyan2"].left <= left
+    assert rig.state.participation.substitutions == {CYAN: 1}

@@ -102,7 +102,8 @@ def test_a_page_is_launched_where_one_is_wanted_with_its_tokens_in_a_file() -> N
     with socket.socket() as listener:
         page = by_name(replace(plan(), page=Page(web, listener)))["page"]
     assert page.sockets == (listener,)
-    assert page.settings == GatewaySettings(**JOINED, tokens=Path("runs/one/tokens.json"), web=web)
+    result = Path("runs/one/result")
+    assert page.settings == GatewaySettings(**JOINED, tokens=Path("runs/one/tokens.json"), web=web, result=result)
     assert page.restarts == 3
 
 

@@ -38,7 +38,13 @@ class Actor:
 class Stage:
     """A supervisor over actors; `cast` holds each name's launches, the newest last."""
 
-    def __init__(self, deaf_to: frozenset[signal.Signals] = frozenset(), agents: AgentSettings | None = None) -> None:
+    def __init__(
+        self,
+        deaf_to: frozenset[signal.Signals] = frozenset(),
+        agents: AgentSettings | None = None,
+        *,
+        page: bool = False,
+    ) -> None:
         """The agents are brains where `agents` are their settings, a team's own programs otherwise."""
         self.clock = SteppedClock()
         self.deaf_to = deaf_to
@@ -50,6 +56,7 @@ class Stage:
             "recorder": ProcessKind.RECORDER,
             "cyan1": ProcessKind.AGENT,
             "magenta1": ProcessKind.AGENT,
+            **({"page": ProcessKind.PAGE} if page else {}),
         }
         processes = [
             Process(name, kind, ("program",), {}, *((3, agents) if kind is ProcessKind.AGENT else (0, None)))
@@ -250,6 +257,17 @@ def test_a_process_that_has_ended_gets_no_signal() -> None:
         stage.end(name, 0)
     stage.supervisor.end(AFTER_THE_MATCH)
     assert all(actors[-1].heard == [] for actors in stage.cast.values())
+
+
+def test_a_page_with_the_result_goes_on_after_the_match() -> None:
+    stage = Stage(page=True)
+    for name in ("host", "recorder"):
+        stage.end(name, 0)
+    stage.supervisor.end(AFTER_THE_MATCH, keep=frozenset({ProcessKind.PAGE}))
+    assert set(stage.supervisor.ended) == {"host", "recorder", "cyan1", "magenta1"}
+    assert stage.cast["page"][-1].heard == []
+    stage.supervisor.end(AT_ONCE)
+    assert stage.supervisor.ended["page"] == -signal.SIGTERM
 
 
 def test_a_second_interrupt_does_not_wait_for_the_recorder() -> None:
