@@ -1,9 +1,9 @@
 """The bridges of one gateway process beside the page: which ones its settings ask for, and their services."""
 
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from coach_gateway import refbox
 from coach_gateway.access.roles import COACHES
@@ -12,6 +12,8 @@ from coach_gateway.match.live import LiveMatch
 from coach_gateway.ports import LOOPBACK, InheritedSockets, bound_socket
 from coach_gateway.refbox.audience_feed import AudienceFeed
 from coach_gateway.refbox.client import BoxAddress, RefBoxClient
+from coach_gateway.refbox.framing import BoxProtocol
+from coach_gateway.refbox.identity import SENT
 from coach_gateway.refbox.server import RefBoxServer, ServerAddress
 from coach_gateway.service import Service
 from coach_gateway.settings import BridgeOptions
@@ -31,6 +33,8 @@ class Bridges:
     """Referee boxes of the league, one for each team whose base station this is."""
     server_addresses: tuple[ServerAddress, ...] = ()
     """Where our referee serves as a referee box."""
+    addresses: Mapping[Side, str] = field(default_factory=dict)
+    """What sides are called in the commands of our box, where it is not their name."""
     audience: tuple[tuple[str, int], ...] = ()
     """Host and port of each receiver of the audience feed."""
     listen: str = LOOPBACK
@@ -90,13 +94,17 @@ def bridges_of(options: BridgeOptions) -> Bridges:
         raise TouchlineError("--team is for --refbox HOST, which is not given")
     if options.refbox is not None and not options.team:
         raise TouchlineError("--refbox needs the team whose base station this is; add --team cyan or --team magenta")
+    if options.address and not options.refbox_server:
+        raise TouchlineError("--address is for --refbox-server, which is not given")
     box = _address("--refbox", options.refbox, refbox.DEFAULT_PORT) if options.refbox is not None else None
+    boxes = tuple(BoxAddress(team, *box, options.refbox_protocol) for team in options.team) if box is not None else ()
     return Bridges(
-        options.udp,
-        tuple(BoxAddress(team, *box, options.refbox_protocol) for team in options.team) if box is not None else (),
-        tuple(_server_address(word, options.listen_bridges) for word in options.refbox_server),
-        tuple(_address("--audience", word, None) for word in options.audience),
-        options.listen_bridges,
+        udp=options.udp,
+        boxes=boxes,
+        server_addresses=tuple(_server_address(word, options.listen_bridges) for word in options.refbox_server),
+        addresses=dict(_league_address(word) for word in options.address),
+        audience=tuple(_address("--audience", word, None) for word in options.audience),
+        listen=options.listen_bridges,
     )
 
 
@@ -114,7 +122,12 @@ def services_of(
     team_states = None
     if wanted.server_addresses:
         box = RefBoxServer(
-            live, wanted.server_addresses, log, lambda token: _side_of(tokens, token), bound=ports.servers
+            live,
+            wanted.server_addresses,
+            log,
+            lambda token: _side_of(tokens, token),
+            addresses=wanted.addresses,
+            bound=ports.servers,
         )
         team_states = box.team_states
         services.append(box)
@@ -147,9 +160,23 @@ def _is_name(host: str) -> bool:
 
 
 def _server_address(word: str, listen: str) -> ServerAddress:
-    """PORT, or SIDE:PORT for a port that one team alone uses."""
-    side, _, port = word.rpartition(":")
+    """PORT, SIDE:PORT for a port that one team alone uses, either with :characters for software of before 2020."""
+    place, colon, protocol = word.rpartition(":")
+    if not (colon and protocol in SENT):
+        place, protocol = word, BoxProtocol.JSON.value
+    side, _, port = place.rpartition(":")
     known = [known.value for known in Side]
     if port.isascii() and port.isdigit() and int(port) <= _LAST_PORT and (not side or side in known):
-        return ServerAddress(int(port), Side(side) if side else None, listen)
-    raise TouchlineError(f'--refbox-server is "{word}"; it is PORT, or cyan:PORT or magenta:PORT for one team alone')
+        return ServerAddress(int(port), Side(side) if side else None, listen, BoxProtocol(protocol))
+    raise TouchlineError(
+        f'--refbox-server is "{word}"; it is PORT, or cyan:PORT or magenta:PORT for one team alone; '
+        "PORT:characters is for software of before 2020"
+    )
+
+
+def _league_address(word: str) -> tuple[Side, str]:
+    """SIDE=ADDRESS, what the side is called in the commands of our box."""
+    side, _, address = word.partition("=")
+    if side in [known.value for known in Side] and address.strip() and address.isprintable():
+        return Side(side), address.strip()
+    raise TouchlineError(f'--address is "{word}"; it is cyan=ADDRESS or magenta=ADDRESS, as in cyan=224.16.32.44')

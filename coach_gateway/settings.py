@@ -24,8 +24,10 @@ class BridgeOptions(Settings):
     """Whose base station; may be given twice."""
     refbox_protocol: BoxProtocol = BoxProtocol.AUTO
     """Protocol of that box; auto: as its first bytes show."""
-    refbox_server: Annotated[list[str], CommandLine(metavar="[SIDE:]PORT")] = Field(default_factory=list)
-    """Be a referee box for team software; the league's port is 28097."""
+    refbox_server: Annotated[list[str], CommandLine(metavar="[SIDE:]PORT[:characters]")] = Field(default_factory=list)
+    """Be a referee box for team software; the league's port is 28097. With :characters for software of before 2020."""
+    address: Annotated[list[str], CommandLine(metavar="SIDE=ADDRESS")] = Field(default_factory=list)
+    """League address of a side, for team software that is served by --refbox-server."""
     audience: Annotated[list[str], CommandLine(metavar="HOST:PORT")] = Field(default_factory=list)
     """Send the audience feed there."""
     listen_bridges: str = LOOPBACK
@@ -34,7 +36,8 @@ class BridgeOptions(Settings):
     @property
     def wanted(self) -> bool:
         """Whether there is any bridge to run."""
-        return self.udp is not None or bool(self.refbox or self.team or self.refbox_server or self.audience)
+        given = (self.refbox, self.team, self.refbox_server, self.address, self.audience)
+        return self.udp is not None or any(given)
 
 
 NO_BRIDGES = BridgeOptions()

@@ -57,4 +57,5 @@ def change_line(
 
 def _comparison_key(state: GameState) -> tuple[object, ...]:
     """The fields whose change is worth a line."""
-    return state.phase, state.side, state.running, state.half, state.score
+    asked = [(question.side, question.action) for question in state.questions]
+    return state.phase, state.side, state.running, state.half, state.score, asked

@@ -98,7 +98,7 @@ class HostClient:
 
         Raises:
             TouchlineError: no host answers for this match, a robot named in the order is not in it, or a field is
-                invalid.
+                invalid, or a point of it is outside the field.
         """
         setup = self.setup()
         robots = setup.teams[side].robots
@@ -111,6 +111,8 @@ class HostClient:
             order = validated(CoachOrder, {**content, "sequence": self._sequence})
         except FaultError as error:
             raise TouchlineError(f"the order cannot be given: {error}") from None
+        if why := order.refusal_on(setup.pitch):
+            raise TouchlineError(f"the order cannot be given: {why}")
         if side not in self._orders:
             self._orders[side] = self._bus.publisher(ORDER, side=side.value)
         self._orders[side].put(order)

@@ -42,6 +42,14 @@ def discipline_phrases(state: GameState) -> list[str]:
     return phrases
 
 
+def question_phrases(state: GameState, names: TeamNames = SIDES_ALONE) -> list[str]:
+    """One phrase for each action that waits for its robot: `Lions names the robot for: yellow card, else cyan4`."""
+    return [
+        f"{names[asked.side]} names the robot for: {asked.action.value.replace('_', ' ')}, else {asked.default}"
+        for asked in state.questions
+    ]
+
+
 def state_line(state: GameState, names: TeamNames = SIDES_ALONE) -> str:
     """Clock, half, score and phase, robots with cards or off the field, and what is proposed."""
     parts = [f"{clock_text(state.clock):>7}", half_text(state), names.score(state.score), phase_text(state, names)]
@@ -50,6 +58,7 @@ def state_line(state: GameState, names: TeamNames = SIDES_ALONE) -> str:
         parts.append(f"[{'; '.join(discipline)}]")
     if state.proposal is not None:
         parts.append(f"proposed: {names.in_text(state.proposal)}")
+    parts += question_phrases(state, names)
     return "  ".join(parts)
 
 

@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderBook
+from coach_gateway.match.team_obstacles import TeamObstacle, team_obstacles
 from coach_gateway.service import pause
 from schemas.bus.contract import Bus, PresenceKind
 from schemas.errors import TouchlineError
@@ -132,6 +133,10 @@ class LiveMatch:
         wanted = list(sides)
         beliefs = self.follower.beliefs
         return {name: beliefs[name] for name in sorted(beliefs) if self.sides.get(name) in wanted}
+
+    def obstacles(self, side: Side) -> list[TeamObstacle]:
+        """Opponents and other bodies as this side believes them, in its team frame."""
+        return team_obstacles(self.beliefs([side]), self.time)
 
     def on_state(self, handle: Callable[[GameState], None]) -> None:
         """Call `handle` with every state from now on, in order, beginning with the newest one."""

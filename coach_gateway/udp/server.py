@@ -13,7 +13,7 @@ from coach_gateway.service import pause
 from coach_gateway.udp import DEFAULT_PORT
 from coach_gateway.udp.coach_programs import Address, CoachPrograms, PendingRequest
 from coach_gateway.udp.coach_record import MatchMode
-from coach_gateway.udp.protocol import Ack, BeliefUpdate, EventUpdate, Frame, SessionEnd, SideOrder
+from coach_gateway.udp.protocol import Ack, BeliefUpdate, BelievedObstacle, EventUpdate, Frame, SessionEnd, SideOrder
 from coach_gateway.udp.session import SILENCE_S, Session
 from schemas.errors import TouchlineError
 from schemas.game import TeamPhase
@@ -126,7 +126,8 @@ class UdpServer(asyncio.DatagramProtocol):
         had = [name for receipt in receipts for name in receipt.acknowledged]
         robots = [name for name, its in self._live.sides.items() if its in request.sides]
         missing = [name for name in robots if name not in had]
-        return Ack(**ack, accepted=True, order=number, acknowledged=had, missing=missing)
+        refused = {name: why for receipt in receipts for name, why in receipt.refused.items()}
+        return Ack(**ack, accepted=True, order=number, acknowledged=had, missing=missing, refused=refused)
 
     def _send_due(self) -> None:
         """Send frames to sessions that are due, and end those that have fallen silent."""
@@ -169,7 +170,10 @@ class UdpServer(asyncio.DatagramProtocol):
         for side in own:
             active = live.orders.active(side)
             if active is not None:
-                orders[side] = SideOrder(order=active.order.sequence, acknowledged=active.acknowledged)
+                orders[side] = SideOrder(
+                    order=active.order.sequence, acknowledged=active.acknowledged, refused=active.refused
+                )
+        obstacles = {side: [BelievedObstacle(**one._asdict()) for one in live.obstacles(side)] for side in own}
         return Frame(
             number=session.frames,
             host=live.host_present,
@@ -177,6 +181,7 @@ class UdpServer(asyncio.DatagramProtocol):
             state=state,
             events=len(live.events),
             orders=orders,
+            obstacles=obstacles,
         )
 
     def _send_event(self, number: int, address: Address) -> None:

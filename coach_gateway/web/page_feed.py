@@ -97,8 +97,11 @@ class PageFeed:
         shown: dict[str, SideOrders] = {}
         for side in sides:
             active = self._match.orders.active(side)
-            known = SideOrders(order=active.order, acknowledged=active.acknowledged) if active else SideOrders()
-            shown[side.value] = known
+            shown[side.value] = SideOrders()
+            if active is not None:
+                shown[side.value] = SideOrders(
+                    order=active.order, acknowledged=active.acknowledged, refused=active.refused
+                )
         return OrdersUpdate.model_validate(shown).model_dump_json()
 
     def _host(self) -> str:

@@ -101,6 +101,8 @@ class SideOrders(Part):
     order: CoachOrder | None = None
     acknowledged: dict[Name, bool] = {}
     """Robot of the side → whether it has acknowledged this order."""
+    refused: dict[Name, str] = {}
+    """Robot that does not carry it out → the reason."""
 
 
 class OrdersUpdate(Part):

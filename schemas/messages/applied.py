@@ -78,6 +78,8 @@ class Applied(Message):
     """Robots that the referee knew to be without a responding agent in this tick."""
     referee: str = ""
     """At a checkpoint, the complete state of the referee before it judged this tick, as JSON; otherwise empty."""
+    refbox: bool = False
+    """A league's referee box was connected in this tick."""
     changes: list[OperatorChange] = Field(default_factory=list)
     """The operators' changes before this tick, in their order; the chain does not cover these sentences."""
     chain: str

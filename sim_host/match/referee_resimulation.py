@@ -133,6 +133,8 @@ class RefereeResimulation:
         if applied.tick > 0:
             if applied.silent:
                 snapshot = replace(snapshot, silent=tuple(applied.silent))
+            if applied.refbox:
+                snapshot = replace(snapshot, refbox=True)
             referee = self._referee_of(snapshot.roster, profile)
             ruling = referee.step(self.state, snapshot, applied.actions, self._tick_s)
             self._state, self._placements, self._checkpoint = ruling.state, ruling.placements, ruling.checkpoint

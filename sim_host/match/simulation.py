@@ -123,11 +123,13 @@ class Simulation:
         actions: Sequence[RefereeAction] = (),
         send: Send = _discard_sight,
         silent: Container[str] = (),
+        refbox: bool = False,
     ) -> TickResult:
         """One tick: apply commands, move the world, let the referee decide, make the sights.
 
         `send` is called with each robot's sight as soon as it is encoded, so that robots think while the tick ends.
-        `silent` are robots whose agent is gone or does not answer; the referee may take them off the field.
+        `silent` are robots whose agent is gone or does not answer; the referee may take them off the field. `refbox` is
+        whether a league's referee box is connected, which then decides alone when a part of the match ends.
         """
         changes = self._apply_pending()
         if changes.new_episode:
@@ -143,6 +145,8 @@ class Simulation:
         if silent:
             gone = tuple([name for name in self.roster.names if name in silent and name not in self.roster.still])
             snapshot = replace(snapshot, silent=gone)
+        if refbox:
+            snapshot = replace(snapshot, refbox=True)
         officiated = self._officiating_inputs(changes, actions, snapshot.silent)
         ruling = self.referee.step(self.state, snapshot, actions, self.profile.time.tick)
         self._apply_ruling(ruling)
@@ -267,6 +271,8 @@ class Simulation:
             fields["robots"] = self._operator.layout.robots
         if changes.obstacles_changed:
             fields["obstacles"] = self._operator.layout.obstacles
+        if snapshot.refbox:
+            fields["refbox"] = True
         fields["episode"] = self.episode
         fields |= officiated
         message = {**fields, "inputs": Raw(encode(inputs))}  # encoded once, for the chain and for the bus

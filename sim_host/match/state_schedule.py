@@ -28,6 +28,8 @@ class StateSchedule:
             state.participation.change_key,
             state.shoot_out,
             state.proposal is None,
+            state.refbox_gone is None,
+            len(state.questions),
             episode,
         )
         is_due = now != self._last or had_actions or tick % self._every == 0

@@ -85,7 +85,7 @@ def why_not_undo(draft: RulingDraft) -> str | None:
     if not draft.state.history:
         return "no decision can be undone: there was none in this half, or all were undone already"
     before = draft.state.history[-1]
-    if before.timing.runs and reached(draft.state.clock, before.timing.limit):
+    if not draft.state.refbox_decides and before.timing.runs and reached(draft.state.clock, before.timing.limit):
         return "the half's time is up"
     return None
 
@@ -102,7 +102,13 @@ def undo(draft: RulingDraft) -> None:
     *earlier, before = now.history
     timing = before.timing._replace(clock=now.clock, effective=now.timing.effective, timer=0.0)
     draft.state = before._replace(
-        timing=timing, still=0.0, ball=now.ball, evidence=NO_EVIDENCE, set_piece=None, history=tuple(earlier)
+        timing=timing,
+        still=0.0,
+        ball=now.ball,
+        evidence=NO_EVIDENCE,
+        set_piece=None,
+        history=tuple(earlier),
+        refbox_gone=now.refbox_gone,
     )
     _undo_absences(draft, now)
     signalled = before.restart

@@ -46,6 +46,8 @@ class AgentStats:
     """Tick of the newest sight it has answered."""
     acknowledged: int | None = None
     """Number of the coach's order that its newest command acknowledges."""
+    refused_order: str = ""
+    """Why it does not carry out that order; empty where it does."""
     latencies: deque[float] = field(default_factory=lambda: deque(maxlen=LATENCY_SAMPLES))
 
     @property

@@ -109,7 +109,9 @@ class Host:
         self._set_sim_time(self.simulation.now.tick + 1)
         commands = self._manual.override(self.simulation.now.tick, self._roster.names, commands)
         silent = {name for name, is_silent in self._silent.items() if is_silent and name not in commands}
-        tick = self.simulation.step(commands, self._services.actions, self._send_sight, silent)
+        tick = self.simulation.step(
+            commands, self._services.actions, self._send_sight, silent, self.presence.has_referee_box()
+        )
         self._outbox.publish_tick(tick, self.simulation.state)
         self._active_orders.publish(tick.tick, tick.time, self.simulation.roster)
         self._services.reply(tick.replies)

@@ -88,6 +88,7 @@ class Inbox:
         if not stats.add_answer(command.answers_tick, tick):
             return None
         stats.acknowledged = command.acknowledges_order
+        stats.refused_order = command.refuses_order
         self._note_latency(stats, command.answers_tick, received.arrived_ns)
         return name, command
 

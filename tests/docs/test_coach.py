@@ -84,7 +84,10 @@ def test_the_documented_messages_of_programs_to_the_server_of_the_page_are_valid
     ("row", "deeds"),
     [
         ("order a side, tests too; drive a robot by hand", ("order", "drive")),
-        ("repair, substitute a robot, have it come back", ("repair", "substitute", "enter")),
+        (
+            "repair, substitute a robot, have it come back, name the robot that a card is for",
+            ("repair", "substitute", "enter", "name_robot"),
+        ),
         ("stop, start, restarts, goals, cards, park, undo, end a half", ("stop", "start", "goal", "undo", "end_half")),
         ("place ball and robots, load scenes, change parameters", ("scene", "parameters")),
         ("play, pause and seek a replay", ("replay",)),

@@ -15,6 +15,7 @@ from rich.text import Text
 from coach_gateway.match.follower import MatchFollower
 from coach_gateway.match.host_client import HostClient
 from coach_gateway.match.orders import OrderStatus
+from coach_gateway.match.team_obstacles import team_obstacles
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Briefing
 from robot_agent.runner import Runner
@@ -169,6 +170,20 @@ def test_one_the_coachs_window_shows_every_model_at_its_place(static: Experiment
         row, column = cell(rows, mark)
         assert (column + 0.5 - ball[1]) * cell_m == pytest.approx(robot.x, abs=1.5 * cell_m)
         assert (ball[0] - row) * 2.0 * cell_m == pytest.approx(robot.y, abs=2.5 * cell_m)
+
+
+def test_one_the_coach_sees_the_rivals_where_its_robots_believe_them(static: Experiment) -> None:
+    """The coach of a UDP program has no truth: it knows what its robots have sent."""
+    static.order(mode=CoachMode.HOLD)
+    static.play(lambda: False, 1.0)
+    static.seen.update()
+    assert static.seen.world is not None
+    beliefs = {name: belief for name, belief in static.seen.beliefs.items() if name in CYAN}
+    found = team_obstacles(beliefs, static.seen.world.time)
+    assert len(found) == len(RIVALS)
+    for rival in RIVALS:
+        nearest = min(found, key=lambda one: math.dist((one.x, one.y), static.where(rival)))
+        assert math.dist((nearest.x, nearest.y), static.where(rival)) < 0.3
 
 
 def test_one_the_coach_sees_the_models_move_as_they_do(static: Experiment) -> None:

@@ -107,11 +107,12 @@ def record_match(
     viz: bool = True,
     actions: Callable[[Simulation], Sequence[RefereeAction]] = lambda _: (),
     silent: Callable[[Simulation], Container[str]] = lambda _: (),
+    refbox: Callable[[Simulation], bool] = lambda _: False,
 ) -> None:
     """Play a real match with the teams that ship, in this process and without a network, and record it.
 
     `between` is called before each tick, for what operators do, `actions` for what people request of the referee, and
-    `silent` for the robots whose agents do not answer.
+    `silent` for the robots whose agents do not answer, `refbox` for whether a league's referee box is connected.
     """
     medium = SharedState()
     host_bus, bus = medium.open_bus(config.name, SteppedClock()), medium.open_bus(config.name, SteppedClock())
@@ -150,7 +151,7 @@ def record_match(
             commands[name].put(command)
         quiet = silent(simulation)
         answers = {name: command for name, command in said.items() if name not in quiet}
-        tick = simulation.step(answers, actions(simulation), silent=quiet)
+        tick = simulation.step(answers, actions(simulation), silent=quiet, refbox=refbox(simulation))
     batches.send()
     simulation.close()
     host_bus.close()

@@ -158,6 +158,7 @@ class FakeHost:
             self.put(BELIEF, Belief(**at, robot=robot, radio=Radio(role="striker")), side=side.value, robot=robot)
         self.put(WORLD, make_world(tick, (tick, 0.0)))
 
-    def stand(self, side: Side, order: CoachOrder, **acknowledged: bool) -> None:
+    def stand(self, side: Side, order: CoachOrder, refused: dict[str, str] | None = None, **acknowledged: bool) -> None:
         """Publish an active order."""
-        self.put(ACTIVE_ORDER, ActiveOrder(tick=1, time=0.02, order=order, acknowledged=acknowledged), side=side.value)
+        active = ActiveOrder(tick=1, time=0.02, order=order, acknowledged=acknowledged, refused=refused or {})
+        self.put(ACTIVE_ORDER, active, side=side.value)

@@ -89,6 +89,9 @@ REFEREE_COMMANDS: dict[str, RefereeCommand] = {
         ActionName.CANCEL_GOAL, SideTarget, "Subtract a goal from a side's score; the game continues.", "cyan"
     ),
     "yellow-card": RefereeCommand(ActionName.YELLOW_CARD, RobotTarget, "Show a robot the yellow card.", "cyan3"),
+    "double-yellow": RefereeCommand(
+        ActionName.DOUBLE_YELLOW, RobotTarget, "Show a robot its second yellow card: it is suspended.", "cyan3"
+    ),
     "red-card": RefereeCommand(
         ActionName.RED_CARD, RobotTarget, "Show a robot the red card: it leaves the field.", "cyan3"
     ),
@@ -100,6 +103,9 @@ REFEREE_COMMANDS: dict[str, RefereeCommand] = {
         ActionName.PARK, RobotTarget, "Take a robot off the field until `enter` brings it back.", "cyan3"
     ),
     "enter": RefereeCommand(ActionName.ENTER, RobotTarget, "Bring a robot back that is off the field.", "cyan3"),
+    "name-robot": RefereeCommand(
+        ActionName.NAME_ROBOT, RobotTarget, "Name the robot that a card or a repair without a robot concerns.", "cyan3"
+    ),
     "confirm": RefereeCommand(ActionName.CONFIRM, NoTarget, "Confirm the referee's proposal at once."),
     "overrule": RefereeCommand(ActionName.OVERRULE, NoTarget, "Reject the referee's proposal."),
     "undo": RefereeCommand(

@@ -7,7 +7,7 @@ from rich.style import Style
 from rich.text import Text
 
 from coach_gateway.match.follower import MatchFollower
-from coach_gateway.match.lines import clock_text, event_line, half_text, phase_text
+from coach_gateway.match.lines import clock_text, event_line, half_text, phase_text, question_phrases
 from coach_gateway.match.orders import OrderBook
 from coach_gateway.match.team_names import TeamNames, printable
 from schemas.game import EventKind
@@ -37,7 +37,7 @@ _ACTIVITY = 26
 
 
 def head(setup: Setup, state: GameState | None) -> Text:
-    """Teams and score, clock, half and phase, the referee's proposal."""
+    """Teams and score, clock, half and phase, the referee's proposal, robots that teams have to name."""
     names = TeamNames.of_setup(setup)
     if state is None:
         return Text(f"{names[Side.CYAN]} – {names[Side.MAGENTA]}  waiting for the robots")
@@ -50,6 +50,8 @@ def head(setup: Setup, state: GameState | None) -> Text:
     )
     if state.proposal is not None:
         line.append(f"  proposed: {names.in_text(state.proposal)}", TROUBLE)
+    for phrase in question_phrases(state, names):
+        line.append(f"  {phrase}", TROUBLE)
     return line
 
 
@@ -113,16 +115,20 @@ def _troubles(
 
 
 def orders(book: OrderBook) -> list[Text]:
-    """One row for each standing order: its content, and the robots that have not acknowledged it."""
+    """One row for each standing order: its content, and the robots that have not acknowledged it or refuse it."""
     rows = []
     for side in Side:
         active = book.active(side)
         if active is None:
             continue
-        missing = book.receipt(side, active.order.sequence).missing
+        receipt = book.receipt(side, active.order.sequence)
+        missing = receipt.missing
         row = Text.assemble((f" {side.value} ", SIDES[side]), f" {_order_text(active.order)}")
         if missing:
             row.append(f"  not acknowledged by {', '.join(missing)}", TROUBLE)
+        for why in dict.fromkeys(receipt.refused.values()):
+            names = [name for name, its in receipt.refused.items() if its == why]
+            row.append(f"  refused by {', '.join(names)}: {why}", TROUBLE)
         rows.append(row)
     return rows
 

@@ -87,7 +87,7 @@ export class Coach {
   #orderLine(side) {
     const active = this.match.orders[side];
     if (!active?.order) return [];
-    const { order, acknowledged } = active;
+    const { order, acknowledged, refused } = active;
     const what = order.mode === "test" ? `test ${readable(order.test ?? "")}` : order.mode;
     const robots = Object.entries(acknowledged);
     const taken = robots.filter(([, has]) => has).length;
@@ -96,6 +96,7 @@ export class Coach {
         "p", {},
         element("b", {}, `${this.match.setup.teams[side].name}: ${what}`), ` — acknowledged by ${taken} of ${robots.length} `,
         ...robots.map(([name, has]) => element("span", { class: `ack ${has ? "accepted" : "waits"}` }, `${has ? "✓" : "…"} ${name}`)),
+        ...Object.entries(refused).map(([name, why]) => element("span", { class: "ack waits" }, ` ✕ ${name}: ${why}`)),
       ),
     ];
   }

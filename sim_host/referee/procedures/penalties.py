@@ -40,6 +40,9 @@ def next_penalty(draft: RulingDraft, rule: str) -> None:
     if out is None:
         return
     kicks = periods.shoot_out_kicks
+    if state.refbox_decides:
+        restart.stop(draft, rule, None)
+        return
     leader = out.leader(kicks)
     result = f"cyan {out.goals.cyan} : {out.goals.magenta} magenta"
     if leader is not None:

@@ -32,7 +32,7 @@ class Services:
         self._setup = QueryHandler(bus, SETUP, lambda _: simulation.setup().model_copy(update=_CLAIMS), invalid_log)
         self._parameters = QueryHandler(bus, PARAMETERS, simulation.handle_parameters, invalid_log)
         self._scene = QueryHandler(bus, SCENE, simulation.handle_scene, invalid_log)
-        self._orders = OrderHandler(bus, simulation.orders, invalid_log, batches)
+        self._orders = OrderHandler(bus, simulation.orders, lambda: simulation.profile.field, invalid_log, batches)
         self._actions = ActionHandler(bus, invalid_log, has_referee_box)
 
     @property

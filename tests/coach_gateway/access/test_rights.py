@@ -7,7 +7,7 @@ from coach_gateway.access.roles import Role
 from schemas.side import Side
 
 ROBOTS = {"cyan1": Side.CYAN, "cyan2": Side.CYAN, "magenta1": Side.MAGENTA}
-OWN = ("repair", "substitute", "enter")
+OWN = ("repair", "substitute", "enter", "name_robot")
 """Actions that a coach may ask for, for its own robots."""
 
 

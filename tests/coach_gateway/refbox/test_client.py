@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from coach_gateway.refbox import client as client_module
+from coach_gateway.refbox import signal_queue
 from coach_gateway.refbox.client import UPLOAD_S, BoxAddress, RefBoxClient
 from coach_gateway.refbox.framing import BoxProtocol
 from schemas.game import REFBOX, ActionName, Phase
@@ -112,7 +112,9 @@ def test_garbage_between_commands_is_counted_and_the_next_command_read(met: Any,
     asyncio.run(play())
 
 
-def test_cards_repairs_and_substitutions_find_their_robot_by_its_number(met: Any, until: Any) -> None:
+def test_cards_repairs_and_substitutions_find_their_robot_by_its_number_or_else_their_side(
+    met: Any, until: Any
+) -> None:
     async def play() -> None:
         async with met() as (bench, box, client):
             bench.stage.say(phase=Phase.STOPPED)
@@ -121,10 +123,11 @@ def test_cards_repairs_and_substitutions_find_their_robot_by_its_number(met: Any
             box.say("RED_CARD", MAGENTA_AT, robotID=-1)
             box.say("SUBSTITUTION", CYAN_AT, robotID=9)
             box.say("REPAIR_END", MAGENTA_AT, robotID=3)
-            await until(lambda: len(bench.stage.asked) == 3)
-            assert asked(bench) == ["yellow_card cyan2", "repair magenta3", "enter magenta3"]
-            assert client.counts["not forwarded"] == 2
-            assert any("RED_CARD for magenta names no robot" in line for line in bench.logged)
+            await until(lambda: len(bench.stage.asked) == 5)
+            named = ["yellow_card cyan2", "repair magenta3", "enter magenta3"]
+            assert asked(bench) == [*named[:2], "red_card magenta", "substitute cyan", named[2]]
+            assert client.counts["not forwarded"] == 0
+            assert any("SUBSTITUTION names robot 9, and no robot of cyan" in line for line in bench.logged)
 
     asyncio.run(play())
 
@@ -154,6 +157,30 @@ def test_start_lets_the_game_run_though_our_referee_takes_it_in_steps(met: Any, 
             await asyncio.sleep(0.2)
             assert asked(bench) == ["start", "start", "start"]
             assert not any("put back" in line for line in bench.logged)
+
+    asyncio.run(play())
+
+
+def test_a_card_right_behind_start_does_not_keep_the_game_from_running(met: Any, until: Any) -> None:
+    """The league's box sends cards when its own state has changed, which is at START."""
+
+    async def play() -> None:
+        async with met() as (bench, box, _):
+            bench.stage.say(phase=Phase.THROW_IN, side=Side.CYAN)
+            refusals = ["the ball is being put back"] * 3
+
+            def answer(action: RefereeAction) -> ActionReply:
+                if action.action is ActionName.START and refusals:
+                    return ActionReply(accepted=False, reason=refusals.pop())
+                if action.action is ActionName.START:
+                    bench.stage.say(running=True)
+                return ActionReply(accepted=True, tick=bench.stage.state.tick)
+
+            bench.stage.answer = answer
+            box.say("START")
+            box.say("YELLOW_CARD", CYAN_AT)
+            await until(lambda: bench.live.state.running and len(bench.stage.asked) == 5)
+            assert asked(bench) == ["start"] * 4 + ["yellow_card cyan"]
 
     asyncio.run(play())
 
@@ -271,7 +298,7 @@ def test_a_box_that_drops_every_link_is_tried_less_and_less_often(opened: Any, u
 
 
 def test_of_too_many_commands_the_newest_count(met: Any, until: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(client_module, "_MOST_WAITING", 3)
+    monkeypatch.setattr(signal_queue, "MOST_WAITING", 3)
 
     async def play() -> None:
         async with met() as (bench, box, client):

@@ -16,7 +16,7 @@ from recordings.reading.tick_index import tick_index_of
 from recordings.recorder.sink import FileLimits
 from schemas.config.match_config import load_match
 from schemas.errors import TouchlineError
-from schemas.game import ActionName, OffField
+from schemas.game import REFBOX, ActionName, OffField
 from schemas.messages.game import RefereeAction
 from schemas.messages.parameters import ParameterOperation, ParametersRequest
 from schemas.messages.scene import SceneOperation, SceneRequest
@@ -45,6 +45,27 @@ def people_decide(simulation: Simulation) -> list[RefereeAction]:
         360: [RefereeAction(action=ActionName.RED_CARD, robot="cyan2")],
     }
     return requests.get(simulation.world.tick, [])
+
+
+def of_box(action: ActionName, side: Side | None = None) -> list[RefereeAction]:
+    return [RefereeAction(action=action, side=side, source=REFBOX)]
+
+
+def a_box_officiates(simulation: Simulation) -> list[RefereeAction]:
+    """The box gives a kick-off, and a card and a repair for no robot; one of the questions is answered."""
+    requests = {
+        20: of_box(ActionName.KICK_OFF, Side.MAGENTA),
+        60: of_box(ActionName.START),
+        70: of_box(ActionName.YELLOW_CARD, Side.CYAN),
+        90: [RefereeAction(action=ActionName.NAME_ROBOT, robot="cyan2", source="cyan's coach")],
+        100: of_box(ActionName.REPAIR, Side.MAGENTA),
+    }
+    return requests.get(simulation.world.tick, [])
+
+
+def box_leaves(simulation: Simulation) -> bool:
+    """It goes at 14 s, when the time of the half has been up for long; the rules of time are back after 10 s."""
+    return simulation.world.tick < 700
 
 
 def operators_change_scenes(simulation: Simulation) -> None:
@@ -76,6 +97,10 @@ KINDS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "people who may overrule": ({"rules": "msl", "referee.mode": "mixed"}, {"until": 12.0}),
     "scenes, episodes and parameters": ({}, {"until": 8.0, "between": operators_change_scenes}),
     "an agent without an answer": ({"rules": "msl"}, {"until": 9.0, "silent": one_is_silent}),
+    "a league's referee box": (
+        {"rules": "msl", "referee.mode": "manual", "duration": 10.0},
+        {"until": 26.0, "actions": a_box_officiates, "refbox": box_leaves},
+    ),
     "a scene with a game": ({"scene": "penalty"}, {"until": 6.0}),
 }
 
@@ -151,6 +176,20 @@ def test_a_recording_of_some_keys_is_identical_and_the_others_are_named(honest: 
     assert verdict.identical
     assert "game/state (not recorded)" in verdict.not_checked and "game/event (not recorded)" in verdict.not_checked
     assert contradictions(open_recording(tmp_path / "some.mcap")) == []
+
+
+def test_the_recording_under_a_referee_box_has_its_questions_and_its_end(
+    tmp_path: Path, match_recorder: Callable[..., None]
+) -> None:
+    match, options = KINDS["a league's referee box"]
+    match_recorder(tmp_path / "box.mcap", load_match(None, {"seed": 4, **TWO_A_SIDE, **match}), **options)
+    recording = open_recording(tmp_path / "box.mcap")
+    texts = "\n".join(event.text for _, event in recording.decoded("game/event"))
+    assert "repair for magenta2: magenta has not named a robot within 10 s" in texts
+    assert "the league's referee box has been gone for 10 s" in texts and "half 1 ends after" in texts
+    states = [state for _, state in recording.decoded("game/state")]
+    assert any(question.default == "cyan2" for state in states for question in state.questions)
+    assert [applied.refbox for _, applied in recording.decoded("host/applied")].count(True) == 700
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 
 import pytest
-from msgspec.structs import asdict, replace
+from msgspec.structs import replace
 
 from robot_agent.brain_loader import load_brain
 from robot_agent.contract import Briefing
@@ -40,7 +40,7 @@ class Squad:
             self.said[name] = replace(heard, age=heard.age + 0.02)
         for name, command in commands.items():
             if command.radio is not None:
-                self.said[name] = ReceivedRadio(age=0.0, **asdict(command.radio))
+                self.said[name] = ReceivedRadio.of(command.radio)
         self.tick += 1
         return commands
 

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from msgspec import structs
 from pydantic_core import to_json
 from pytest import approx
 
@@ -123,7 +122,7 @@ def test_a_radio_message_is_delivered_and_published_unchanged() -> None:
     one.close()
     [(_, _, belief)] = tick.beliefs
     assert Belief.decode(belief) == Belief(tick=1, time=tick.time, robot="cyan2", radio=word)
-    assert sight(tick, "cyan3").radio == {"cyan2": ReceivedRadio(age=0.0, **structs.asdict(word))}
+    assert sight(tick, "cyan3").radio == {"cyan2": ReceivedRadio.of(word)}
 
 
 def test_a_refused_kick_comes_back_in_the_outcome(simulation: Simulation) -> None:

@@ -7,7 +7,8 @@ order has a number, and each robot acknowledges it.
 import pytest
 
 from schemas.bus.contract import Bus
-from schemas.messages.coach import MAX_SEQUENCE, MAX_SEQUENCE_STEP, ActiveOrder, CoachMode, CoachOrder
+from schemas.game import Point
+from schemas.messages.coach import MAX_SEQUENCE, MAX_SEQUENCE_STEP, ActiveOrder, CoachMode, CoachOrder, CoachTest
 from schemas.messages.command import Command
 from schemas.messages.setup import SetupRequest
 from schemas.messages.sight import Sight
@@ -20,10 +21,11 @@ class Obedient:
 
     def __init__(self) -> None:
         self.deaf = False
+        self.refuses = ""
 
     def act(self, sight: Sight) -> Command:
         heard = sight.order.sequence if sight.order is not None and not self.deaf else None
-        return Command(answers_tick=sight.tick, acknowledges_order=heard)
+        return Command(answers_tick=sight.tick, acknowledges_order=heard, refuses_order=self.refuses)
 
 
 @pytest.fixture
@@ -141,3 +143,24 @@ def test_each_side_has_its_own_order(rig) -> None:
     told = rig.listen(ACTIVE_ORDER)
     rig.ticks(3)
     assert {tuple(heard.acknowledged) for heard in told.all()} == {("magenta1",)}
+
+
+def test_a_robot_that_refuses_an_order_is_published_with_its_reason(rig, brains) -> None:
+    told = rig.listen(ACTIVE_ORDER)
+    brains["cyan2"].refuses = "unknown test: machine"
+    give(rig.outside, 7)
+    rig.ticks(4)
+    active: ActiveOrder = told.all()[-1]
+    assert active.acknowledged == {"cyan1": True, "cyan2": True}
+    assert active.refused == {"cyan2": "unknown test: machine"}
+
+
+def test_an_order_to_a_point_outside_the_field_is_refused_with_the_reason(rig) -> None:
+    told, refused = rig.listen(ACTIVE_ORDER), rig.listen(INVALID)
+    order = CoachOrder(
+        sequence=7, mode=CoachMode.TEST, test=CoachTest.MOVE, robot_a="cyan1", point_a=Point(x=0.0, y=-50.0)
+    )
+    rig.outside.publisher(ORDER, side="cyan").put(order)
+    rig.ticks(20)
+    assert told.all() == []
+    assert "point_a at (0, -50) is outside the field and its border" in refused.all()[0].reason

@@ -61,6 +61,26 @@ def test_while_a_referee_box_is_connected_other_clients_may_only_stop_the_game(r
     assert ask(rig, ActionName.START).accepted
 
 
+def test_a_robot_that_the_referee_box_asks_for_may_be_named_though_everything_else_is_locked(rig):
+    events, states = rig.listen(EVENT), rig.listen(STATE)
+    ask(rig, ActionName.STOP)
+    box = rig.seat()
+    box.declare_alive(REFBOX, "cyan")
+    card = RefereeAction(action=ActionName.RED_CARD, side=Side.CYAN, source=REFBOX)
+    answers = [rig.outside.query(ACTION, card)]
+    rig.ticks(1)
+    (question,) = states.all()[-1].questions
+    assert (question.action, question.side, question.robots) == (ActionName.RED_CARD, Side.CYAN, ["cyan1", "cyan2"])
+    for action in (ActionName.RED_CARD, ActionName.NAME_ROBOT, ActionName.NAME_ROBOT):
+        answers.append(rig.outside.query(ACTION, RefereeAction(action=action, robot="cyan1", source="cyan's coach")))
+        rig.ticks(1)
+    assert [answer.result(0.0).accepted for answer in answers] == [True, False, True, False]
+    state = states.all()[-1]
+    assert state.refbox and not state.questions and state.robots["cyan1"].red == 1
+    told = [event.text for event in events.all()]
+    assert "cyan's coach requests: name robot for cyan1" in told
+
+
 def test_an_invalid_query_is_published_and_answered_with_the_reason(rig):
     told = rig.listen(INVALID)
     answer = rig.outside.query(ACTION, CoachOrder(sequence=1))

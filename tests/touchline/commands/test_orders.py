@@ -26,6 +26,7 @@ class Host(FakeHost):
 
     def __init__(self) -> None:
         self.deaf: set[str] = set()
+        self.refused: dict[str, str] = {}
         self._acknowledged = 0
         super().__init__(
             SharedState(), answers={SETUP: lambda _: self._acknowledge()}, clock=SteppedClock(), in_threads=True
@@ -34,7 +35,7 @@ class Host(FakeHost):
     def _acknowledge(self) -> Setup:
         for side, order in self.given_orders[self._acknowledged :]:
             names = [f"{side}{number}" for number in range(1, 6)]
-            self.stand(side, order, **{name: name not in self.deaf for name in names})
+            self.stand(side, order, refused=self.refused, **{name: name not in self.deaf for name in names})
             self._acknowledged += 1
         return self.setup
 
@@ -73,6 +74,21 @@ def test_robots_that_do_not_acknowledge_are_waited_for_and_named(host: Host) -> 
     assert result.exit_code == 0
 
 
+def test_an_order_that_robots_refuse_fails_and_names_them_with_the_reason(host: Host) -> None:
+    host.refused = dict.fromkeys(("cyan1", "cyan2", "cyan3", "cyan4", "cyan5"), "unknown test: machine")
+    result = coach("test", "cyan", "machine", "--robot", "cyan2")
+    assert result.exit_code == 1
+    everyone = "cyan1, cyan2, cyan3, cyan4, cyan5"
+    assert result.stdout.endswith(f"test machine; refused by {everyone}: unknown test: machine\n")
+    assert json.loads(coach("test", "cyan", "machine", "--robot", "cyan2", "--json").stdout)["refused"] == host.refused
+
+
+def test_a_point_outside_the_field_is_wrong_input(host: Host) -> None:
+    result = coach("test", "cyan", "move", "--robot", "cyan2", "--point-a", "50,0")
+    assert result.exit_code == 2 and host.given_orders == []
+    assert "point_a at (50, 0) is outside the field and its border; |x| is at most 12 m" in result.stderr
+
+
 def test_the_result_of_an_order_is_printed_as_json_for_programs(host: Host) -> None:
     host.deaf = {"cyan5"}
     said = json.loads(coach("order", "cyan", "--json").stdout)
@@ -82,6 +98,7 @@ def test_the_result_of_an_order_is_printed_as_json_for_programs(host: Host) -> N
         "status": "active",
         "acknowledged": ["cyan1", "cyan2", "cyan3", "cyan4"],
         "missing": ["cyan5"],
+        "refused": {},
     }
 
 

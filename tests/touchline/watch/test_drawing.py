@@ -13,7 +13,7 @@ from schemas.bus.in_process_bus import SharedState
 from schemas.errors import TouchlineError
 from schemas.game import EventKind, OffField, Phase, Point, Score
 from schemas.messages.coach import ActiveOrder, CoachMode, CoachOrder, CoachTest
-from schemas.messages.game import DisciplinaryRecord, GameEvent, GameState
+from schemas.messages.game import DisciplinaryRecord, GameEvent, GameState, RobotQuestion
 from schemas.messages.health import Health, RobotHealth
 from schemas.messages.radio import Belief, Radio
 from schemas.messages.setup import Setup
@@ -24,7 +24,7 @@ from schemas.topics import BELIEF, EVENT, HEALTH, STATE, WORLD
 from support.messages import make_setup
 from touchline.commands.watch import watch_on
 from touchline.watch.drawing import draw_match
-from touchline.watch.panel import orders, robots
+from touchline.watch.panel import head, orders, robots
 from touchline.watch.pitch import ARROWS, SIDES, Scale, field
 
 WIDTH, HEIGHT = 90, 30
@@ -162,6 +162,21 @@ def test_an_active_order_is_shown_with_the_robots_that_have_not_acknowledged_it(
         " cyan  test pass, cyan2, cyan3  not acknowledged by cyan3",
         " magenta  play: press",
     ]
+
+
+def test_an_order_that_robots_refuse_is_shown_with_them_and_the_reason() -> None:
+    book = OrderBook()
+    given = CoachOrder(sequence=3, mode=CoachMode.TEST, test=CoachTest.MACHINE, robot_a="cyan2")
+    told, refused = dict.fromkeys(("cyan1", "cyan2"), True), dict.fromkeys(("cyan1", "cyan2"), "unknown test: machine")
+    book.update(Side.CYAN, ActiveOrder(tick=1, time=0.0, order=given, acknowledged=told, refused=refused))
+    (row,) = orders(book)
+    assert row.plain == " cyan  test machine, cyan2  refused by cyan1, cyan2: unknown test: machine"
+
+
+def test_a_robot_that_a_side_has_to_name_is_asked_for_above_the_pitch(setup: Setup) -> None:
+    asked = RobotQuestion(action="yellow_card", side=Side.CYAN, left=8.0, robots=["cyan1", "cyan2"], default="cyan2")
+    line = head(setup, GameState(tick=1, time=0.0, phase=Phase.STOPPED, questions=[asked])).plain
+    assert line.endswith("  Simple names the robot for: yellow card, else cyan2")
 
 
 class HostOfTicks(SteppedClock):
