@@ -34,9 +34,9 @@ _FIRST_PAUSE_S, _LONGEST_PAUSE_S = 0.25, 5.0
 has sent something, the first pause applies again."""
 _CONNECT_S = 5.0
 """s of wall time that one attempt to connect lasts at most."""
-_UNREAD = 262_144
+UNREAD_BYTES = 262_144
 """Bytes of world states that wait for a box that does not read; beyond them, newer ones are left out."""
-_UNREAD_S = 10.0
+UNREAD_S = 10.0
 """s of wall time without reading after which the link to a box is closed."""
 _START_S = 10.0
 """s of simulated time during which START is repeated: the rules' pauses are in simulated time, too."""
@@ -272,10 +272,10 @@ class RefBoxClient:
         due = read_at = self._live.now
         while True:
             waiting = writer.transport.get_write_buffer_size()
-            if waiting < _UNREAD:
+            if waiting < UNREAD_BYTES:
                 read_at = self._live.now
                 self._upload(writer)
-            elif self._live.now - read_at > _UNREAD_S:
+            elif self._live.now - read_at > UNREAD_S:
                 return
             else:
                 self.counts["left out"] += 1

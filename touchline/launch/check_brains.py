@@ -20,9 +20,9 @@ from schemas.side import Side
 from touchline.launch.processes import ROBOT_ENVIRONMENT
 from touchline.launch.python_process import PYTHON, module_path_environment
 
-_NOTICE_S = 3.0
+NOTICE_S = 3.0
 """Wall time after which a wait for brains is reported."""
-_LEAST_PATIENCE_S = 10.0
+LEAST_PATIENCE_S = 10.0
 """Wall time for a brain to be built where the match file allows less."""
 _FAULT = "touchline: brain is "
 """What the line of a faulty brain begins with."""
@@ -65,7 +65,7 @@ class _BuildCheck:
         self._key = f"teams.{side.value}.brain"
         self._brain = config.team(side).brain
         robots = len(config.robots(side))
-        self._patience = max(config.patience.attendance, _LEAST_PATIENCE_S) * max(robots, 1)
+        self._patience = max(config.patience.attendance, LEAST_PATIENCE_S) * max(robots, 1)
         settings = BuildCheckSettings(config=config, side=side, brain_folder=brain_folder)
         named = {"TOUCHLINE_SIDE": side.value, "TOUCHLINE_MATCH": config.name}
         self._log = log
@@ -88,7 +88,7 @@ class _BuildCheck:
             TouchlineError: a brain cannot be built, or takes too long.
         """
         try:
-            status = self._popen.wait(_NOTICE_S)
+            status = self._popen.wait(NOTICE_S)
         except subprocess.TimeoutExpired:
             report(f"waiting for {self._brain} to be built")
             try:

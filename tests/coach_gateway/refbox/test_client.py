@@ -355,7 +355,7 @@ def test_a_box_that_comes_late_is_met(opened: Any, until: Any) -> None:
 def test_a_box_that_never_reads_misses_world_states_and_delays_nothing(
     met: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("coach_gateway.refbox.client._UNREAD", 20_000)
+    monkeypatch.setattr("coach_gateway.refbox.client.UNREAD_BYTES", 20_000)
     monkeypatch.setattr("coach_gateway.refbox.client.UPLOAD_S", 0.0005)
 
     async def play() -> None:
@@ -373,9 +373,9 @@ def test_a_box_that_never_reads_misses_world_states_and_delays_nothing(
 def test_a_box_that_has_not_read_for_long_is_left_and_met_again(
     met: Any, until: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("coach_gateway.refbox.client._UNREAD", 20_000)
+    monkeypatch.setattr("coach_gateway.refbox.client.UNREAD_BYTES", 20_000)
     monkeypatch.setattr("coach_gateway.refbox.client.UPLOAD_S", 0.0005)
-    monkeypatch.setattr("coach_gateway.refbox.client._UNREAD_S", 0.1)
+    monkeypatch.setattr("coach_gateway.refbox.client.UNREAD_S", 0.1)
 
     async def play() -> None:
         async with met(reads=False) as (bench, _, client):
