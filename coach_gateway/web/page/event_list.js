@@ -1,7 +1,7 @@
 // The list of events in their order, the newest at the end; in a recording, a click on one seeks to it.
 
 import { byId, element, mark } from "./elements.js";
-import { LEAD_S, indexAt, isKey } from "./shared/events.js";
+import { LEAD_S, indexAt, isKey, withNames } from "./shared/events.js";
 import { capitalized, clockText, readable } from "./text.js";
 
 const GREAT = new Set(["goal", "half_time", "full_time", "forfeit"]);
@@ -88,17 +88,20 @@ export class EventList {
 
   #row(event) {
     const side = event.side ? element("span", { class: `mark ${event.side}`, aria: { label: event.side }, role: "img" }) : element("span");
-    const words = element("span", {}, element("b", {}, capitalized(event.kind)), " ", element("span", { class: "what" }, textOf(event)));
+    const words = element("span", {}, element("b", {}, capitalized(event.kind)), " ", element("span", { class: "what" }, this.#textOf(event)));
     const parts = [element("time", {}, clockText(event.clock)), side, words];
     const looks = GREAT.has(event.kind) ? "great" : "";
     if (!this.match.may("replay") || this.match.live) return element("li", { class: looks }, ...parts);
     const button = element("button", { type: "button", on: { click: () => this.jump(event.time - LEAD_S) } }, ...parts);
     return element("li", { class: looks }, button);
   }
-}
 
-/** The sentence of an event without its kind where it begins with that: `Goal` stands before it already. */
-function textOf({ kind, text }) {
-  const name = readable(kind);
-  return text.toLowerCase().startsWith(`${name},`) || text.toLowerCase().startsWith(`${name}:`) ? text.slice(name.length + 1).trim() : text;
+  /** The sentence of an event without its kind where it begins with that: `Goal` stands before it already. */
+  #textOf({ kind, text }) {
+    const name = readable(kind), sentence = text.toLowerCase();
+    const repeats = sentence.startsWith(`${name},`) || sentence.startsWith(`${name}:`);
+    const short = repeats ? text.slice(name.length + 1).trim() : text;
+    const teams = this.match.setup?.teams;
+    return teams ? withNames(short, { cyan: teams.cyan.name, magenta: teams.magenta.name }) : short;
+  }
 }

@@ -1,5 +1,6 @@
 """The page in a real browser: what is drawn is what was recorded, wherever one jumps."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -145,6 +146,15 @@ def test_an_event_jumps_there_and_the_robots_with_it(opened: Opened, recording: 
     before = opened.time
     opened.page.keyboard.press("n")
     assert opened.time > before
+
+
+def test_events_call_the_teams_by_their_names(opened: Opened, recording: Recording) -> None:
+    opened.page.locator("#all-events").click()
+    texts = opened.page.locator("#events .what").all_text_contents()
+    assert [text for text in texts if re.search(r"\b(cyan|magenta)\b", text)] == []
+    assert recording.manifest.setup is not None
+    for team in recording.manifest.setup.teams.values():
+        assert any(re.search(rf"\b{team.name}\b", text) for text in texts)
 
 
 def test_the_clock_and_the_phase_are_those_of_the_moment(opened: Opened, recording: Recording) -> None:
