@@ -12,7 +12,7 @@ from recordings.reading.recording import open_recording
 
 pytestmark = [pytest.mark.processes, pytest.mark.timeout(300)]
 
-FULL = 150_000
+FULL = 400_000
 """Most bytes of a file: what a full disk does, by size."""
 MATCH = """
 name = "full"

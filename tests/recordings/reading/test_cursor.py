@@ -83,7 +83,7 @@ def test_a_flipped_bit_is_reported_or_changes_no_message(recorded, tmp_path):
             said += 1
         else:
             assert [one.payload for one in messages] == [one.payload for one in every[: len(messages)]]
-    assert said > 20
+    assert said > 10
 
 
 @pytest.mark.parametrize(("content", "word"), [(b"", "not a recording"), (b"PK\x03\x04" * 10, "not a recording")])
