@@ -47,6 +47,7 @@ def make_rig(tmp_path: Path) -> Iterator[RigMaker]:
         host_bus, robot_bus = medium.open_bus("friendly", SteppedClock()), medium.open_bus("friendly", SteppedClock())
         bus = medium.open_bus("friendly", wall)
         path = path or tmp_path / "match.mcap"
+        path.parent.mkdir(exist_ok=True)
         loss_counts = LossCounts()
         sink = open_sink(path, wall, "friendly", loss_counts, limits)
         host = FakeHost(host_bus, robot_bus, make_setup())

@@ -43,7 +43,6 @@ def whole(make_rig, tmp_path) -> list[RecordedMessage]:
 @pytest.fixture
 def split(make_rig, tmp_path) -> Path:
     """The name of the same match, split into files of half a second."""
-    (tmp_path / "split").mkdir()
     rig = make_rig(path=tmp_path / "split" / "match.mcap", limits=FileLimits(duration=0.5))
     play(rig)
     rig.leave()

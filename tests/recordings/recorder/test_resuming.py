@@ -114,7 +114,6 @@ def test_a_recorder_killed_at_any_instant_leaves_its_successor_a_whole_recording
     instants = random.Random(14)
     for number in range(INSTANTS):
         folder = tmp_path / str(number)
-        folder.mkdir()
         rig = begun(folder / "match.mcap")
         for _ in range(instants.randrange(1, 4)):
             play(rig, instants.randrange(1, 15))
